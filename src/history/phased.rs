@@ -12,7 +12,9 @@ use crate::history::series::{Series, Truncation};
 use crate::limits::MAX_HISTORY_BITS;
 use crate::network::{Network, Observed, Squared};
 use crate::scene::Dimension;
-use crate::signal::{At, Effort, EvaluateError, Instant, Known, Limit, Point, Signal, Taylor};
+use crate::signal::{
+    At, Effort, EvaluateError, Instant, Known, Limit, MAX_FLATNESS, Point, Signal, Taylor,
+};
 use num_traits::Zero as _;
 use std::borrow::Cow;
 use std::cell::{OnceCell, RefCell};
@@ -592,6 +594,15 @@ impl Signal for FollowedSignal<'_> {
         }
         let at = self.since(&followed, stretch, At::End(end))?;
         Ok(followed.derivative(stretch, 1).value(&at, &followed.engine.cut).is_zero())
+    }
+
+    fn flatness(&self, stretch: usize, end: Limit, order: usize) -> Result<usize, EvaluateError> {
+        let followed = self.cut(0)?;
+        let at = self.since(&followed, stretch, At::End(end))?;
+        let is_zero = |order: &usize| {
+            followed.derivative(stretch, *order).value(&at, &followed.engine.cut).is_zero()
+        };
+        Ok((order..order + MAX_FLATNESS).take_while(is_zero).count())
     }
 
     /// Known where the series itself is constant; a sum of exponentials that happens to be is not.

@@ -47,7 +47,7 @@ pub(super) fn of_scene<'a>(
     let products = flow.iter().map(product).collect();
     let flow = Combination { scale: Rc::clone(&scale), operands, products };
     let flow = Box::new(Operation::new(&scale, flow, one, window));
-    let rule = Balanced { scale: Rc::clone(&scale), of, flow };
+    let rule = Balanced::new(&scale, of, flow);
     Ok(Box::new(Operation::new(&scale, rule, unit, window)))
 }
 

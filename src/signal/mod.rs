@@ -34,6 +34,6 @@ pub use method::{
 };
 pub(crate) use operations::{Balanced, Combination, Constant, Integral, Operation, Product, Scale};
 pub use signal::{At, Effort, Instant, Limit, Point, Signal};
-pub(crate) use signal::{Enclosure, Known, has_begun, last_begun};
+pub(crate) use signal::{Enclosure, Known, MAX_FLATNESS, has_begun, last_begun};
 pub use taps::{NoTaps, Taps};
 pub use taylor::Taylor;

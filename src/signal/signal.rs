@@ -9,6 +9,9 @@ use std::cmp::Ordering;
 pub use wavestep_kernels::Limit;
 use wavestep_polynomial::Rational;
 
+/// How many derivatives that vanish are told.
+pub(crate) const MAX_FLATNESS: usize = 8;
+
 /// Where in a stretch.
 #[derive(Clone, Copy)]
 pub enum At<'a> {
@@ -243,6 +246,12 @@ pub trait Signal {
 
     /// Whether the derivative in the limit at an end is known to be exactly zero.
     fn slope_vanishes(&self, stretch: usize, end: Limit) -> Result<bool, EvaluateError>;
+
+    /// How many derivatives, from that of an order on, are known to be exactly zero in the limit at an end;
+    /// at most [`MAX_FLATNESS`].
+    fn flatness(&self, _: usize, _: Limit, _: usize) -> Result<usize, EvaluateError> {
+        Ok(0)
+    }
 
     /// Whether the function is known to have one value on all of a stretch, which lies within these
     /// bounds.

@@ -10,7 +10,9 @@ use crate::limits::MAX_PIECES;
 use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::Observation;
 use crate::signal::error::EvaluateError;
-use crate::signal::signal::{At, Effort, Instant, Known, Limit, Point, Signal, last_begun};
+use crate::signal::signal::{
+    At, Effort, Instant, Known, Limit, MAX_FLATNESS, Point, Signal, last_begun,
+};
 use crate::signal::taylor::Taylor;
 use crate::solution::Solution;
 use std::borrow::Cow;
@@ -453,6 +455,21 @@ impl Signal for ClosedSignal<'_> {
             }
         };
         Ok(matches!(value, Ok(Value::Exact(value)) if value == Rational::default()))
+    }
+
+    /// By the exact function of the stretch, where that is known.
+    fn flatness(&self, stretch: usize, end: Limit, order: usize) -> Result<usize, EvaluateError> {
+        let Source::Scene { network, .. } = &self.source else { return Ok(0) };
+        let time = &network.scene().time;
+        let own = self.exact_at(stretch, &Fraction::symbol(time), Effort::Much);
+        let Some(own) = own else { return Ok(0) };
+        let at = self.scaled(stretch, At::End(end));
+        let mut slope = (0..order).fold(own, |slope, _| slope.derivative(time));
+        let mut count = 0;
+        while count < MAX_FLATNESS && slope.substitute(time, &at)?.is_zero() {
+            (slope, count) = (slope.derivative(time), count + 1);
+        }
+        Ok(count)
     }
 
     /// A real function `Σ_λ e^{λx} Σ_j c_j x^j/j!` with N coefficients, of which the value is one, solves

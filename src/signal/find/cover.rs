@@ -9,6 +9,10 @@
 //!   one root ([`Finding::Monotone`]);
 //! - else the cell is halved, until it is `2^{-DEPTH}` of the stretch or less ([`Finding::Open`]).
 //!
+//! At an end of the stretch where exactly `F = F' = … = F^(k−1) = 0`, `F` has the sign of `F^(k)` on a cell
+//! on which that has one: `F(t) = (t − t_0)^k/k! F^(k)(ξ)`; and is monotone there, as its slope is of
+//! the same kind.
+//!
 //! A simple root is at last in a cell of the second kind, since there `F' ≠ 0`; a root of higher
 //! order never is. Cells are closed and share their ends, so that nothing lies between them. For
 //! extrema cells whose largest value is below one that is known to be taken are dropped
@@ -18,12 +22,17 @@ use crate::ball::{Attempt, Ball, Binary, Magnitude, Precisions};
 use crate::limits::MAX_POLYNOMIALS;
 use crate::signal::error::EvaluateError;
 use crate::signal::find::search::{Search, Target};
+use crate::signal::signal::Limit;
 use crate::signal::taylor::Taylor;
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
 /// How often a stretch is halved.
 const DEPTH: usize = 56;
+
+/// How often a stretch is halved before its ends are looked at more closely.
+const FLAT_DEPTH: usize = 3;
 
 /// How often a cell is halved before its polynomials are worked out again.
 const HALVINGS: usize = 6;
@@ -99,6 +108,9 @@ struct Cover<'a, 's, 'b> {
     stretch: usize,
     target: Target<'b>,
     record: Option<&'b mut Record>,
+    bounds: [Rational; 2],
+    /// How many derivatives vanish at both ends, once that was asked for.
+    flatness: [OnceCell<usize>; 2],
     /// The largest coefficient seen.
     scale: Magnitude,
     cells: Vec<Cell>,
@@ -122,7 +134,9 @@ impl Search<'_> {
         };
         let size = self.precisions(target).raise(attempt)?.best();
         let (scale, cells) = (size.scale(-CANCELLED_BITS), Vec::new());
-        let mut cover = Cover { search: self, stretch, target, record, scale, cells };
+        let (bounds, flatness) = ([from.clone(), to.clone()], Default::default());
+        let mut cover =
+            Cover { search: self, stretch, target, record, bounds, flatness, scale, cells };
         cover.descend(from, to, 0, None)?;
         Ok(cover.cells)
     }
@@ -195,6 +209,12 @@ impl Cover<'_, '_, '_> {
             self.push(from, to, finding);
             return Ok(());
         }
+        if depth >= FLAT_DEPTH
+            && let Some(finding) = self.beside_a_flat_end(&from, &to)?
+        {
+            self.push(from, to, finding);
+            return Ok(());
+        }
         let sharp = expansion.polynomials.iter().all(is_sharp);
         let hopeless =
             sharp && expansion.polynomials[0].coefficients.iter().all(Ball::contains_zero);
@@ -205,6 +225,39 @@ impl Cover<'_, '_, '_> {
         let known = sharp.then_some(&expansion);
         self.descend(from, middle.clone(), depth + 1, known)?;
         self.descend(middle, to, depth + 1, known)
+    }
+
+    /// What is known of a cell that begins or ends with the stretch, where several derivatives vanish.
+    fn beside_a_flat_end(
+        &self,
+        from: &Rational,
+        to: &Rational,
+    ) -> Result<Option<Finding>, EvaluateError> {
+        let (search, target) = (self.search, self.target);
+        if target.order == 0 && *target.level != Rational::default() {
+            return Ok(None);
+        }
+        for (side, end) in [Limit::Right, Limit::Left].into_iter().enumerate() {
+            if *[from, to][side] != self.bounds[side] {
+                continue;
+            }
+            let flatness = || search.function.flatness(self.stretch, end, target.order);
+            let count = *self.flatness[side].get_or_init(|| flatness().unwrap_or(0));
+            // A simple zero is found without this.
+            if count < 2 {
+                continue;
+            }
+            let derivative = Target { order: target.order + count, ..target };
+            let range = search.range(self.stretch, derivative, (from, to), search.bits.get())?;
+            let sign = range.sign().filter(|sign| sign.is_ne());
+            // The slope near the last time has the sign of `(t − t_0)^(k−1) F^(k)`, `t < t_0`.
+            let turned = side == 1 && count % 2 == 0;
+            if let Some(sign) = sign {
+                let slope = if turned { sign.reverse() } else { sign };
+                return Ok(Some(Finding::Monotone(slope)));
+            }
+        }
+        Ok(None)
     }
 
     /// Polynomials with as many bits as the depth calls for.

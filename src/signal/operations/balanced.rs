@@ -6,41 +6,103 @@ use super::{Mark, Outcome, Rule, Scale, locate, value_at};
 use crate::ball::Ball;
 use crate::expression::{Expression, Fraction};
 use crate::signal::{At, Effort, Enclosure, Known, Limit, Signal, Taylor};
-use num_traits::Zero as _;
+use num_traits::{One as _, Zero as _};
+use std::cell::OnceCell;
 use std::ops::Range;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
+
+/// The precision at which a flow without coefficients is looked for.
+const STILL_BITS: u64 = 192;
 
 /// # Invariants
 /// - both have the window of the result; `flow` is the derivative of `of` with respect to the time of the
 ///   scene.
 pub(crate) struct Balanced<'a> {
-    pub scale: Rc<Scale<'a>>,
-    pub of: Box<dyn Signal + 'a>,
-    pub flow: Box<dyn Signal + 'a>,
+    scale: Rc<Scale<'a>>,
+    of: Box<dyn Signal + 'a>,
+    flow: Box<dyn Signal + 'a>,
+    /// The stretches of the flow with which those of the quantity begin: all but the last instant, and those
+    /// on which nothing flows as before.
+    kept: OnceCell<Vec<usize>>,
 }
 
-impl Balanced<'_> {
+impl<'a> Balanced<'a> {
+    pub fn new(
+        scale: &Rc<Scale<'a>>,
+        of: Box<dyn Signal + 'a>,
+        flow: Box<dyn Signal + 'a>,
+    ) -> Balanced<'a> {
+        Balanced { scale: Rc::clone(scale), of, flow, kept: OnceCell::new() }
+    }
+
     fn slowness(&self, bits: u64) -> Outcome<Ball> {
         Ok(self.scale.numbers.enclose(self.scale.slowness(), bits)?)
+    }
+
+    /// The stretch of the flow of a place, at its beginning or its end.
+    fn stretch(&self, place: usize, end: Limit) -> usize {
+        let kept = self.kept.get().expect("places were counted");
+        match (end, kept.get(place + 1)) {
+            (Limit::Left, Some(next)) => next - 1,
+            _ => kept[place],
+        }
+    }
+
+    /// Whether nothing flows on a stretch: the polynomial has no coefficient.
+    fn is_still(&self, stretch: usize) -> Outcome<bool> {
+        if self.flow.is_zero(stretch) {
+            return Ok(true);
+        }
+        let within = Rational::from(self.flow.time(stretch, Limit::Right, STILL_BITS)?.midpoint());
+        let taylor = self.flow.taylor(stretch, 0, (&within, &Rational::one()), 2, STILL_BITS)?;
+        Ok(taylor.tail(0).is_zero())
+    }
+
+    /// Whether the quantity is known to be zero at the beginning or the end of a place: where nothing has
+    /// flowed in on one side of it.
+    fn is_zero_at(&self, place: usize, end: Limit) -> Outcome<bool> {
+        let own = self.stretch(place, end);
+        let is_zero = |stretch: usize| -> Outcome<bool> {
+            if !self.is_still(stretch)? {
+                return Ok(false);
+            }
+            let start = locate(&*self.of, &Mark::of(&*self.flow, stretch), Limit::Right)?;
+            let exact = || self.of.exact(start, At::End(Limit::Right));
+            Ok(self.of.is_zero(start) || exact()?.is_some_and(|value| value.is_zero()))
+        };
+        match (end, own.checked_sub(1)) {
+            _ if is_zero(own)? => Ok(true),
+            (Limit::Right, Some(before)) => is_zero(before),
+            _ => Ok(false),
+        }
     }
 }
 
 impl Rule for Balanced<'_> {
     fn ranges(&self) -> Outcome<Vec<Range<usize>>> {
-        Ok(vec![0..self.flow.count()?])
+        let count = self.flow.count()?;
+        let goes_on = |stretch: &usize| {
+            let last = count > 1 && stretch + 1 == count && self.flow.is_instant(*stretch);
+            let is_still = |own: usize| self.is_still(own).unwrap_or(false);
+            !last && !(*stretch > 0 && is_still(stretch - 1) && is_still(*stretch))
+        };
+        let kept = self.kept.get_or_init(|| (0..count).filter(goes_on).collect());
+        Ok(vec![0..kept.len()])
     }
 
     fn mark(&self, _: usize, place: usize) -> Mark<'_> {
-        Mark::of(&*self.flow, place)
+        Mark::of(&*self.flow, self.stretch(place, Limit::Right))
     }
 
-    fn is_instant(&self, _: usize, place: usize) -> bool {
-        self.flow.is_instant(place)
-    }
-
-    fn is_zero(&self, _: &[usize]) -> bool {
+    fn is_instant(&self, _: usize, _: usize) -> bool {
         false
+    }
+
+    fn is_zero(&self, places: &[usize]) -> bool {
+        let place = places[0];
+        self.is_still(self.stretch(place, Limit::Right)).unwrap_or(false)
+            && self.is_zero_at(place, Limit::Right).unwrap_or(false)
     }
 
     fn terms(
@@ -51,7 +113,8 @@ impl Rule for Balanced<'_> {
         bits: u64,
     ) -> Outcome<Vec<Ball>> {
         if let Some(order) = order.checked_sub(1) {
-            let slope = value_at(&*self.flow, places[0], order, at, bits)?;
+            let stretch = self.stretch(places[0], Limit::Right);
+            let slope = value_at(&*self.flow, stretch, order, at, bits)?;
             return Ok(vec![slope.multiply(&self.slowness(bits)?, bits)]);
         }
         let time = at.ball(bits)?;
@@ -74,7 +137,8 @@ impl Rule for Balanced<'_> {
     ) -> Outcome<Taylor> {
         let (slope, kept) =
             (order.saturating_sub(1), terms - usize::from(order == 0).min(terms - 1));
-        let flow = self.flow.taylor(places[0], slope, (middle, half), kept, bits)?;
+        let stretch = self.stretch(places[0], Limit::Right);
+        let flow = self.flow.taylor(stretch, slope, (middle, half), kept, bits)?;
         let flow = flow.scaled(&self.slowness(bits)?, bits);
         if order > 0 {
             return Ok(flow);
@@ -85,16 +149,32 @@ impl Rule for Balanced<'_> {
         Ok(sum)
     }
 
-    fn exact_at(&self, _: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {
+    fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {
         if at.contains(&self.scale.network.scene().time) {
             return None;
+        }
+        let at_start = self.mark(0, places[0]).compare(&self.scale.mark_scaled(at)).ok()?.is_eq();
+        if at_start && self.is_zero_at(places[0], Limit::Right).ok()? {
+            return Some(Expression::zero());
         }
         let stretch = locate(&*self.of, &self.scale.mark_scaled(at), Limit::Right).ok()?;
         self.of.exact_at(stretch, at, effort)
     }
 
     fn slope_vanishes(&self, places: &[usize], end: Limit) -> Outcome<bool> {
-        Ok(self.flow.exact(places[0], At::End(end))?.is_some_and(|slope| slope.is_zero()))
+        let slope = self.flow.exact(self.stretch(places[0], end), At::End(end))?;
+        Ok(slope.is_some_and(|slope| slope.is_zero()) || self.flatness(places, end, 1)? > 0)
+    }
+
+    fn flatness(&self, places: &[usize], end: Limit, order: usize) -> Outcome<usize> {
+        let stretch = self.stretch(places[0], end);
+        match order.checked_sub(1) {
+            Some(order) => self.flow.flatness(stretch, end, order),
+            None if self.is_zero_at(places[0], end)? => {
+                Ok(1 + self.flow.flatness(stretch, end, 0)?)
+            }
+            None => Ok(0),
+        }
     }
 
     fn point(&self, at: &Rational, side: Limit) -> Outcome<(Known, Enclosure<'_>, u64)> {

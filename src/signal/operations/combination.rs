@@ -6,7 +6,7 @@
 use super::{Mark, Outcome, Rule, Scale, value_at};
 use crate::ball::Ball;
 use crate::expression::{Expression, Fraction};
-use crate::signal::{At, Effort, Enclosure, Known, Limit, Signal, Taylor};
+use crate::signal::{At, Effort, Enclosure, Known, Limit, MAX_FLATNESS, Signal, Taylor};
 use num_traits::{One as _, Zero as _};
 use std::ops::Range;
 use std::rc::Rc;
@@ -153,6 +153,19 @@ impl Rule for Combination<'_> {
             }
         }
         Ok(true)
+    }
+
+    /// A product vanishes as often as its factors together, and a sum as often as the least of its products.
+    fn flatness(&self, places: &[usize], end: Limit, order: usize) -> Outcome<usize> {
+        let mut least = MAX_FLATNESS;
+        for Product { factors, .. } in &self.products {
+            let mut product = 0;
+            for &operand in factors {
+                product += self.operands[operand].flatness(places[operand], end, 0)?;
+            }
+            least = least.min(product);
+        }
+        Ok(least.saturating_sub(order))
     }
 
     fn point(&self, at: &Rational, side: Limit) -> Outcome<(Known, Enclosure<'_>, u64)> {

@@ -215,6 +215,11 @@ pub(crate) trait Rule {
     /// Whether the first derivative at an end of a stretch is known to be exactly zero.
     fn slope_vanishes(&self, places: &[usize], end: Limit) -> Outcome<bool>;
 
+    /// As [`Signal::flatness`].
+    fn flatness(&self, _: &[usize], _: Limit, _: usize) -> Outcome<usize> {
+        Ok(0)
+    }
+
     /// One limit at a time, what exact arithmetic tells of it at once, and the most bits that are of use.
     fn point(&self, at: &Rational, side: Limit) -> Outcome<(Known, Enclosure<'_>, u64)>;
 
@@ -467,6 +472,10 @@ impl<R: Rule> Signal for Operation<'_, R> {
 
     fn slope_vanishes(&self, stretch: usize, end: Limit) -> Outcome<bool> {
         self.rule.slope_vanishes(&self.step(stretch).places, end)
+    }
+
+    fn flatness(&self, stretch: usize, end: Limit, order: usize) -> Outcome<usize> {
+        self.rule.flatness(&self.step(stretch).places, end, order)
     }
 
     /// Known where the exact function of the stretch is the constant.
