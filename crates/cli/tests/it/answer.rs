@@ -165,7 +165,7 @@ fn forced_methods_warn() {
 // ---- What is refused ----------------------------------------------------------------------------
 
 /// Lines with the exit code, the message and the remedy, which may go on.
-const REFUSALS: [(&str, i32, &str, &str); 18] = [
+const REFUSALS: [(&str, i32, &str, &str); 17] = [
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --tol 1e-20",
         3,

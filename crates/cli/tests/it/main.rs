@@ -14,6 +14,7 @@ mod lock;
 mod messages;
 mod open_contacts;
 mod picture;
+mod questions;
 mod scene;
 #[path = "../../../../tests/it/support/snapshot.rs"]
 mod snapshot;
