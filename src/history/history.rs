@@ -228,7 +228,14 @@ impl History {
     /// That of a line without contacts.
     pub fn without_contacts() -> History {
         let (events, contacts) = (Vec::new(), Vec::new());
-        History { events, contacts, ending: Ending::NoContact, bits: 0, cells: 0 }
+        History {
+            events,
+            contacts,
+            ending: Ending::NoContact,
+            assumptions: Vec::new(),
+            bits: 0,
+            cells: 0,
+        }
     }
 
     /// Follows a scene until a time in the user's units or until nothing can meet again; without a time for

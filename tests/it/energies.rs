@@ -6,8 +6,8 @@ use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
 use wavestep::planner::{Purpose, of_scene};
 use wavestep::signal::{
-    At, EvaluateError, Goal, Limit, Marched, MethodError, Root, Search, Signal, Summation, Summed,
-    Value, value,
+    At, EvaluateError, Goal, Limit, Marched, MethodError, Place, Root, Search, Signal, Summation,
+    Summed, Value, value,
 };
 use wavestep_polynomial::Rational;
 
@@ -124,7 +124,7 @@ fn values_stretches_and_polynomials_agree() {
                 let stretch = stretch_of(&*signal, &at);
                 let half = &last * rational(1, 1000);
                 let place = (&(&at + &half * rational(1, 3)), &half);
-                for order in 0..3 {
+                for order in 0..3_i32 {
                     let taylor = signal.taylor(stretch, order, place, 24, BITS).unwrap();
                     let u = Ball::from_rational(&rational(-1, 3), BITS);
                     let horner = |sum: Ball, c: &Ball| sum.multiply(&u, BITS).add(c, BITS);
@@ -236,4 +236,74 @@ fn methods_that_sum_waves_refuse_energies() {
         let refused = Marched::new(&*signal).err();
         assert_eq!(refused, Some(MethodError::Evaluate(EvaluateError::NotLinear)));
     }
+}
+
+/// A pile with a dashpot within and a support at its toe; momentum flows into the support, energy into the
+/// dashpots.
+const PILE: &str = "scene \"Pile\"\nmass ram { mass = 2, velocity = 1 }\n\
+    spring cushion { stiffness = 3, damping = 1/3 }\nbar upper { impedance = 1, travel = 1 }\n\
+    support skin { stiffness = 1/5, damping = 1/2 }\nbar lower { impedance = 1/2, travel = 3/2 }\n\
+    support toe { stiffness = 1/4, damping = 2/3 }\n\
+    line free - ram JOINT cushion - upper - skin - lower - toe - free\n\
+    observe all = energy(line)\nobserve momentum = momentum(line)\n\
+    observe bars = energy(upper)/2 - 2*energy(lower)\nobserve upper = momentum(upper)\n";
+
+/// What is searched, by its flow, is what is evaluated: values and derivatives agree, also with what is
+/// conserved.
+#[test]
+fn what_flows_in_is_the_derivative() {
+    let pile = || network(&PILE.replace("JOINT", "-"));
+    let parting = || network(&(PILE.replace("JOINT", "|") + "contacts open\n"));
+    let scenes: [(Network, &[&str], Rational); 5] = [
+        (pile(), &["all", "momentum", "bars", "upper"], rational(6, 1)),
+        (parting(), &["all", "momentum", "bars", "upper"], rational(6, 1)),
+        (closed(), &["rod_energy", "all"], rational(6, 1)),
+        (open(), &["rod_energy", "all"], rational(6, 1)),
+        (network(UNITS), &["a_energy", "b_energy", "all"], rational(1, 1500)),
+    ];
+    let mut compared = 0;
+    for (network, names, last) in &scenes {
+        for name in *names {
+            let observed = network.observables().iter().find(|own| own.name == *name).unwrap();
+            let window = [&Rational::default(), last];
+            let searched = of_scene(network, observed, window, Purpose::Search).expect("a signal");
+            let evaluated = signal(network, name, last);
+            let counts = [searched.count().unwrap(), evaluated.count().unwrap()];
+            assert!(counts[0] <= counts[1] + 1, "{name}: {counts:?}");
+            for place in 1..24 {
+                let at = last * rational(place, 24) * rational(1001, 1000);
+                if at >= *last {
+                    continue;
+                }
+                for order in 0..3_i32 {
+                    let [own, other] = [&searched, &evaluated]
+                        .map(|signal| derivative(&**signal, order as usize, &at));
+                    let scale = if *last < rational(1, 1) { 1500_f64.powi(order) } else { 1.0 };
+                    assert_same(&own, &other, scale, &format!("{name}, {order}, {at}"));
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert_eq!(compared, 1035);
+}
+
+/// What begins flat, with the square of a wave that begins at zero, is decided at the beginning.
+#[test]
+fn extrema_of_what_begins_flat_are_decided() {
+    let pile = network(&PILE.replace("JOINT", "-"));
+    let window = [&Rational::default(), &rational(3, 1)];
+    let found = |name: &str, goal| {
+        let observed = pile.observables().iter().find(|own| own.name == name).unwrap();
+        let signal = of_scene(&pile, observed, window, Purpose::Search).expect("a signal");
+        Search::new(&*signal).unwrap().extremum(goal, 12, 1 << 12).unwrap()
+    };
+    for name in ["upper", "momentum", "all"] {
+        for goal in [Goal::Largest, Goal::Smallest] {
+            let places = found(name, goal).places;
+            let is_open = |place: &Place| matches!(place, Place::Undecided { .. });
+            assert!(!places.iter().any(is_open), "{name}: {places:?}");
+        }
+    }
+    assert_eq!(found("all", Goal::Largest).value.to_f64(), 1.0);
 }

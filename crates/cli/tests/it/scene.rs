@@ -212,7 +212,7 @@ fn what_scenes_cannot_be_asked_is_refused() {
         "eval incommensurate --quantity energy --at 1000s",
         "eval pushed-bar --quantity velocty --at 1",
         "eval hopkinson --quantity force --at 1",
-        "lock hopkinson --through 1 --at 1s",
+        "lock incommensurate --through 1",
     ] {
         let arguments: Vec<&str> = line.split(' ').collect();
         let (code, message) = refusal(&folder, &arguments);
