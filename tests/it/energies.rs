@@ -124,7 +124,7 @@ fn values_stretches_and_polynomials_agree() {
                 let stretch = stretch_of(&*signal, &at);
                 let half = &last * rational(1, 1000);
                 let place = (&(&at + &half * rational(1, 3)), &half);
-                for order in 0..3_i32 {
+                for order in 0..3 {
                     let taylor = signal.taylor(stretch, order, place, 24, BITS).unwrap();
                     let u = Ball::from_rational(&rational(-1, 3), BITS);
                     let horner = |sum: Ball, c: &Ball| sum.multiply(&u, BITS).add(c, BITS);
@@ -246,7 +246,7 @@ const PILE: &str = "scene \"Pile\"\nmass ram { mass = 2, velocity = 1 }\n\
     support toe { stiffness = 1/4, damping = 2/3 }\n\
     line free - ram JOINT cushion - upper - skin - lower - toe - free\n\
     observe all = energy(line)\nobserve momentum = momentum(line)\n\
-    observe bars = energy(upper)/2 - 2*energy(lower)\nobserve upper = momentum(upper)\n";
+    observe bars = energy(upper)/2 - 2*energy(lower)\nobserve above = momentum(upper)\n";
 
 /// What is searched, by its flow, is what is evaluated: values and derivatives agree, also with what is
 /// conserved.
@@ -255,8 +255,8 @@ fn what_flows_in_is_the_derivative() {
     let pile = || network(&PILE.replace("JOINT", "-"));
     let parting = || network(&(PILE.replace("JOINT", "|") + "contacts open\n"));
     let scenes: [(Network, &[&str], Rational); 5] = [
-        (pile(), &["all", "momentum", "bars", "upper"], rational(6, 1)),
-        (parting(), &["all", "momentum", "bars", "upper"], rational(6, 1)),
+        (pile(), &["all", "momentum", "bars", "above"], rational(6, 1)),
+        (parting(), &["all", "momentum", "bars", "above"], rational(6, 1)),
         (closed(), &["rod_energy", "all"], rational(6, 1)),
         (open(), &["rod_energy", "all"], rational(6, 1)),
         (network(UNITS), &["a_energy", "b_energy", "all"], rational(1, 1500)),
@@ -298,7 +298,7 @@ fn extrema_of_what_begins_flat_are_decided() {
         let signal = of_scene(&pile, observed, window, Purpose::Search).expect("a signal");
         Search::new(&*signal).unwrap().extremum(goal, 12, 1 << 12).unwrap()
     };
-    for name in ["upper", "momentum", "all"] {
+    for name in ["above", "momentum", "all"] {
         for goal in [Goal::Largest, Goal::Smallest] {
             let places = found(name, goal).places;
             let is_open = |place: &Place| matches!(place, Place::Undecided { .. });
