@@ -251,7 +251,7 @@ impl Cover<'_, '_, '_> {
             let range = search.range(self.stretch, derivative, (from, to), search.bits.get())?;
             let sign = range.sign().filter(|sign| sign.is_ne());
             // The slope near the last time has the sign of `(t − t_0)^(k−1) F^(k)`, `t < t_0`.
-            let turned = side == 1 && count % 2 == 0;
+            let turned = side == 1 && count.is_multiple_of(2);
             if let Some(sign) = sign {
                 let slope = if turned { sign.reverse() } else { sign };
                 return Ok(Some(Finding::Monotone(slope)));

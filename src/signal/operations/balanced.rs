@@ -85,10 +85,11 @@ impl Rule for Balanced<'_> {
         let goes_on = |stretch: &usize| {
             let last = count > 1 && stretch + 1 == count && self.flow.is_instant(*stretch);
             let is_still = |own: usize| self.is_still(own).unwrap_or(false);
-            !last && !(*stretch > 0 && is_still(stretch - 1) && is_still(*stretch))
+            let as_before = *stretch > 0 && is_still(stretch - 1) && is_still(*stretch);
+            !(last || as_before)
         };
         let kept = self.kept.get_or_init(|| (0..count).filter(goes_on).collect());
-        Ok(vec![0..kept.len()])
+        Ok(std::iter::once(0..kept.len()).collect())
     }
 
     fn mark(&self, _: usize, place: usize) -> Mark<'_> {
