@@ -27,22 +27,22 @@ impl ComplexBall {
     }
 
     /// The point 0.
-    pub(crate) fn zero() -> Self {
+    pub fn zero() -> Self {
         Ball::zero().into()
     }
 
     /// The point 1.
-    pub(crate) fn one() -> Self {
+    pub fn one() -> Self {
         Ball::from_integer(&1.into()).into()
     }
 
     /// `−z`, exactly.
-    pub(crate) fn negate(self) -> Self {
+    pub fn negate(self) -> Self {
         Self::new(self.re.negate(), self.im.negate())
     }
 
     /// An upper bound of `|z|` over the rectangle.
-    pub(crate) fn magnitude(&self) -> Magnitude {
+    pub fn magnitude(&self) -> Magnitude {
         match self.is_real() {
             true => self.re.magnitude(),
             false => self.re.magnitude().add(&self.im.magnitude()),
@@ -50,13 +50,13 @@ impl ComplexBall {
     }
 
     /// The middle of the rectangle.
-    pub(crate) fn centre(&self) -> Self {
+    pub fn centre(&self) -> Self {
         let middle = |part: &Ball| Ball::new(part.midpoint().clone(), Magnitude::ZERO);
         Self::new(middle(&self.re), middle(&self.im))
     }
 
     /// All points that are no farther from this rectangle than the other one is from zero.
-    pub(crate) fn widened(&self, by: &Self) -> Self {
+    pub fn widened(&self, by: &Self) -> Self {
         let distance = by.re.magnitude().add(&by.im.magnitude());
         let widen = |part: &Ball| Ball::new(part.midpoint().clone(), part.radius().add(&distance));
         Self::new(widen(&self.re), widen(&self.im))
@@ -130,68 +130,5 @@ impl From<Ball> for ComplexBall {
 impl fmt::Display for ComplexBall {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "({}) + ({})i", self.re, self.im)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use num_traits::Zero;
-    use proptest::prelude::*;
-
-    use super::super::samples;
-    use super::*;
-
-    /// A complex ball and one of its points.
-    fn ball_and_point() -> impl Strategy<Value = (ComplexBall, (BigRational, BigRational))> {
-        (samples::ball_and_point(), samples::ball_and_point())
-            .prop_map(|((re, x), (im, y))| (ComplexBall::new(re, im), (x, y)))
-    }
-
-    fn contains(ball: &ComplexBall, (x, y): &(BigRational, BigRational)) -> bool {
-        ball.real().contains(x) && ball.imaginary().contains(y)
-    }
-
-    proptest! {
-        #[test]
-        fn operations_include_the_exact_result(
-            (a, (ax, ay)) in ball_and_point(), (b, (bx, by)) in ball_and_point(),
-            factor in samples::rational(20), precision in 2_u64..200,
-        ) {
-            prop_assert!(contains(&a.add(&b, precision), &(&ax + &bx, &ay + &by)));
-            let product = (&ax * &bx - &ay * &by, &ax * &by + &ay * &bx);
-            prop_assert!(contains(&a.multiply(&b, precision), &product));
-            let scaled = (&ax * &factor, &ay * &factor);
-            prop_assert!(contains(&a.multiply_rational(&factor, precision), &scaled));
-            let norm = &ax * &ax + &ay * &ay;
-            if let Ok(inverse) = a.reciprocal(precision) {
-                prop_assert!(contains(&inverse, &(&ax / &norm, -&ay / &norm)));
-            }
-        }
-
-        #[test]
-        fn sums_of_exponents_give_products(
-            a in prop::array::uniform2(samples::rational(2)),
-            b in prop::array::uniform2(samples::rational(2)),
-            precision in 2_u64..200,
-        ) {
-            let small = |x: &BigRational| x.numer().bits() <= x.denom().bits() + 6;
-            prop_assume!(a.iter().chain(&b).all(small));
-            let point = |[x, y]: &[BigRational; 2]| {
-                let ball = |value| Ball::from_rational(value, precision);
-                ComplexBall::new(ball(x), ball(y))
-            };
-            let (a, b) = (point(&a), point(&b));
-            let product = a.exp(precision).unwrap().multiply(&b.exp(precision).unwrap(), precision);
-            let minus = BigRational::from_integer((-1).into());
-            let sum = a.add(&b, precision).exp(precision).unwrap();
-            let difference = product.add(&sum.multiply_rational(&minus, precision), precision);
-            prop_assert!(contains(&difference, &(BigRational::zero(), BigRational::zero())));
-        }
-    }
-
-    #[test]
-    fn zero_has_no_reciprocal() {
-        let error = ComplexBall::zero().reciprocal(64).unwrap_err();
-        assert_eq!(error.to_string(), "the enclosure of a divisor contains zero");
     }
 }

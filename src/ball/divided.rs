@@ -39,7 +39,7 @@ use super::magnitude::Magnitude;
 /// A step multiplies, divides and adds integers of about `p + log_2 n` bits, whatever the length of
 /// the coefficients; one with a numerator and a denominator of `x` below some `2^40` costs no more
 /// than a few machine operations for each word of these.
-pub(crate) fn evaluate_divided(coefficients: &IntegerRow, x: &BigRational, precision: u64) -> Ball {
+pub fn evaluate_divided(coefficients: &IntegerRow, x: &BigRational, precision: u64) -> Ball {
     let precision = precision.max(LEAST_PRECISION);
     let weights = weights(x, coefficients.len());
     // 2^(largest) exceeds every term: |c| < 2^bits(c).
@@ -96,7 +96,7 @@ fn weights(x: &BigRational, count: usize) -> Vec<i64> {
 }
 
 /// The argument of a polynomial, prepared for the multiplication of long integers.
-enum Argument {
+pub enum Argument {
     /// `±numerator/denominator`; the denominator times any index fits a machine word.
     Words { negative: bool, numerator: u64, denominator: u64 },
     /// `y = mantissa·2^exponent` with `|x − y| ≤ 2^(2−bits)·|y|`.
@@ -104,7 +104,7 @@ enum Argument {
 }
 
 impl Argument {
-    fn new(x: &BigRational, count: usize, bits: u64) -> Self {
+    pub fn new(x: &BigRational, count: usize, bits: u64) -> Self {
         let words = x.numer().magnitude().to_u64().zip(x.denom().to_u64());
         if let Some((numerator, denominator)) = words
             && denominator.checked_mul(count as u64).is_some()
@@ -118,7 +118,7 @@ impl Argument {
 
     /// Replaces `a` by an integer `q` near `a·x·2^rise/index` and returns a `δ` with
     /// `|a·x·2^rise/index − q| ≤ δ`.
-    fn step(&self, accumulator: &mut BigInt, index: u64, rise: i64) -> Magnitude {
+    pub fn step(&self, accumulator: &mut BigInt, index: u64, rise: i64) -> Magnitude {
         match self {
             Self::Words { negative, numerator, denominator } => {
                 if *negative {
@@ -161,112 +161,5 @@ fn shift_by(value: &mut BigInt, shift: i64) {
         *value <<= shift.unsigned_abs();
     } else {
         *value >>= shift.unsigned_abs();
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use num_traits::One;
-    use proptest::prelude::*;
-
-    use super::super::samples;
-    use super::*;
-
-    /// The exact value and the largest term.
-    fn exact(coefficients: &[BigInt], x: &BigRational) -> (BigRational, BigRational) {
-        let mut power = BigRational::one();
-        let (mut sum, mut largest) = (BigRational::zero(), BigRational::zero());
-        for (index, coefficient) in coefficients.iter().enumerate() {
-            let term = &power * coefficient;
-            sum += &term;
-            largest = largest.max(term.abs());
-            power = power * x / BigInt::from(index + 1);
-        }
-        (sum, largest)
-    }
-
-    fn assert_encloses(coefficients: &[BigInt], x: &BigRational, precision: u64) {
-        let ball = evaluate_divided(&coefficients.iter().collect(), x, precision);
-        let (value, largest) = exact(coefficients, x);
-        assert!(ball.contains(&value), "{coefficients:?} at {x} with {precision}: {ball}, {value}");
-        let bound = largest * BigRational::new(4.into(), BigInt::one() << precision);
-        assert!(BigRational::from(ball.radius()) <= bound, "{coefficients:?} at {x}: {ball}");
-    }
-
-    fn arguments() -> impl Strategy<Value = BigRational> {
-        prop_oneof![
-            3 => samples::rational(1),
-            2 => samples::rational(4),
-            1 => samples::rational(8),
-            3 => samples::rational(20),
-        ]
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(1000))]
-        #[test]
-        fn encloses_the_exact_value(
-            coefficients in prop::collection::vec(samples::integer(20), 0..30),
-            x in arguments(),
-            precision in 2_u64..200,
-        ) {
-            assert_encloses(&coefficients, &x, precision);
-        }
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(200))]
-        #[test]
-        fn each_step_keeps_its_bound(
-            start in samples::integer(40), x in arguments(), index in 1_u64..600, rise in -80_i64..80,
-            bits in 2_u64..300,
-        ) {
-            let argument = Argument::new(&x, 600, bits);
-            let mut result = start.clone();
-            let lost = argument.step(&mut result, index, rise);
-            let power = BigRational::from(&Binary::new(BigInt::one(), rise));
-            let value = BigRational::from(start) * x * power / BigInt::from(index);
-            let distance = (value - BigRational::from(result)).abs();
-            prop_assert!(distance <= BigRational::from(&lost));
-        }
-    }
-
-    #[test]
-    fn encloses_exponential_series() {
-        // The signs alternate and the terms reach e^40: 58 bits cancel twice.
-        let x = BigRational::from_integer(40.into());
-        let coefficients: Vec<BigInt> = (0..300).map(|j| BigInt::from(1 - 2 * (j % 2))).collect();
-        for precision in [64, 128, 256] {
-            assert_encloses(&coefficients, &x, precision);
-        }
-        let ball = evaluate_divided(&coefficients.iter().collect(), &x, 256);
-        assert!(
-            ball.to_string().starts_with("4.24835425529158899532923478285865801787956"),
-            "{ball}"
-        );
-    }
-
-    /// `1 − 4x + 8x²/2!` is `1/4` at one quarter, and 0 at one half, where its terms cancel.
-    #[test]
-    fn encloses_a_sum_that_cancels() {
-        let coefficients = [1, -4, 8].map(BigInt::from);
-        for (x, value) in [((1, 4), (1, 4)), ((1, 2), (0, 1))] {
-            let [x, value] = [x, value].map(|(p, q)| BigRational::new(p.into(), q.into()));
-            assert!(evaluate_divided(&coefficients.iter().collect(), &x, 64).contains(&value));
-        }
-    }
-
-    #[test]
-    fn extreme_arguments() {
-        let coefficients: Vec<BigInt> = (0..40).map(|j| BigInt::from(j * j - 7)).collect();
-        let huge = BigRational::from_integer(BigInt::one() << 100_u32);
-        for x in [huge.clone(), huge.recip(), -huge.recip(), BigRational::zero()] {
-            assert_encloses(&coefficients, &x, 100);
-        }
-        assert_encloses(&[], &huge, 100);
-        assert_encloses(&[BigInt::zero(), BigInt::zero()], &huge, 100);
-        assert_encloses(&[BigInt::zero(), BigInt::one()], &BigRational::zero(), 100);
-        let constant = evaluate_divided(&[BigInt::from(5)].iter().collect(), &huge, 64);
-        assert_eq!(constant, Ball::from_integer(&5.into()));
     }
 }

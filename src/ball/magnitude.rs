@@ -174,7 +174,7 @@ impl Magnitude {
     }
 
     /// The mantissa and the exponent.
-    pub(super) const fn parts(self) -> (u64, i64) {
+    pub const fn parts(self) -> (u64, i64) {
         (self.mantissa, self.exponent)
     }
 }
@@ -207,58 +207,5 @@ impl From<&Magnitude> for BigRational {
         } else {
             Self::from_integer(mantissa * power)
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use num_traits::Signed;
-    use proptest::prelude::*;
-
-    use super::super::samples;
-    use super::*;
-
-    fn exact(value: &Magnitude) -> BigRational {
-        let normal = if value.is_zero() { value.exponent == 0 } else { value.mantissa >> 31 == 1 };
-        assert!(normal, "not normalised: {value:?}");
-        BigRational::from(value)
-    }
-
-    /// `exact ≤ bound ≤ exact·(1 + 2^(−30))`.
-    fn assert_tight(bound: &Magnitude, value: &BigRational) {
-        let slack = BigRational::new((BigInt::one() << 30) + 1, BigInt::one() << 30);
-        let bound = exact(bound);
-        assert!(&bound >= value && bound <= value * slack, "{bound} for {value}");
-    }
-
-    proptest! {
-        #[test]
-        fn operations_round_up(a in samples::magnitude(), b in samples::magnitude(), n in 1_u64..) {
-            let (x, y) = (exact(&a), exact(&b));
-            assert_tight(&a.add(&b), &(&x + &y));
-            assert_tight(&a.multiply(&b), &(&x * &y));
-            assert_tight(&a.divide(n), &(&x / BigInt::from(n)));
-            prop_assert_eq!(a.cmp(&b), x.cmp(&y));
-            let root = exact(&a.square_root());
-            assert_tight(&a.square_root().multiply(&a.square_root()), &(&root * &root));
-            prop_assert!(&root * &root >= x);
-            prop_assert!(&root * &root <= &x * (BigRational::one() + BigRational::new(BigInt::one(), BigInt::one() << 28)));
-            prop_assert_eq!(BigRational::from(&a.to_binary()), x);
-        }
-
-        #[test]
-        fn conversions_round_up(n in samples::integer(40), q in samples::rational(40)) {
-            assert_tight(&Magnitude::from_integer(&n, 0), &BigRational::from_integer(n.clone()).abs());
-            assert_tight(&Magnitude::from_rational(&q), &q.abs());
-        }
-    }
-
-    #[test]
-    fn extreme_exponents_are_kept() {
-        let tiny = Magnitude::power_of_two(-(1 << 60));
-        assert!(!tiny.is_zero());
-        assert!(Magnitude::from_u64(1).add(&tiny) > Magnitude::from_u64(1));
-        assert_eq!(Magnitude::from_u64(u64::MAX), Magnitude::power_of_two(64));
-        assert_eq!(Magnitude::power_of_two(-5).top(), Some(-4));
     }
 }

@@ -10,8 +10,8 @@
 mod ball;
 mod binary;
 mod complex;
-mod decimal;
-mod divided;
+pub mod decimal;
+pub mod divided;
 mod double;
 mod enclosure;
 mod error;
@@ -21,21 +21,20 @@ mod magnitude;
 mod number;
 mod precision;
 mod root;
-#[cfg(test)]
-mod samples;
 mod trigonometry;
 mod value;
 
 pub use ball::Ball;
 pub use binary::Binary;
-pub(crate) use complex::ComplexBall;
+pub use complex::ComplexBall;
 pub use decimal::{Decimal, Exactness, in_decimals};
-pub(crate) use divided::evaluate_divided;
-pub(crate) use double::{at_or_after, at_or_before, rational, unit_in_the_last_place};
+pub use divided::evaluate_divided;
+pub use double::rational;
+pub(crate) use double::{at_or_after, at_or_before, unit_in_the_last_place};
 pub use enclosure::DecimalEnclosure;
 pub use error::BallError;
-pub(crate) use exponential::exp_of_rational;
+pub use exponential::exp_of_rational;
 pub use magnitude::Magnitude;
-pub(crate) use number::Number;
+pub use number::Number;
 pub use precision::{Attempt, Precisions};
 pub use value::Value;

@@ -6,7 +6,7 @@
 mod error;
 mod expression;
 mod numbers;
-mod zero;
+pub mod zero;
 
 pub use error::EnclosureError;
 pub use expression::enclose_expression;

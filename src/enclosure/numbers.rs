@@ -50,7 +50,7 @@ impl Numbers {
     }
 
     /// A value as a number: exact where it is rational.
-    pub(crate) fn number(&self, value: &Fraction, bits: u64) -> Result<Number, EnclosureError> {
+    pub fn number(&self, value: &Fraction, bits: u64) -> Result<Number, EnclosureError> {
         match value.as_constant() {
             Some(value) => Ok(Number::of_rational(value, bits)),
             None => Ok(Number::Enclosed(self.enclose(value, bits)?)),
@@ -76,7 +76,7 @@ impl Numbers {
     }
 
     /// Positive rational bounds of a symbol, where its enclosure has some.
-    pub(crate) fn bounds(&self, symbol: &Symbol) -> Option<(Rational, Rational)> {
+    pub fn bounds(&self, symbol: &Symbol) -> Option<(Rational, Rational)> {
         let (lower, upper) = self.value(symbol, BOUND_BITS)?.endpoints();
         let (lower, upper) = (Rational::from(&lower), Rational::from(&upper));
         (lower > Rational::default()).then_some((lower, upper))
@@ -180,7 +180,7 @@ impl Numbers {
     }
 
     /// Puts items into the ascending order of their values.
-    pub(crate) fn sort<T>(
+    pub fn sort<T>(
         &self,
         items: &mut [T],
         value: impl Fn(&T) -> &Fraction,
@@ -196,7 +196,7 @@ impl Numbers {
     }
 
     /// Where a value stands among ascending ones, or where it would.
-    pub(crate) fn search(
+    pub fn search(
         &self,
         ascending: &[Fraction],
         value: &Fraction,
@@ -214,14 +214,14 @@ impl Numbers {
     }
 
     /// The field of enclosures with so many bits.
-    pub(crate) fn field(&self, bits: u64) -> Enclosing<'_> {
+    pub fn field(&self, bits: u64) -> Enclosing<'_> {
         Enclosing { numbers: self, bits }
     }
 }
 
 /// Coefficients as enclosures.
 #[derive(Clone, Copy)]
-pub(crate) struct Enclosing<'a> {
+pub struct Enclosing<'a> {
     numbers: &'a Numbers,
     bits: u64,
 }
@@ -254,47 +254,5 @@ impl Field for Enclosing<'_> {
 
     fn product(&self, left: &ComplexBall, right: &ComplexBall) -> ComplexBall {
         left.multiply(right, self.bits)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_are_found_among_ascending_ones() {
-        let number = |value: i64| Fraction::constant(&Rational::from_integer(value.into()));
-        let pi = Fraction::symbol(&Symbol::new("pi").unwrap());
-        let numbers = Numbers::new(&[]);
-        let ascending = [number(1), number(3), pi.clone(), number(4)];
-        let place = |value: &Fraction| numbers.search(&ascending, value).unwrap();
-        assert_eq!((place(&pi), place(&number(4))), (Ok(2), Ok(3)));
-        assert_eq!(
-            (place(&number(0)), place(&number(2)), place(&number(5))),
-            (Err(0), Err(1), Err(4))
-        );
-    }
-
-    /// `x⁴ + x + 1` has no real zeros; the enclosed one is a zero, and fifty digits of it are known.
-    #[test]
-    fn complex_zeros_are_zeros() {
-        let number = |value: i64| Fraction::constant(&Rational::from_integer(value.into()));
-        let polynomial: Vec<Fraction> = [1, 0, 0, 1, 1].map(number).into();
-        let near = (Rational::new(7.into(), 10.into()), Rational::new(9.into(), 10.into()));
-        let part = |imaginary| Definition::ComplexZero {
-            polynomial: polynomial.clone(),
-            near: near.clone(),
-            imaginary,
-        };
-        let numbers = Numbers::new(&[]);
-        let [re, im] = [false, true]
-            .map(|imaginary| numbers.enclose_definition(&part(imaginary), 200).unwrap());
-        let z = ComplexBall::new(re.clone(), im.clone());
-        let one = ComplexBall::from(Ball::from_rational(&Rational::from_integer(1.into()), 200));
-        let square = z.multiply(&z, 200);
-        let value = square.multiply(&square, 200).add(&z, 200).add(&one, 200);
-        assert!(value.real().contains_zero() && value.imaginary().contains_zero());
-        let small = crate::ball::Magnitude::power_of_two(-166);
-        assert!(re.radius() <= &small && im.radius() <= &small, "{re} {im}");
     }
 }

@@ -2,7 +2,7 @@
 
 /// A formula as it is written, with the places where a line may end.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
-pub(crate) struct Writing {
+pub struct Writing {
     text: String,
     stretches: Vec<Stretch>,
 }
@@ -73,39 +73,4 @@ fn stretches_in_line(stretches: &[Stretch], width: usize) -> usize {
         }
     }
     stretches.len()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn writing(text: &str) -> Writing {
-        let mut writing = Writing::default();
-        for word in text.split_inclusive(' ') {
-            if word.trim() == "+" {
-                writing.allow_break(0);
-            }
-            writing.push(word, word.chars().count());
-        }
-        writing
-    }
-
-    #[test]
-    fn lines_break_before_signs_and_lose_nothing() {
-        let text = "aaaa + bbbb + cccc + dddddddddddddddddddddd + e";
-        let lines = ["aaaa + bbbb", "+ cccc", "+ dddddddddddddddddddddd", "+ e"];
-        assert_eq!(writing(text).lines(14, 0, 2), lines);
-        assert_eq!(writing(text).lines(100, 0, 2), [text]);
-        assert!(Writing::default().lines(10, 0, 0).is_empty());
-    }
-
-    #[test]
-    fn lines_break_outside_of_brackets_in_their_second_half() {
-        let mut writing = Writing::default();
-        for (text, depth) in [("aaaa", 0), ("+bbb", 0), ("+(cc", 0), ("+dd)", 1), ("+eee", 0)] {
-            writing.allow_break(depth);
-            writing.push(text, 4);
-        }
-        assert_eq!(writing.lines(15, 0, 0), ["aaaa+bbb", "+(cc+dd)+eee"]);
-    }
 }

@@ -10,14 +10,14 @@ mod explain;
 mod forms;
 mod formula;
 mod general;
-mod lines;
+pub mod lines;
 mod names;
 mod notation;
-mod oscillation;
+pub mod oscillation;
 mod prose;
 mod source;
 mod terms;
-mod tree;
+pub mod tree;
 mod writer;
 
 pub use c::{CHeading, to_c};

@@ -9,7 +9,7 @@ use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol};
 
 /// `e^{growth}`, times the cosine or the sine of the angle, if any.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(crate) struct Oscillation {
+pub struct Oscillation {
     /// The exponent; real where there is an angle.
     pub growth: Fraction,
     /// The function and its angle, which is written without a sign in front.
@@ -65,7 +65,7 @@ fn approximation(root: &Symbol) -> Rational {
 /// ```
 ///
 /// An expression that is not real is left as it is.
-pub(crate) fn oscillations(expression: &Expression) -> Vec<(Oscillation, Cow<'_, Fraction>)> {
+pub fn oscillations(expression: &Expression) -> Vec<(Oscillation, Cow<'_, Fraction>)> {
     let i = Symbol::square_root(-1).expect("the imaginary unit");
     let is_complex = |exponent: &Fraction| exponent.roots().any(|root| *root == i);
     let mut parts = Vec::new();
@@ -95,42 +95,4 @@ pub(crate) fn oscillations(expression: &Expression) -> Vec<(Oscillation, Cow<'_,
         }
     }
     parts
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn read(text: &str) -> Fraction {
-        text.parse::<Polynomial>().expect("a polynomial").into()
-    }
-
-    /// The sum of `p · e^{growth} · cos angle` and the like is the expression again.
-    #[test]
-    fn the_parts_add_up_to_the_expression() {
-        let i = Symbol::square_root(-1).unwrap();
-        let exponents = ["0", "-s", "s*sqrt(-1)", "2*mu - 1/2*s*sqrt(-1)*sqrt(3)", "3*sqrt(-1)"];
-        let factors = ["1", "s - sqrt(2)", "sqrt(-1)", "mu*s^2 - 3*sqrt(-1)*sqrt(2)"];
-        let mut whole = Expression::zero();
-        for exponent in exponents.map(read) {
-            for factor in factors.map(read) {
-                whole.add_term(exponent.clone(), factor);
-            }
-            let real = &whole + &whole.conjugate(&i);
-            let mut sum = Expression::zero();
-            for (oscillation, p) in oscillations(&real) {
-                assert_eq!(&p.conjugate(&i), &*p);
-                let wave = match &oscillation.angle {
-                    None => Expression::one(),
-                    Some((Circular::Cosine, angle)) => Expression::cosine(angle),
-                    Some((Circular::Sine, angle)) => Expression::sine(angle),
-                };
-                sum += &wave.times(&p).times_exponential(&oscillation.growth);
-            }
-            assert_eq!(sum, real);
-            assert!(oscillations(&real).iter().all(|(o, _)| o.growth.roots().all(|r| *r != i)));
-        }
-        // Expressions that are not real stay as they are.
-        assert!(oscillations(&whole).iter().all(|(oscillation, _)| oscillation.angle.is_none()));
-    }
 }

@@ -7,7 +7,7 @@ use wavestep_polynomial::{Integer, Rational, Symbol};
 
 /// A function that oscillates.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(crate) enum Circular {
+pub enum Circular {
     Cosine,
     Sine,
 }

@@ -230,7 +230,7 @@ impl<V: Clone> Transform<V> {
     }
 
     /// The same transform with other coefficients.
-    pub(crate) fn embedded<F: Field>(
+    pub fn embedded<F: Field>(
         exact: &Transform,
         field: &F,
     ) -> Result<Transform<F::Value>, F::Error> {

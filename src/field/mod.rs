@@ -12,7 +12,7 @@ mod evaluator;
 mod fields;
 mod mesh;
 mod profile;
-mod wave;
+pub mod wave;
 
 pub use characteristics::{BarWaves, Front, Strip};
 pub use error::FieldError;

@@ -23,7 +23,7 @@ const FORCE: &str = "force of the contact";
 /// enclosed instant; `None` where none of this kind is known.
 ///
 /// Its enclosure and that of the instant meet, and both are roots on one stretch on which there is one.
-pub(crate) fn opening(network: &Network, joint: usize, instant: &Ball) -> Option<Expression> {
+pub fn opening(network: &Network, joint: usize, instant: &Ball) -> Option<Expression> {
     let scene = network.scene();
     if scene.dimensional || network.lattice().periods().len() != 1 {
         return None;
@@ -75,7 +75,7 @@ fn beside(scene: &Scene, joint: usize) -> Option<Place> {
 }
 
 /// The root of `e^{λs} (P + Q s)`, with Q a rational number times one exponential of what is free of `s`.
-fn linear_root(value: &Expression, s: &Symbol) -> Option<Expression> {
+pub fn linear_root(value: &Expression, s: &Symbol) -> Option<Expression> {
     let (exponent, _) = value.terms().next()?;
     let growth = &exponent.derivative(s) * &Fraction::symbol(s);
     let line = value.clone().times_exponential(&-&growth);
@@ -89,27 +89,4 @@ fn linear_root(value: &Expression, s: &Symbol) -> Option<Expression> {
     let start = line.substitute(s, &Fraction::zero()).ok()?;
     let factor = factor.as_constant()?;
     Some(start.times_exponential(&-exponent).scale(&-factor.recip()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use wavestep_polynomial::Polynomial;
-
-    #[test]
-    fn a_line_times_an_exponential_has_one_root() {
-        let s = Symbol::new("s").unwrap();
-        let read = |text: &str| Fraction::from(text.parse::<Polynomial>().unwrap());
-        let power = |text: &str| Expression::exponential(read(text));
-        // e^{−s} (e^{−2} + 2 − 2 s) is zero at 1 + e^{−2}/2.
-        let value = &power("-s").times(&read("2 - 2*s")) + &power("-s - 2");
-        let half = Rational::new(1.into(), 2.into());
-        let root = &Expression::one() + &power("-2").scale(&half);
-        assert_eq!(linear_root(&value, &s), Some(root));
-        for other in
-            [power("-s").times(&read("s*s - 1")), &power("-s") - &power("-2*s"), power("s")]
-        {
-            assert_eq!(linear_root(&other, &s), None);
-        }
-    }
 }

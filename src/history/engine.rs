@@ -608,30 +608,3 @@ impl Engine {
         self.count
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::language::{Source, read_scene};
-
-    /// Doubles see no difference between instants of a bar this short: the order of nodes is exact.
-    #[test]
-    fn nodes_are_followed_in_order_where_doubles_see_none() {
-        for travel in ["1e-401", "1e-30"] {
-            let text = format!(
-                "scene \"A\"\nbar a {{ impedance = 1, travel = {travel}, velocity = 1 }}\n\
-                 mass m {{ mass = 1/2 }}\nbar b {{ impedance = 2, travel = 3/2 }}\n\
-                 bar c {{ impedance = 1, travel = 1 }}\nline free - a | m - b | c - free\n\
-                 contacts open\nobserve v = velocity(m)"
-            );
-            let scene = read_scene(&Source::new("scene", &text).unwrap(), &Default::default());
-            let network = Network::new(&scene.unwrap()).unwrap();
-            let mut engine = Engine::new(&network, 128).unwrap();
-            for _ in 0..60 {
-                let (node, _) = engine.behind().unwrap();
-                engine.advance(node).unwrap();
-            }
-            assert_eq!(engine.count(), 60, "{travel}");
-        }
-    }
-}

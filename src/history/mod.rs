@@ -13,25 +13,25 @@
 //! energies and momenta of bodies and for why they never meet again.
 
 mod body;
-mod closed_form;
+pub mod closed_form;
 mod contacts;
-mod crossing;
-mod energy;
+pub mod crossing;
+pub mod energy;
 mod engine;
 mod error;
 #[expect(clippy::module_inception, reason = "the module is named after what it tells")]
 mod history;
-mod load;
-mod moment;
-mod motion;
+pub mod load;
+pub mod moment;
+pub mod motion;
 mod observe;
 mod part;
-mod passivity;
+pub mod passivity;
 mod phased;
-mod positive;
+pub mod positive;
 mod reading;
-mod series;
-mod track;
+pub mod series;
+pub mod track;
 mod validity;
 
 pub use error::{HistoryError, NotFollowed, Question};

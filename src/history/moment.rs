@@ -19,7 +19,7 @@ const TOLD_DIGITS: usize = 12;
 
 /// An instant in the scale of the scene.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Moment {
+pub struct Moment {
     /// The event that it is counted from; `None` for the start.
     pub event: Option<usize>,
     /// The delay since then.
@@ -47,7 +47,7 @@ impl Moment {
 const TIE_BITS: u64 = 512;
 
 /// Instants as numbers.
-pub(crate) struct Clock {
+pub struct Clock {
     pub numbers: Numbers,
     pub bits: u64,
     /// When events without an exact instant are.

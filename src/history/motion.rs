@@ -34,7 +34,7 @@ fn free_motion(
 }
 
 /// What a node does on a cell.
-pub(crate) struct Motion {
+pub struct Motion {
     /// The state.
     pub state: Vec<Series>,
     /// What is added to the error of each block of the state, by the length of the cell: of the polynomials

@@ -13,20 +13,20 @@ const BITS: u64 = 96;
 type Complex = [f64; 2];
 
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Course {
+pub struct Course {
     /// Rate `λ` and the coefficients of `p`, lowest power first.
     terms: Vec<(Complex, Vec<Complex>)>,
 }
 
 /// A real value, rounded.
-pub(crate) fn double(numbers: &Numbers, value: &Fraction) -> Result<f64, EnclosureError> {
+pub fn double(numbers: &Numbers, value: &Fraction) -> Result<f64, EnclosureError> {
     match value.as_constant() {
         Some(number) => Ok(number.to_f64().unwrap_or(f64::NAN)),
         None => numbers.enclose(value, BITS).map(|ball| ball.midpoint().to_double()),
     }
 }
 
-pub(crate) fn double_of(value: &Number) -> f64 {
+pub fn double_of(value: &Number) -> f64 {
     match value {
         Number::Exact(value) => value.to_f64().unwrap_or(f64::NAN),
         Number::Enclosed(ball) => ball.midpoint().to_double(),
@@ -34,7 +34,7 @@ pub(crate) fn double_of(value: &Number) -> f64 {
 }
 
 /// A factor times a root, rounded.
-pub(crate) fn double_root(numbers: &Numbers, value: &Root) -> Result<f64, EnclosureError> {
+pub fn double_root(numbers: &Numbers, value: &Root) -> Result<f64, EnclosureError> {
     numbers.enclose_root(value, BITS).map(|ball| ball.midpoint().to_double())
 }
 
@@ -91,30 +91,5 @@ impl Course {
             *rate == [0.0, 0.0] && polynomial.len() <= 1
         };
         self.terms.iter().all(constant).then(|| self.value(0.0))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// `(2 + 3t) e^{−t/2} + cos(2t)` against the same in doubles.
-    #[test]
-    fn courses_are_what_they_are_in_doubles() {
-        let t = Symbol::new("t").unwrap();
-        let read =
-            |text: &str| Fraction::from(text.parse::<wavestep_polynomial::Polynomial>().unwrap());
-        let decaying = Expression::exponential(read("-1/2*t")).times(&read("2 + 3*t"));
-        let course = &decaying + &Expression::cosine(&read("2*t"));
-        let course = Course::of(&Numbers::new(&[]), &course, &t).unwrap();
-        for time in [0.0, 0.7, 3.0, 11.0] {
-            let direct = (2.0 + 3.0 * time) * f64::exp(-time / 2.0) + f64::cos(2.0 * time);
-            assert!((course.value(time) - direct).abs() < 1e-14, "{time}");
-        }
-        assert_eq!(course.constant(), None);
-        let five = Course::of(&Numbers::new(&[]), &Expression::integer(5), &t).unwrap();
-        assert_eq!(five.constant(), Some(5.0));
-        let moving = Course::of(&Numbers::new(&[]), &read("t").into(), &t).unwrap();
-        assert_eq!(moving.constant(), None);
     }
 }

@@ -41,7 +41,7 @@ impl Bar {
 
 /// A local contact in doubles: `X = F_0 (α/α_0)^m` for `α > 0`, else 0.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct LocalContact {
+pub struct LocalContact {
     /// `F_0`
     pub force: f64,
     /// `α_0`

@@ -5,18 +5,18 @@
 //! solution. A model refuses what it cannot represent, and says why.
 
 mod chain;
-mod collocation;
-mod course;
+pub mod collocation;
+pub mod course;
 mod equivalent;
 mod error;
 mod leapfrog;
-mod line;
+pub mod line;
 mod modes;
 mod rigid;
-mod shape;
+pub mod shape;
 mod steps;
 mod third;
-mod track;
+pub mod track;
 
 pub use equivalent::equivalent_stiffness;
 pub use error::{BadSetting, ModelError, NotRepresented, NotSeen};

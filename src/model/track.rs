@@ -3,15 +3,15 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-pub(crate) const DEGREE: usize = 24;
+pub const DEGREE: usize = 24;
 
-pub(crate) const POINTS: usize = DEGREE + 1;
+pub const POINTS: usize = DEGREE + 1;
 
 /// The values of one function at the points of a piece.
-pub(crate) type Values = [f64; POINTS];
+pub type Values = [f64; POINTS];
 
 /// The points of Chebyshev and Lobatto in `[0, 1]`, ascending, where a piece takes its values.
-pub(crate) fn points() -> Values {
+pub fn points() -> Values {
     std::array::from_fn(|j| {
         let half = (PI * j as f64 / (2 * DEGREE) as f64).sin();
         half * half
@@ -33,7 +33,7 @@ struct Piece {
 
 /// A function of time, constant before the start, in periods of one length.
 #[derive(Clone, Debug)]
-pub(crate) struct Track {
+pub struct Track {
     before: f64,
     /// The length of a period.
     period: f64,
@@ -43,7 +43,7 @@ pub(crate) struct Track {
 }
 
 /// The sum of a series by the recurrence of Clenshaw, at `y` in `[−1, 1]`.
-pub(crate) fn sum(series: &[f64], y: f64) -> f64 {
+pub fn sum(series: &[f64], y: f64) -> f64 {
     let (mut next, mut after) = (0.0, 0.0);
     for c in series[1..].iter().rev() {
         (next, after) = (c + 2.0 * y * next - after, next);
@@ -63,7 +63,7 @@ static COEFFICIENTS: LazyLock<[Values; POINTS]> = LazyLock::new(|| {
 });
 
 /// The coefficients of the polynomial with these values at [`points`].
-pub(crate) fn series(values: &Values) -> Values {
+pub fn series(values: &Values) -> Values {
     let sum = |row: &Values| row.iter().zip(values).map(|(c, value)| c * value).sum();
     COEFFICIENTS.each_ref().map(sum)
 }
@@ -71,7 +71,7 @@ pub(crate) fn series(values: &Values) -> Values {
 /// The integral of a series from the start of its piece, over a piece of length 1.
 ///
 /// `∫ T_k = (T_{k+1}/(k+1) − T_{k−1}/(k−1))/2`, and `T_0 + T_1` for `k = 0`, over half the length.
-pub(crate) fn integral(series: &Values) -> [f64; POINTS + 1] {
+pub fn integral(series: &Values) -> [f64; POINTS + 1] {
     let mut integral = [0.0; POINTS + 1];
     let c = |k: usize| series.get(k).copied().unwrap_or(0.0);
     for (k, entry) in integral.iter_mut().enumerate().skip(1) {
@@ -135,30 +135,5 @@ impl Track {
         let piece = self.piece(period, since);
         let y = (2.0 * (since - piece.start) / piece.length - 1.0).clamp(-1.0, 1.0);
         piece.total + sum(&piece.integral, y)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// `e^{−x}` on two unequal pieces: values and integrals.
-    #[test]
-    fn values_and_integrals_are_those_of_an_exponential() {
-        let mut track = Track::new(7.0, 2.0);
-        for period in 0..2 {
-            track.begin();
-            for (start, length) in [(0.0, 0.5), (0.5, 1.5)] {
-                let at = |x: f64| f64::exp(-(f64::from(period) * 2.0 + start + length * x));
-                track.push(start, length, series(&points().map(at)));
-            }
-        }
-        for t in [0.0, 0.3, 0.5, 1.9, 2.0, 2.2, 3.99, 4.0] {
-            assert!((track.value(t) - f64::exp(-t)).abs() < 1e-15, "{t}");
-            assert!((track.integral(t) + f64::exp_m1(-t)).abs() < 1e-15, "{t}");
-        }
-        assert_eq!((track.value(-0.5), track.integral(-0.5)), (7.0, -3.5));
-        assert_eq!(track.within(-1, 0.3), 7.0);
-        assert!((track.within(0, 2.0) - f64::exp(-2.0)).abs() < 1e-15);
     }
 }

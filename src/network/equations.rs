@@ -59,7 +59,7 @@ pub struct Network {
 /// What is taken for granted of a scene because no precision decides it, in words; shared by all copies of its
 /// network.
 #[derive(Clone, Default, Debug)]
-pub(crate) struct Assumed(Arc<Mutex<Vec<String>>>);
+pub struct Assumed(Arc<Mutex<Vec<String>>>);
 
 impl Assumed {
     /// All of it, in the order in which it was met.

@@ -7,7 +7,7 @@ use crate::scene::{ElementIndex, End, Joint, Kind, Scene};
 
 /// How a line treats contacts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Contacts {
+pub enum Contacts {
     /// They stay closed: what touches moves together.
     Closed,
     /// They open and close, and part what moves together.
@@ -16,7 +16,7 @@ pub(crate) enum Contacts {
 
 /// A contact of a line that may open.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Contact {
+pub struct Contact {
     /// The names of its neighbours at the left and at the right.
     pub names: [String; 2],
     /// Its node, and the run at its left.
@@ -28,7 +28,7 @@ pub(crate) struct Contact {
 
 /// A line as nodes and bars in turn.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Layout {
+pub struct Layout {
     /// The bars from left to right.
     pub bars: Vec<ElementIndex>,
     /// The nodes from left to right.

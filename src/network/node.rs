@@ -9,7 +9,7 @@ use wavestep_polynomial::Rational;
 
 /// One side of a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Side {
+pub enum Side {
     /// A bar, by its place in the line.
     Bar(usize),
     /// No force.
@@ -35,7 +35,7 @@ pub enum ElementLaw<V> {
 
 /// A lumped element in its node.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Lumped<V> {
+pub struct Lumped<V> {
     pub element: ElementIndex,
     /// The run that it belongs to; of a link the one at its left.
     pub run: usize,
@@ -44,7 +44,7 @@ pub(crate) struct Lumped<V> {
 
 /// The link between a run and the next.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Link {
+pub enum Link {
     /// A contact, by its number in the line.
     Contact(usize),
     /// A spring or a local contact, by its place among the elements of the node.
@@ -53,7 +53,7 @@ pub(crate) enum Link {
 
 /// A term of the balance of forces on a run.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Acting {
+pub enum Acting {
     /// The compressive force in the bar at the left side (0) or at the right (1), none at a free end.
     Side(usize),
     /// The compressive force in a link.
@@ -69,7 +69,7 @@ pub(crate) enum Acting {
 /// `links[i]` is between the runs `i` and `i + 1`; there is one more run than there are links. Impedances
 /// are zero where there is no bar.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Node<V> {
+pub struct Node<V> {
     pub left: Side,
     pub right: Side,
     /// The impedances of the bars at the left and at the right.

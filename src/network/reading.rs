@@ -12,7 +12,7 @@ use wavestep_polynomial::Rational;
 
 /// What is read in a section of a bar: with the waves `w₊` and `w₋` that pass there, and the impedance `Z`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Field {
+pub enum Field {
     /// `w₊ + w₋`
     Velocity,
     /// Its integral since the start.
@@ -23,7 +23,7 @@ pub(crate) enum Field {
 
 /// A section of a bar.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Section<V = Fraction> {
+pub struct Section<V = Fraction> {
     /// The bar, by its place among those of the line.
     pub bar: usize,
     /// How long ago the wave to the right and the wave to the left entered the bar; none for a wave from
@@ -33,7 +33,7 @@ pub(crate) struct Section<V = Fraction> {
 
 /// A lumped element, by its node and its place there.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Lump {
+pub struct Lump {
     pub node: usize,
     pub place: usize,
 }
@@ -41,14 +41,14 @@ pub(crate) struct Lump {
 /// One of the two sides of a lumped element. Those of a spring move apart; those of a mass, a support or
 /// a load are one.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Face {
+pub enum Face {
     Left(Lump),
     Right(Lump),
 }
 
 /// What measures are made of.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) enum Reading<V = Fraction> {
+pub enum Reading<V = Fraction> {
     InBar(Field, Section<V>),
     /// The momentum of a bar: `Z ∫ (w₊ + w₋) dt` over the last travel time, of an endless bar since the
     /// start.
@@ -65,14 +65,14 @@ pub(crate) enum Reading<V = Fraction> {
 
 /// A coefficient times a reading.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Term<V = Fraction> {
+pub struct Term<V = Fraction> {
     pub coefficient: V,
     pub of: Reading<V>,
 }
 
 /// A part of an energy.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) enum Energy {
+pub enum Energy {
     /// A coefficient times the square of a reading.
     Square(Box<Term>),
     /// The energy of a bar: `Z ∫ (w₊² + w₋²) dt`, over the same time as its momentum.
@@ -133,7 +133,7 @@ impl Term {
 
 /// The section of a bar that a wave reaches after a time from its left end, or from the one end of an
 /// endless bar.
-pub(crate) fn section(layout: &Layout, model: &Model, bar: usize, time: Fraction) -> Section {
+pub fn section(layout: &Layout, model: &Model, bar: usize, time: Fraction) -> Section {
     let delays = match &model.bars[&layout.bars[bar]].travel {
         Some(travel) => {
             let rest = travel - &time;
@@ -146,7 +146,7 @@ pub(crate) fn section(layout: &Layout, model: &Model, bar: usize, time: Fraction
 
 /// The elements of a scene, with what they hold.
 #[derive(Clone, Copy)]
-pub(crate) struct Elements<'a> {
+pub struct Elements<'a> {
     pub model: &'a Model,
     pub layout: &'a Layout,
 }

@@ -17,12 +17,12 @@ use crate::scene::{ElementIndex, Kind, Scene};
 /// The model is that of the scene, and of nothing else.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ScaledScene {
-    pub(in crate::network) scene: Scene,
-    pub(in crate::network) model: Model,
+    pub scene: Scene,
+    pub model: Model,
     /// Its bars and nodes, with all contacts closed.
-    pub(crate) layout: Layout,
+    pub layout: Layout,
     /// The observables of the scene, as sums of readings.
-    pub(crate) measures: Vec<Measured>,
+    pub measures: Vec<Measured>,
 }
 
 impl ScaledScene {

@@ -12,7 +12,7 @@ use crate::scene::Drive;
 
 /// Something without mass moves, and nothing resists it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Unresisted;
+pub struct Unresisted;
 
 /// A node whose contacts are open or closed.
 ///
@@ -21,7 +21,7 @@ pub(crate) struct Unresisted;
 /// are `kept`. The rows of `output` are the velocities of all runs, then the forces of `closed` contacts. All
 /// rows are as long as state and input together.
 #[derive(Clone, Debug)]
-pub(crate) struct System<V> {
+pub struct System<V> {
     /// The group of each run: runs of one group move together.
     pub group: Vec<usize>,
     /// The groups that are held, or moved by a load.
@@ -86,7 +86,7 @@ impl<V> System<V> {
 }
 
 /// The inverse of a small matrix, by elimination; none where it is not known to have one.
-pub(crate) fn inverse(mut matrix: Vec<Vec<Number>>, bits: u64) -> Option<Vec<Vec<Number>>> {
+pub fn inverse(mut matrix: Vec<Vec<Number>>, bits: u64) -> Option<Vec<Vec<Number>>> {
     let size = matrix.len();
     let unit = |i, j| if i == j { Number::one() } else { Number::zero() };
     let mut result: Vec<Vec<Number>> =
@@ -113,7 +113,7 @@ pub(crate) fn inverse(mut matrix: Vec<Vec<Number>>, bits: u64) -> Option<Vec<Vec
 }
 
 /// A row times a column.
-pub(crate) fn dot(row: &[Number], column: &[Number], bits: u64) -> Number {
+pub fn dot(row: &[Number], column: &[Number], bits: u64) -> Number {
     let terms = row.iter().zip(column).filter(|(a, b)| !a.is_zero() && !b.is_zero());
     terms.fold(Number::zero(), |sum, (a, b)| sum.add(&a.multiply(b, bits), bits))
 }

@@ -87,7 +87,7 @@ pub fn of_scene<'a>(
 
 /// A wave as it enters a bar, without the state at the start, its integral over time since then, and the
 /// integral of that.
-pub(crate) type EnteringWave<'a> = [Box<dyn Signal + 'a>; 3];
+pub type EnteringWave<'a> = [Box<dyn Signal + 'a>; 3];
 
 /// Of each bar of a scene the waves to the right and to the left in its scale, until a time of the user's;
 /// none for what comes from the far side of an endless bar.

@@ -7,18 +7,18 @@
 
 mod arrivals;
 mod cells;
-mod closed;
+pub mod closed;
 mod digits;
 mod error;
-mod find;
+pub mod find;
 mod marched_pieces;
-mod method;
+pub mod method;
 mod operations;
 #[expect(clippy::module_inception, reason = "the module is named after the trait it is built on")]
 mod signal;
 mod taps;
-mod taylor;
-mod transforms;
+pub mod taylor;
+pub mod transforms;
 
 pub use crate::ball::Value;
 pub use arrivals::{Arrival, arrivals};

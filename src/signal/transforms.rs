@@ -56,7 +56,7 @@ pub(crate) fn exponential(
 }
 
 /// `f(x)`.
-pub(crate) fn value_at(
+pub fn value_at(
     function: &Transform<ComplexBall>,
     x: &ComplexBall,
     numbers: &Numbers,

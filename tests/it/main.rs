@@ -1,10 +1,15 @@
 //! The library, a module a capability.
 
 mod answers;
+mod ball;
 mod derivations;
+mod enclosure;
 mod energies;
+mod entering_waves;
+mod errors;
 mod evaluate;
 mod examples;
+mod export;
 mod expression;
 mod facade;
 mod field;
@@ -16,6 +21,7 @@ mod history;
 mod language;
 mod layering;
 mod lock;
+mod measures;
 mod methods;
 mod models;
 mod phases_fields;

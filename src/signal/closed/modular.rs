@@ -8,11 +8,11 @@ use num_traits::ToPrimitive;
 use wavestep_polynomial::IntegerRef;
 
 /// The modulus, a Mersenne prime.
-const PRIME: u64 = (1 << 61) - 1;
+pub const PRIME: u64 = (1 << 61) - 1;
 
 /// A residue class modulo [`PRIME`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub(crate) struct Residue(u64);
+pub struct Residue(u64);
 
 impl Residue {
     /// The residue of an integer.
@@ -63,7 +63,7 @@ impl Residue {
 }
 
 /// The residue of `Σ_j c_j x^j/j!`.
-pub(crate) fn evaluate(
+pub fn evaluate(
     coefficients: impl DoubleEndedIterator<Item = Residue> + ExactSizeIterator,
     x: Residue,
 ) -> Residue {
@@ -82,11 +82,11 @@ pub(crate) fn evaluate(
 
 /// The field of residues, for coefficients that are rational numbers.
 #[derive(Clone, Copy)]
-pub(crate) struct Modular;
+pub struct Modular;
 
 /// A value that has no residue: it is no rational number, or the prime divides its denominator.
 #[derive(Debug)]
-pub(crate) struct NoResidue;
+pub struct NoResidue;
 
 impl From<NotAUnit> for NoResidue {
     fn from(_: NotAUnit) -> NoResidue {
@@ -120,32 +120,5 @@ impl Field for Modular {
 
     fn product(&self, left: &Residue, right: &Residue) -> Residue {
         left.times(*right)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use wavestep_polynomial::{Rational, Univariate};
-
-    #[test]
-    fn residues_agree_with_exact_values() {
-        let x = Rational::new((-7).into(), 12.into());
-        for degree in 0..40 {
-            let coefficients = (0..=degree).map(|j| BigInt::from(3 * j - 50));
-            let p = Univariate::new(coefficients, 1.into());
-            let exact = p.evaluate(&x);
-            let row = p.coefficients().iter().map(Residue::of_entry);
-            let residue = evaluate(row, Residue::of_rational(&x).unwrap());
-            assert_eq!(Residue::of_rational(&exact), Some(residue));
-        }
-    }
-
-    #[test]
-    fn inverses_multiply_to_one() {
-        assert_eq!(Residue(0).inverse(), None);
-        for value in [1, 2, 3, PRIME - 1, 1 << 60] {
-            assert_eq!(Residue(value).times(Residue(value).inverse().unwrap()), Residue(1));
-        }
     }
 }

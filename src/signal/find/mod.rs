@@ -15,7 +15,7 @@
 
 mod cover;
 mod extrema;
-mod refine;
+pub mod refine;
 mod roots;
 mod search;
 

@@ -27,7 +27,7 @@ pub(super) struct Response {
 /// Chebyshev coefficients of the response on all periods of a window, as the proof leaves them: where there
 /// are few, values need no second march.
 #[derive(Default)]
-struct Held {
+pub struct Held {
     coefficients: Vec<f64>,
     /// Where the coefficients of each period end.
     ends: Vec<usize>,
@@ -35,17 +35,17 @@ struct Held {
 
 impl Held {
     /// The most coefficients that are held: eight megabytes.
-    const MOST: usize = 1 << 20;
+    pub const MOST: usize = 1 << 20;
 
     /// With the next period; none where there is no room for it.
-    fn with_period(mut self, coefficients: &[f64]) -> Option<Held> {
+    pub fn with_period(mut self, coefficients: &[f64]) -> Option<Held> {
         self.coefficients.extend_from_slice(coefficients);
         self.ends.push(self.coefficients.len());
         (self.coefficients.len() <= Held::MOST).then_some(self)
     }
 
     /// The coefficients of a period that is held.
-    fn period(&self, number: usize) -> &[f64] {
+    pub fn period(&self, number: usize) -> &[f64] {
         let start = number.checked_sub(1).map_or(0, |before| self.ends[before]);
         &self.coefficients[start..self.ends[number]]
     }
@@ -143,26 +143,5 @@ impl Response {
             values[place.value] += self.weights[place.seen] * response;
         }
         Ok(values)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_held_is_what_the_march_had() {
-        let reflection = Reflection::exact(2.0, 2.0, -0.5).unwrap();
-        let mut march = March::new(&reflection, MarchOptions::default()).unwrap();
-        let (mut held, mut expected) = (Held::default(), Vec::new());
-        for _ in 0..20 {
-            held = held.with_period(march.coefficients()).unwrap();
-            expected.push(march.coefficients().to_vec());
-            march.advance().unwrap();
-        }
-        for (period, expected) in expected.iter().enumerate() {
-            assert_eq!(held.period(period), expected);
-        }
-        assert!(held.with_period(&vec![0.0; Held::MOST]).is_none());
     }
 }

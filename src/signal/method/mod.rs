@@ -12,14 +12,14 @@
 //! The first two need no closed form, and serve contacts that open as well.
 
 mod certified;
-mod clock;
+pub mod clock;
 mod compiled;
 mod doubles;
 mod echo_sums;
 mod error;
 mod march_system;
 mod marched;
-mod marched_response;
+pub mod marched_response;
 mod marched_waves;
 mod printed;
 mod summed;

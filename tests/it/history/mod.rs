@@ -2,13 +2,22 @@
 //! event, and a numerical method that shares nothing with what is tested.
 
 mod characteristics;
+mod closed_form;
+mod crossing;
 mod energies;
+mod load;
 mod locks;
+mod order;
 mod page;
+mod passivity;
 mod phases;
+mod positive;
 mod refusals;
+mod series;
 mod springs;
+mod squares;
 mod stiff;
+mod track;
 mod validity;
 
 use crate::support::mirror::mirrored;

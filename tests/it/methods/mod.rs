@@ -7,16 +7,22 @@
 mod c_export;
 mod certified;
 mod chooser;
+mod clock;
 mod compiled;
 mod contacts;
+mod held;
 mod inclusion;
 mod marched;
 mod marched_waves;
+mod memory;
+mod modular;
 mod precision;
 mod response;
+mod simplest;
 mod stable;
 mod subject;
 mod tally;
+mod taylor;
 mod times;
 
 use num_bigint::BigInt;

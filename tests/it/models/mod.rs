@@ -1,10 +1,14 @@
 //! Cheaper models against the exact solution: how their errors fall, and what they refuse.
 
 mod cheap;
+mod collocation;
+mod course;
 mod leapfrog;
 mod modes;
 mod refusals;
+mod shape;
 mod steps;
+mod track;
 
 use num_rational::BigRational;
 use num_traits::ToPrimitive;

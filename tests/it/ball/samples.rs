@@ -6,13 +6,10 @@ use num_bigint::{BigInt, BigUint, Sign};
 use num_rational::BigRational;
 use num_traits::One;
 use proptest::prelude::*;
-
-use super::ball::Ball;
-use super::binary::Binary;
-use super::magnitude::Magnitude;
+use wavestep::ball::{Ball, Binary, Magnitude};
 
 /// Integers of up to `bytes` bytes; short ones and powers of two are frequent.
-pub(super) fn integer(bytes: usize) -> impl Strategy<Value = BigInt> {
+pub fn integer(bytes: usize) -> impl Strategy<Value = BigInt> {
     let any_length = prop::collection::vec(any::<u8>(), 0..=bytes);
     prop_oneof![
         4 => (any::<bool>(), any_length).prop_map(|(negative, bytes)| {
@@ -24,12 +21,12 @@ pub(super) fn integer(bytes: usize) -> impl Strategy<Value = BigInt> {
 }
 
 /// Rationals whose terms have up to `bytes` bytes.
-pub(super) fn rational(bytes: usize) -> impl Strategy<Value = BigRational> {
+pub fn rational(bytes: usize) -> impl Strategy<Value = BigRational> {
     let denominator = integer(bytes).prop_filter("not zero", |value| value != &BigInt::ZERO);
     (integer(bytes), denominator).prop_map(|(above, below)| BigRational::new(above, below))
 }
 
-pub(super) fn magnitude() -> impl Strategy<Value = Magnitude> {
+pub fn magnitude() -> impl Strategy<Value = Magnitude> {
     prop_oneof![
         1 => Just(Magnitude::ZERO),
         6 => (any::<u32>(), -200_i64..100)
@@ -38,7 +35,7 @@ pub(super) fn magnitude() -> impl Strategy<Value = Magnitude> {
 }
 
 /// A ball and one of its points; a third of the points are ends.
-pub(super) fn ball_and_point() -> impl Strategy<Value = (Ball, BigRational)> {
+pub fn ball_and_point() -> impl Strategy<Value = (Ball, BigRational)> {
     let share = prop_oneof![Just(-256), Just(256), -256_i64..=256, -256_i64..=256];
     (integer(24), -220_i64..60, magnitude(), share).prop_map(
         |(mantissa, exponent, radius, share)| {
@@ -51,7 +48,7 @@ pub(super) fn ball_and_point() -> impl Strategy<Value = (Ball, BigRational)> {
 }
 
 /// An enclosure of a function's value at `x` from another library's value of `bits` bits.
-pub(super) fn second_opinion(
+pub fn second_opinion(
     x: &Binary,
     bits: usize,
     function: impl Fn(&BigFloat, &mut Consts) -> BigFloat,
@@ -72,7 +69,7 @@ pub(super) fn second_opinion(
 }
 
 /// Whether all of `inner` lies in `outer`.
-pub(super) fn includes(outer: &Ball, inner: &Ball) -> bool {
+pub fn includes(outer: &Ball, inner: &Ball) -> bool {
     let distance = outer.midpoint().add(&inner.midpoint().clone().negate());
     let distance = if distance.is_negative() { distance.negate() } else { distance };
     distance.add(&inner.radius().to_binary()) <= outer.radius().to_binary()

@@ -1,0 +1,4 @@
+//! Formulas as text: lines and oscillations.
+
+mod lines;
+mod oscillation;

@@ -1,0 +1,190 @@
+//! Errors in the states of a node and how they die out.
+
+use proptest::prelude::*;
+use wavestep::ball::{Magnitude, Number};
+use wavestep::enclosure::Numbers;
+use wavestep::history::passivity::{Passivity, StateError};
+use wavestep::history::series::{CellNorm, Series, Truncation};
+use wavestep::language::{Source, read_scene};
+use wavestep::network::{Contacts, Layout, Network, Node, System};
+use wavestep_polynomial::Rational;
+
+/// The node of two masses, one of them on the ground, with springs, dampers and two bars.
+fn with_node<T>(what: impl Fn(&Node<Number>, &System<Number>, &Truncation) -> T) -> T {
+    let text = "scene \"A\"\nbar a { impedance = 1, travel = 1 }\nmass m { mass = 1/2, velocity = 1 }\n\
+                support s { stiffness = 3, damping = 1/5 }\nspring k { stiffness = 7 }\n\
+                mass p { mass = 2 }\nbar b { impedance = 3, travel = 2 }\n\
+                line free - a - m - s - k - p - b - free\nobserve v = velocity(m)";
+    let scene = read_scene(&Source::new("scene", text).unwrap(), &Default::default()).unwrap();
+    let network = Network::new(&scene).unwrap();
+    let layout = Layout::of(network.scene(), network.model(), Contacts::Links);
+    let numbers = Numbers::new(&[]);
+    let node = layout.nodes.iter().find(|node| node.elements.len() == 4).unwrap();
+    let node = node.map(|value| numbers.number(value, 128)).unwrap();
+    let system = System::of(&node, |_| true, 128).unwrap();
+    let rate = Passivity::of(&node, &system).unwrap().rate();
+    what(&node, &system, &Truncation::new(128, rate.top().unwrap()))
+}
+
+fn rational(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(numerator.into(), denominator.into())
+}
+
+fn cell(length: &Rational, cut: &Truncation) -> CellNorm {
+    CellNorm::new(Magnitude::from_rational(length), cut)
+}
+
+#[test]
+fn a_damped_node_forgets() {
+    with_node(|node, system, _| {
+        let passivity = Passivity::of(node, system).unwrap();
+        let [block] = &passivity.blocks[..] else { panic!("one block") };
+        assert_eq!(block.members, [0, 1, 2, 3]);
+        let (_, left) = block.decay.expect("bars take energy up");
+        assert!(left <= Magnitude::power_of_two(-1));
+        let error = StateError::new(Magnitude::from_u64(1));
+        let later = error.after(&Number::integer(40), &Magnitude::ZERO, block).size();
+        assert!(later < Magnitude::power_of_two(-3), "{}", later.to_double());
+    });
+}
+
+/// What is left of a state without inputs never exceeds what its size has been taken to die out to.
+#[test]
+fn a_state_dies_out_no_slower_than_told() {
+    with_node(|node, system, cut| {
+        let passivity = Passivity::of(node, system).unwrap();
+        let block = &passivity.blocks[0];
+        let still = [Series::zero(), Series::zero()];
+        let length = rational(1, 4);
+        let norm = cell(&length, cut);
+        let length = Number::Exact(length);
+        let mut state: Vec<Number> = [1, -2, 3, 1].map(Number::integer).to_vec();
+        let mut told = StateError::new(block.size(state.iter().map(Number::magnitude)));
+        let mut errors = passivity.errors(&state);
+        for step in 0..160 {
+            let motion = system.solve(&passivity, (&state, &errors), &still, (&norm, cut));
+            (state, errors) = system.ended(&passivity, &motion, &errors, &length, cut);
+            told = told.after(&length, &Magnitude::ZERO, block);
+            let size = block.size(state.iter().map(Number::magnitude)).to_double();
+            assert!(size <= told.size().to_double() * (1.0 + 1e-8), "{step}: {size} {told:?}");
+        }
+        assert!(told.size() < Magnitude::power_of_two(-8), "{told:?}");
+    });
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// On a cell that is much longer than the free motion lasts, the forced motion and its bound are true of the
+    /// motion as many short cells tell it.
+    #[test]
+    fn long_cells_enclose_short_ones(
+        start in prop::collection::vec(-4_i64..5, 4), inputs in prop::collection::vec(-9_i64..10, 10),
+        kept in 1_usize..6,
+    ) {
+        with_node(|node, system, cut| {
+            let passivity = Passivity::of(node, system).unwrap();
+            let bits = cut.bits;
+            let (long, steps) = (rational(16, 1), 64);
+            let (norm, short) = (cell(&long, cut), cell(&rational(16, steps), cut));
+            prop_assert!(passivity.blocks[0].is_stiff(&norm.length) && passivity.blocks[0].forgets());
+            let start: Vec<Number> = start.iter().map(|value| Number::Exact(rational(*value, 3))).collect();
+            let coefficient = |(k, c): (usize, &i64)| Number::Exact(rational(*c, 7 << (3 * k)));
+            let exact = [&inputs[..5], &inputs[5..]].map(|own| {
+                Series::new(own.iter().enumerate().map(coefficient).collect(), Magnitude::ZERO)
+            });
+            // What is left out of an input is in its bound.
+            let known = exact.each_ref().map(|own| {
+                let sizes = own.coefficients.iter().enumerate().map(|(k, c)| match k < kept {
+                    true => Magnitude::ZERO,
+                    false => c.magnitude(),
+                });
+                let left = norm.of_sizes(&sizes.collect::<Vec<_>>());
+                Series::new(own.coefficients.iter().take(kept).cloned().collect(), left)
+            });
+            let errors = passivity.errors(&start);
+            let told = system.solve(&passivity, (&start, &errors), &known, (&norm, cut));
+            let (mut state, mut errors) = (start, errors);
+            let step = Number::Exact(rational(16, steps));
+            for count in 0..=steps {
+                let x = Number::Exact(rational(16 * count, steps));
+                for (told, state) in told.state.iter().zip(&state) {
+                    let off = told.value(&x, cut).subtract(state, bits).ball(bits);
+                    prop_assert!(off.contains_zero(), "at {count}: {off}");
+                }
+                let shifted = exact.each_ref().map(|own| own.shift(&x, cut));
+                let motion = system.solve(&passivity, (&state, &errors), &shifted, (&short, cut));
+                (state, errors) = system.ended(&passivity, &motion, &errors, &step, cut);
+            }
+            Ok(())
+        })?;
+    }
+}
+
+proptest! {
+    /// What is known of a state with an error is true of every state within that error: it is moved by
+    /// all of it at the start, by all of what inputs leave out, and by what few terms leave out themselves.
+    #[test]
+    fn errors_are_bounded(
+        moved in prop::collection::vec(-4_i64..5, 4), inputs in prop::collection::vec(-9_i64..10, 10),
+        lengths in prop::collection::vec(1_i64..9, 1..6), kept in 1_usize..4, order in 2_usize..9,
+    ) {
+        with_node(|node, system, cut| {
+            let passivity = Passivity::of(node, system).unwrap();
+            let block = &passivity.blocks[0];
+            let bits = cut.bits;
+            let few = Truncation { order, ..*cut };
+            let start: Vec<Number> = (1..5).map(|i| Number::Exact(rational(i, 3))).collect();
+            let mut other: Vec<Number> = start.iter().zip(&moved)
+                .map(|(value, by)| value.add(&Number::Exact(rational(*by, 1000)), bits))
+                .collect();
+            let error = block.size(moved.iter()
+                .map(|by| Magnitude::from_rational(&rational(by.abs(), 1000))));
+            let mut state: Vec<Number> = start.iter().enumerate()
+                .map(|(i, value)| value.widened(&block.entry(i, &error), bits))
+                .collect();
+            let mut errors = vec![StateError::new(error)];
+            let mut exact = passivity.errors(&other);
+            for length in &lengths {
+                let length = rational(*length, 40);
+                let norm = cell(&length, cut);
+                let series = |from: usize| {
+                    let all = inputs[from..from + 5].iter().map(|c| Number::Exact(rational(*c, 7)));
+                    Series::new(all.collect(), Magnitude::ZERO)
+                };
+                let whole = [series(0), series(5)];
+                let short = whole.each_ref().map(|own| {
+                    let left = own.coefficients.iter().enumerate().map(|(k, c)| match k < kept {
+                        true => Magnitude::ZERO,
+                        false => c.magnitude(),
+                    });
+                    let left = norm.of_sizes(&left.collect::<Vec<_>>());
+                    Series::new(own.coefficients.iter().take(kept).cloned().collect(), left)
+                });
+                let wide = (&state[..], &errors[..]);
+                let wide = system.solve(&passivity, wide, &short, (&norm, &few));
+                let narrow = (&other[..], &exact[..]);
+                let narrow = system.solve(&passivity, narrow, &whole, (&norm, cut));
+                for part in 0..9 {
+                    let x = Number::Exact(&length * rational(part, 8));
+                    let outputs = wide.velocities.iter().chain(&wide.state);
+                    for (a, b) in outputs.zip(narrow.velocities.iter().chain(&narrow.state)) {
+                        let mut pair = [a.clone(), b.clone()];
+                        for order in 0..3 {
+                            let [wide, narrow] = pair.each_ref().map(|own| own.value(&x, cut));
+                            let off = wide.subtract(&narrow, bits).ball(bits);
+                            assert!(off.contains_zero(), "order {order}: {off}");
+                            pair = pair.map(|own| own.derivative(cut));
+                        }
+                    }
+                }
+                let length = Number::Exact(length);
+                (state, errors) = system.ended(&passivity, &wide, &errors, &length, &few);
+                (other, exact) = system.ended(&passivity, &narrow, &exact, &length, cut);
+                for (wide, narrow) in state.iter().zip(&other) {
+                    assert!(wide.subtract(narrow, bits).ball(bits).contains_zero());
+                }
+            }
+        });
+    }
+}
