@@ -1,7 +1,7 @@
 //! The exponential function against another library and at special arguments.
 
 use super::samples::{self, includes};
-use astro_float::RoundingMode;
+use astro_float_num::RoundingMode;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One as _;

@@ -1,7 +1,7 @@
 //! Logarithms, arctangents and powers against another library.
 
 use super::samples::{self, includes};
-use astro_float::RoundingMode;
+use astro_float_num::RoundingMode;
 use num_rational::BigRational;
 use num_traits::Signed as _;
 use proptest::prelude::*;

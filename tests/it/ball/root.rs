@@ -1,7 +1,7 @@
 //! Square roots.
 
 use super::samples::{self, includes};
-use astro_float::RoundingMode;
+use astro_float_num::RoundingMode;
 use num_rational::BigRational;
 use num_traits::{Signed as _, Zero as _};
 use proptest::prelude::*;

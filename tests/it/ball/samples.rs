@@ -1,7 +1,7 @@
 //! Random operands for the tests of this folder: balls, and a point of each, now and then an end;
 //! and the values of another library.
 
-use astro_float::{BigFloat, Consts};
+use astro_float_num::{BigFloat, Consts};
 use num_bigint::{BigInt, BigUint, Sign};
 use num_rational::BigRational;
 use num_traits::One;
@@ -54,7 +54,8 @@ pub fn second_opinion(
     function: impl Fn(&BigFloat, &mut Consts) -> BigFloat,
 ) -> Ball {
     let digits: Vec<u64> = x.mantissa().iter_u64_digits().collect();
-    let sign = if x.is_negative() { astro_float::Sign::Neg } else { astro_float::Sign::Pos };
+    let sign =
+        if x.is_negative() { astro_float_num::Sign::Neg } else { astro_float_num::Sign::Pos };
     let mut argument = BigFloat::from_words(&digits, sign, 0);
     // The library's numbers are 0.m·2^e with the first bit of m set.
     argument.set_exponent(x.top().unwrap_or(0) as i32);
@@ -62,7 +63,7 @@ pub fn second_opinion(
     let (words, _, sign, exponent, _) = value.as_raw_parts().unwrap();
     let digits = words.iter().flat_map(|word| [*word as u32, (*word >> 32) as u32]).collect();
     let unit = i64::from(exponent) - 64 * words.len() as i64;
-    let sign = if sign == astro_float::Sign::Neg { Sign::Minus } else { Sign::Plus };
+    let sign = if sign == astro_float_num::Sign::Neg { Sign::Minus } else { Sign::Plus };
     let midpoint = Binary::new(BigInt::from_biguint(sign, BigUint::new(digits)), unit);
     let radius = midpoint.magnitude().scale(2 - bits as i64);
     Ball::new(midpoint, radius)

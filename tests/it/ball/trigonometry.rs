@@ -1,7 +1,7 @@
 //! Sine, cosine and π against another library.
 
 use super::samples::{self, includes};
-use astro_float::RoundingMode;
+use astro_float_num::RoundingMode;
 use num_rational::BigRational;
 use num_traits::{FromPrimitive as _, One as _};
 use proptest::prelude::*;

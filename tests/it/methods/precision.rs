@@ -4,7 +4,7 @@
 use crate::methods::subject::with;
 use crate::methods::tally::ends;
 use crate::methods::{Values, exact, mass_ratio, random, ratio, times};
-use astro_float::{BigFloat, Consts, RoundingMode, Sign as FloatSign};
+use astro_float_num::{BigFloat, Consts, RoundingMode, Sign as FloatSign};
 use num_bigint::{BigInt, BigUint, Sign};
 use num_rational::BigRational;
 use num_traits::{One as _, Signed as _, Zero as _};
@@ -158,7 +158,13 @@ const NEAREST: RoundingMode = RoundingMode::ToEven;
 
 fn float(value: &BigRational, constants: &mut Consts) -> BigFloat {
     let mut whole = |value: &BigInt| {
-        BigFloat::parse(&value.to_string(), astro_float::Radix::Dec, FLOAT_BITS, NEAREST, constants)
+        BigFloat::parse(
+            &value.to_string(),
+            astro_float_num::Radix::Dec,
+            FLOAT_BITS,
+            NEAREST,
+            constants,
+        )
     };
     let (above, below) = (whole(value.numer()), whole(value.denom()));
     above.div(&below, FLOAT_BITS, NEAREST)

@@ -1,8 +1,10 @@
 //! Waves in 384 bits, from the sum of their echoes: no march, no Chebyshev series, and no code or author
 //! shared with the numbers under test.
 
-use astro_float::{BigFloat, Consts, RoundingMode, Sign};
+use astro_float_num::{BigFloat, Consts, RoundingMode, Sign};
 use std::cell::RefCell;
+use std::iter::successors;
+use std::sync::LazyLock;
 use wavestep_kernels::echoes::Family;
 
 const BITS: usize = 384;
@@ -48,15 +50,21 @@ pub fn error(exact: &BigFloat, value: f64) -> f64 {
     if value.is_finite() { to_double(&subtract(&big(value), exact)).abs() } else { f64::INFINITY }
 }
 
+/// `1/j` for `0 < j ≤ 2001`.
+fn inverse(j: usize) -> &'static BigFloat {
+    static INVERSES: LazyLock<Vec<BigFloat>> =
+        LazyLock::new(|| (0..2002).map(|j| divide(&big(1.0), &big(f64::from(j)))).collect());
+    &INVERSES[j]
+}
+
 /// `q_{j+1}` from `q_j` and `e_j = j (q_j − q_{j−1})`; only Laguerre polynomials need these.
 pub fn next(family: Family, argument: &BigFloat, j: usize, (q, e): &mut (BigFloat, BigFloat)) {
-    let divisor = big((j + 1) as f64);
     match family {
         Family::Laguerre => {
             *e = subtract(e, &multiply(argument, q));
-            *q = add(q, &divide(e, &divisor));
+            *q = add(q, &multiply(e, inverse(j + 1)));
         }
-        Family::Powers => *q = divide(&multiply(q, argument), &divisor),
+        Family::Powers => *q = multiply(&multiply(q, argument), inverse(j + 1)),
     }
 }
 
@@ -69,16 +77,20 @@ pub fn responses(
     periods: usize,
 ) -> Vec<BigFloat> {
     let mut responses = vec![big(0.0); periods];
+    let power = |power: &BigFloat| Some(multiply(power, &big(ratio)));
+    let powers: Vec<BigFloat> = successors(Some(big(1.0)), power).take(periods).collect();
     for shift in 0..periods {
         let time = add(&big(shift as f64), x);
         let argument = multiply(scale, &time);
-        // All times ρ^k e^{−BX}.
+        // All times e^{−BX}.
         let mut state = (exponential(&multiply(rate, &time).neg()), big(0.0));
-        let mut power = big(1.0);
         for k in 0..periods - shift {
-            responses[shift + k] = add(&responses[shift + k], &multiply(&power, &state.0));
+            let response = &mut responses[shift + k];
+            *response = match ratio == 1.0 {
+                true => add(response, &state.0),
+                false => add(response, &multiply(&powers[k], &state.0)),
+            };
             next(family, &argument, k, &mut state);
-            power = multiply(&power, &big(ratio));
         }
     }
     responses

@@ -1,9 +1,12 @@
 //! Waves that are sums of echoes in arbitrary precision. Time is in units of `1/b`.
 
+use crate::fixed::support::Echoes;
 use crate::reference::{
     add, big, divide, exponential, multiply, next, responses, subtract, to_double,
 };
-use astro_float::{BigFloat, RoundingMode};
+use astro_float_num::{BigFloat, RoundingMode};
+use num_rational::BigRational;
+use num_traits::ToPrimitive as _;
 use wavestep_kernels::echoes::Family;
 
 /// The responses `y_0 … y_{n+more}` of a period `D`, with `C = cD`, at the place of a time in its period
@@ -30,6 +33,24 @@ fn at(
 pub fn rigid_mass(period: [f64; 3], time: f64) -> BigFloat {
     let (mut all, n, _) = at((Family::Laguerre, 2.0), period, 1.0, time, 0);
     all.swap_remove(n)
+}
+
+/// `|value − exact|` of the rigid mass at a time, from integers: as exact, in an eighth of the time.
+pub fn error_of_rigid_mass(period: f64, time: f64) -> impl Fn(f64) -> f64 {
+    let [period, time] =
+        [period, time].map(|double| BigRational::from_float(double).expect("a number"));
+    let periods = time / &period;
+    let n = periods.floor().to_integer().to_u32().expect("a period");
+    let one = || BigRational::from_integer(1.into());
+    let echoes = Echoes::new(period, one(), one(), one());
+    let bits = echoes.bits(n + 1);
+    let exact = echoes.solution(&periods.fract(), n + 1).swap_remove(n as usize);
+    move |value| {
+        let Some(value) = BigRational::from_float(value) else { return f64::INFINITY };
+        let off = (value.numer() << bits) / value.denom() - &exact;
+        // All but 192 bits of the fraction are cut off.
+        (off >> (bits - 192)).to_f64().map_or(f64::INFINITY, f64::abs) * 2f64.powi(-192)
+    }
 }
 
 /// The pulse: `φ_0 = 1 − e^{−x}`, `φ_k = e^{−x} (L_{k−1}(x) − L_k(x))`: together `1 + y_{n−1} − y_n`.

@@ -56,7 +56,7 @@ impl Echoes {
     }
 
     /// `Y((n + part) D)` for n below a count of periods, in units of `2^−bits`; the sum is over
-    /// the echoes to the n-th.
+    /// the echoes to the n-th, with `(k + 1)(L_{k+1} − L_k) = k (L_k − L_{k−1}) − X L_k`.
     pub fn solution(&self, part: &BigRational, periods: u32) -> Vec<BigInt> {
         let bits = self.bits(periods);
         let faded = |time: &BigRational| exponential(&(time * &self.rate), bits);
@@ -65,18 +65,15 @@ impl Echoes {
         for late in 0..periods {
             // The echoes k that are x = (part + late) D old, in period n = k + late.
             let place = (&self.rate + &self.zero) * &self.period * (part + integer(late.into()));
-            let (numerator, denominator) = (place.numer(), place.denom());
-            let (mut before, mut echo) = (BigInt::zero(), fading.clone());
-            let mut factor = BigRational::one();
+            // ρ^k times the k-th echo, and k times what it has more than ρ times the one before.
+            let (mut echo, mut rise) = (fading.clone(), BigInt::zero());
             for k in 0..periods - late {
-                sums[(k + late) as usize] += match self.reflection.is_one() {
-                    true => echo.clone(),
-                    false => (&echo * factor.numer()).div_floor(factor.denom()),
-                };
-                let next =
-                    (denominator * (2 * k + 1) - numerator) * &echo - denominator * k * &before;
-                before = std::mem::replace(&mut echo, next.div_floor(&(denominator * (k + 1))));
-                factor *= &self.reflection;
+                sums[(k + late) as usize] += &echo;
+                rise -= times(&echo, &place);
+                if !self.reflection.is_one() {
+                    (rise, echo) = (times(&rise, &self.reflection), times(&echo, &self.reflection));
+                }
+                echo += &rise / (k + 1);
             }
             fading = (fading * &step) >> bits;
         }
@@ -85,12 +82,16 @@ impl Echoes {
 
     /// The error of a value, in units of `2^−112`.
     pub fn error(&self, value: &FixedValue, exact: &BigInt, bits: u64) -> f64 {
-        let difference =
-            (BigInt::from(value.midpoint) << (bits - u64::from(FRACTION_BITS))) - exact;
-        BigRational::new(difference.abs(), BigInt::one() << (bits - u64::from(FRACTION_BITS)))
-            .to_f64()
-            .unwrap()
+        let unit = bits - u64::from(FRACTION_BITS);
+        let difference = ((BigInt::from(value.midpoint) << unit) - exact).abs();
+        // All but 64 bits of the fraction are cut off.
+        ((difference << 64_u32) >> unit).to_f64().unwrap() / 2f64.powi(64)
     }
+}
+
+/// `⌊value·by⌋`.
+fn times(value: &BigInt, by: &BigRational) -> BigInt {
+    (value * by.numer()).div_floor(by.denom())
 }
 
 /// `e^(−x)` for a rational `x ≥ 0`, in units of `2^−bits`: Taylor's series after halvings.

@@ -1,7 +1,7 @@
 //! The wave of a reflection in arbitrary precision.
 
 use crate::reference::{add, big, error, responses};
-use astro_float::BigFloat;
+use astro_float_num::BigFloat;
 use wavestep_kernels::echoes::Family;
 
 /// The true wave at one local time on every period.
