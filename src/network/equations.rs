@@ -53,7 +53,8 @@ pub struct Network {
     pub(super) derived: OnceLock<Result<Recurrence, NetworkError>>,
     /// The bars with their waves, once fields were asked for.
     pub(super) fields: OnceLock<Result<Box<FieldBars>, NetworkError>>,
-    pub(crate) assumed: Assumed,
+    /// What is taken for granted of the scene.
+    pub assumed: Assumed,
 }
 
 /// What is taken for granted of a scene because no precision decides it, in words; shared by all copies of its

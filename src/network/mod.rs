@@ -34,8 +34,8 @@ mod system;
 mod unfold;
 
 pub use delay::Lattice;
-pub(crate) use equations::{FieldBars, WaveRole};
 pub use equations::{Assumed, Network, Role};
+pub(crate) use equations::{FieldBars, WaveRole};
 pub use error::NetworkError;
 pub(crate) use laws::{Law, Rule};
 pub use layout::{Contact, Contacts, Layout};

@@ -173,7 +173,7 @@ fn extrema_are_those_of_dense_samples() {
         let last = parse_number(last).unwrap();
         let signal = signal(&network, name, &last);
         let search = Search::new(&*signal).unwrap();
-        let extremum = |goal| search.extremum(goal, 12, 1 << 12).unwrap().value.to_f64();
+        let extremum = |goal| search.extremum(goal, 12, 1 << 9).unwrap().value.to_f64();
         let (most, least) = (extremum(Goal::Largest), extremum(Goal::Smallest));
         let samples: Vec<f64> = (0..=400)
             .map(|n| derivative(&*signal, 0, &(&last * rational(n, 400))).to_double().0)

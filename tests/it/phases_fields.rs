@@ -98,7 +98,7 @@ fn observed(
     let window = [times.iter().min().unwrap(), times.iter().max().unwrap()];
     let observed = &network.observables()[0];
     let signal = of_scene(&network, observed, window, Purpose::Values).unwrap();
-    let told = |time| value(&*signal, time, Limit::Right, 18, 1 << 18).unwrap();
+    let told = |time| value(&*signal, time, Limit::Right, 18, 1 << 12).unwrap();
     times.iter().map(|time| double(&told(time))).collect()
 }
 

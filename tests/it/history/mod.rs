@@ -82,7 +82,7 @@ fn values(
 ) -> Vec<Value> {
     let window = [times.iter().min().unwrap(), times.iter().max().unwrap()];
     let signal = signal(network, name, window, Purpose::Values).unwrap();
-    times.iter().map(|time| value(&*signal, time, limit, digits, 1 << 18).unwrap()).collect()
+    times.iter().map(|time| value(&*signal, time, limit, digits, 1 << 14).unwrap()).collect()
 }
 
 fn ball(value: &Value) -> Ball {

@@ -1,6 +1,7 @@
 //! Errors in the states of a node and how they die out.
 
 use proptest::prelude::*;
+use std::sync::LazyLock;
 use wavestep::ball::{Magnitude, Number};
 use wavestep::enclosure::Numbers;
 use wavestep::history::passivity::{Passivity, StateError};
@@ -10,7 +11,7 @@ use wavestep::network::{Contacts, Layout, Network, Node, System};
 use wavestep_polynomial::Rational;
 
 /// The node of two masses, one of them on the ground, with springs, dampers and two bars.
-fn with_node<T>(what: impl Fn(&Node<Number>, &System<Number>, &Truncation) -> T) -> T {
+static NODE: LazyLock<(Node<Number>, System<Number>, Truncation)> = LazyLock::new(|| {
     let text = "scene \"A\"\nbar a { impedance = 1, travel = 1 }\nmass m { mass = 1/2, velocity = 1 }\n\
                 support s { stiffness = 3, damping = 1/5 }\nspring k { stiffness = 7 }\n\
                 mass p { mass = 2 }\nbar b { impedance = 3, travel = 2 }\n\
@@ -23,7 +24,12 @@ fn with_node<T>(what: impl Fn(&Node<Number>, &System<Number>, &Truncation) -> T)
     let node = node.map(|value| numbers.number(value, 128)).unwrap();
     let system = System::of(&node, |_| true, 128).unwrap();
     let rate = Passivity::of(&node, &system).unwrap().rate();
-    what(&node, &system, &Truncation::new(128, rate.top().unwrap()))
+    (node, system, Truncation::new(128, rate.top().unwrap()))
+});
+
+fn with_node<T>(what: impl Fn(&Node<Number>, &System<Number>, &Truncation) -> T) -> T {
+    let (node, system, cut) = &*NODE;
+    what(node, system, cut)
 }
 
 fn rational(numerator: i64, denominator: i64) -> Rational {
@@ -165,17 +171,18 @@ proptest! {
                 let wide = system.solve(&passivity, wide, &short, (&norm, &few));
                 let narrow = (&other[..], &exact[..]);
                 let narrow = system.solve(&passivity, narrow, &whole, (&norm, cut));
-                for part in 0..9 {
-                    let x = Number::Exact(&length * rational(part, 8));
-                    let outputs = wide.velocities.iter().chain(&wide.state);
-                    for (a, b) in outputs.zip(narrow.velocities.iter().chain(&narrow.state)) {
-                        let mut pair = [a.clone(), b.clone()];
-                        for order in 0..3 {
-                            let [wide, narrow] = pair.each_ref().map(|own| own.value(&x, cut));
+                let places: Vec<Number> =
+                    (0..9).map(|part| Number::Exact(&length * rational(part, 8))).collect();
+                let outputs = wide.velocities.iter().chain(&wide.state);
+                for (a, b) in outputs.zip(narrow.velocities.iter().chain(&narrow.state)) {
+                    let mut pair = [a.clone(), b.clone()];
+                    for order in 0..3 {
+                        for x in &places {
+                            let [wide, narrow] = pair.each_ref().map(|own| own.value(x, cut));
                             let off = wide.subtract(&narrow, bits).ball(bits);
                             assert!(off.contains_zero(), "order {order}: {off}");
-                            pair = pair.map(|own| own.derivative(cut));
                         }
+                        pair = pair.map(|own| own.derivative(cut));
                     }
                 }
                 let length = Number::Exact(length);

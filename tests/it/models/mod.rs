@@ -49,7 +49,7 @@ fn exact(network: &Network, observable: usize, times: &[BigRational]) -> Vec<f64
     let signal = ClosedSignal::of_scene(network, &network.observables()[observable], window);
     let signal = signal.expect("a window").echo_by_echo();
     let value = |time: &BigRational| {
-        let value = digits(&signal, time, Limit::Right, 17, 1 << 13);
+        let value = digits(&signal, time, Limit::Right, 17, 1 << 10);
         let value = value.unwrap_or_else(|error| panic!("{error}"));
         value.decimal(17).0.to_string().parse().expect("a number")
     };

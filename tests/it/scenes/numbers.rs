@@ -22,7 +22,7 @@ pub fn assert_as_marched(scene: &Scene, last: &BigRational, count: i64) {
         let mut pairs = Vec::new();
         for k in 0..count {
             let at = last * rational((2 * k + 1) * 9973, 2 * count * 10007);
-            let value = digits(&*signal, &at, Limit::Right, 15, 1 << 13);
+            let value = digits(&*signal, &at, Limit::Right, 15, 1 << 10);
             let value = value.unwrap_or_else(|error| {
                 panic!("{}: {} at {at}: {error}", scene.title, observed.name)
             });

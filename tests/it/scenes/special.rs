@@ -373,7 +373,7 @@ fn assert_same_numbers(one: &Network, other: &Network, last: &BigRational) {
         for k in 1..4 {
             let at = last * rational(k * 997, 4 * 1009);
             let [first, second] = signals.each_ref().map(|signal| {
-                let value = digits(&**signal, &at, Limit::Right, 20, 1 << 13);
+                let value = digits(&**signal, &at, Limit::Right, 20, 1 << 10);
                 value.unwrap_or_else(|error| panic!("{error}")).decimal(20).0.to_string()
             });
             assert_eq!(first, second, "{}: {} at {at}", one.scene().title, own.name);
@@ -400,7 +400,7 @@ fn energy_that_nothing_takes_stays() {
         let window = [&BigRational::default(), &last];
         let signal = of_scene(&network, energy, window, Purpose::Values).expect("a window");
         let value = |at: BigRational| {
-            let value = digits(&*signal, &at, Limit::Right, 30, 1 << 13);
+            let value = digits(&*signal, &at, Limit::Right, 30, 1 << 10);
             value.unwrap_or_else(|error| panic!("{error}")).decimal(30).0.to_string()
         };
         let start = value(rational(0, 1));

@@ -200,7 +200,7 @@ fn rates_of_second_order_in_units_are_told() {
     let network = network_of(&scene_of(&text, &[]));
     let last = rational(1, 1000);
     let signal = ClosedSignal::of_scene(&network, &network.observables()[0], [&last, &last]);
-    match digits(&signal.expect("a window"), &last, Limit::Right, 15, 1 << 13) {
+    match digits(&signal.expect("a window"), &last, Limit::Right, 15, 1 << 10) {
         Ok(_) => assert_as_marched(&scene_of(&text, &[]), &rational(2, 1000), 9),
         Err(EvaluateError::Network(error)) => {
             assert!(error.to_string().contains("rates"), "{error}");
