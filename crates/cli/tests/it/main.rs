@@ -7,6 +7,7 @@ mod command;
 mod dispersion;
 mod documents;
 mod events;
+mod extremes;
 mod find;
 mod json;
 mod local_contact;
