@@ -148,7 +148,7 @@ impl Section {
     }
 
     /// Reads a section; the first line that is not of the form of `sections/` is refused.
-    pub(super) fn read(text: &str) -> Result<Section, Refusal> {
+    pub fn read(text: &str) -> Result<Section, Refusal> {
         let mut section = Section::default();
         for line in logical_lines(text) {
             match line.strip_prefix("  ") {
@@ -259,31 +259,4 @@ fn logical_lines(text: &str) -> Vec<String> {
         }
     }
     lines
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn mistakes_in_sections_are_refused() {
-        for text in [
-            "  reads f[n] = 1",
-            "chapter 6",
-            "6.1 One.\n  proves f[n] = 1",
-            "6.1 One.\n  reads f[n]",
-            "6.1 One.\n  reads f[n] = 1 +",
-            "6.1 One.\n  or f[n] = 1",
-            "values mu = x",
-        ] {
-            assert!(Section::read(text).is_err(), "{text}");
-        }
-        let section = Section::read("section 6.0 None\n6.1 One\n    thing.\n  note It is\n    so.");
-        let section = section.expect("a section");
-        let entry = &section.entries[0];
-        assert_eq!(
-            (entry.states.as_str(), entry.note.as_deref()),
-            ("One thing.", Some("It is so."))
-        );
-    }
 }

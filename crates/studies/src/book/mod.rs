@@ -6,14 +6,17 @@
 //! the waves in it; from there on the scene is derived by its parts, and nothing of the source's own
 //! derivation is used. What stands in no file is the verdict: [`examine`] computes it.
 
-mod checks;
+#[doc(hidden)]
+pub mod checks;
 mod entry;
 mod examine;
 mod judge;
-mod latex;
+#[doc(hidden)]
+pub mod latex;
 mod meaning;
 mod refusal;
-mod sequence;
+#[doc(hidden)]
+pub mod sequence;
 mod show;
 mod stage;
 mod table;

@@ -10,7 +10,7 @@ use wavestep_polynomial::{Rational, Symbol};
 /// - the ratios `λ_i` are different, the coefficients not zero. Powers of different ratios are linearly
 ///   independent over the rational functions of n, so equal sequences have the same terms.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Sequence {
+pub struct Sequence {
     terms: Vec<(Expression, Expression)>,
 }
 
@@ -30,7 +30,7 @@ impl Sequence {
     }
 
     /// `coefficient · ratio^n`.
-    pub(super) fn term(ratio: Expression, coefficient: Expression) -> Sequence {
+    pub fn term(ratio: Expression, coefficient: Expression) -> Sequence {
         let mut sequence = Sequence::default();
         sequence.add(ratio, &coefficient);
         sequence
@@ -44,13 +44,13 @@ impl Sequence {
         self.terms.retain(|(_, coefficient)| !coefficient.is_zero());
     }
 
-    pub(super) fn plus(&self, other: &Sequence) -> Sequence {
+    pub fn plus(&self, other: &Sequence) -> Sequence {
         let mut sum = self.clone();
         other.terms.iter().for_each(|(ratio, value)| sum.add(ratio.clone(), value));
         sum
     }
 
-    pub(super) fn times(&self, other: &Sequence) -> Sequence {
+    pub fn times(&self, other: &Sequence) -> Sequence {
         let mut product = Sequence::default();
         for (left, a) in &self.terms {
             for (right, b) in &other.terms {
@@ -60,7 +60,7 @@ impl Sequence {
         product
     }
 
-    pub(super) fn negated(&self) -> Sequence {
+    pub fn negated(&self) -> Sequence {
         self.times(&Sequence::constant(Expression::integer(-1)))
     }
 
@@ -76,7 +76,7 @@ impl Sequence {
         Some(late)
     }
 
-    pub(super) fn is_zero(&self) -> bool {
+    pub fn is_zero(&self) -> bool {
         self.terms.is_empty()
     }
 
@@ -101,31 +101,11 @@ impl Sequence {
     }
 
     /// The value at n; `None` where a denominator vanishes there.
-    pub(super) fn value(&self, n: u32) -> Option<Expression> {
+    pub fn value(&self, n: u32) -> Option<Expression> {
         let fraction = Fraction::constant(&Rational::from_integer(n.into()));
         self.terms.iter().try_fold(Expression::zero(), |sum, (ratio, coefficient)| {
             let coefficient = coefficient.substitute(&period_number(), &fraction).ok()?;
             Some(&sum + &(&coefficient * &ratio.pow(n)))
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sequences_are_equal_when_their_terms_are() {
-        let [n, x] = ["n", "x"].map(|name| Expression::symbol(&Symbol::new(name).expect("a name")));
-        let one = Sequence::term(x.clone(), n.clone());
-        let two = Sequence::term(x.clone(), &n + &Expression::one());
-        let difference = one.plus(&two.negated());
-        assert!(!difference.is_zero());
-        assert!(difference.plus(&Sequence::term(x.clone(), Expression::one())).is_zero());
-        assert_eq!(two.value(3), Some(x.pow(3).scale(&Rational::from_integer(4.into()))));
-        assert_eq!(
-            one.times(&two).value(2),
-            Some(x.pow(4).scale(&Rational::from_integer(6.into())))
-        );
     }
 }

@@ -8,7 +8,8 @@ mod dispersion;
 mod largest_strain;
 mod local;
 mod mass;
-mod pulse;
+#[doc(hidden)]
+pub mod pulse;
 mod scene;
 
 pub use largest_strain::LargestStrain;

@@ -25,7 +25,7 @@ pub(super) fn diagram(listed: &Listed) -> Drawn {
 }
 
 /// The part of a curve before it falls through zero, which ends there.
-fn until_zero(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+pub fn until_zero(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let falls = |pair: &[(f64, f64)]| pair[0].1 > 0.0 && pair[1].1 <= 0.0;
     let Some(at) = points.windows(2).position(falls) else { return points.to_vec() };
     let [(t, x), (later, beyond)] = [points[at], points[at + 1]];
@@ -56,16 +56,4 @@ pub(super) fn shapes(listed: &Listed) -> Drawn {
     ];
     let time = Axis::linear("time t k (1/Z1 + 1/Z2)");
     Ok(Box::new(listed.figure(time, vec![panel], &remarks)?))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::until_zero;
-
-    #[test]
-    fn curves_end_where_they_fall_through_zero() {
-        let points = [(0.0, 0.0), (1.0, 2.0), (2.0, -2.0), (3.0, 1.0)];
-        assert_eq!(until_zero(&points), [(0.0, 0.0), (1.0, 2.0), (1.5, 0.0)]);
-        assert_eq!(until_zero(&points[..2]), points[..2]);
-    }
 }

@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use wavestep::ball::Ball;
 use wavestep_draw::Chart as _;
 use wavestep_polynomial::Rational;
+use wavestep_studies::figures::pulse::until_zero;
 use wavestep_studies::figures::{FIGURES, LargestStrain, find};
 
 pub fn ratio(numerator: i64, denominator: i64) -> Rational {
@@ -460,4 +461,11 @@ fn the_estimate_is_near_the_envelope() {
             "{mass}: {off}"
         );
     }
+}
+
+#[test]
+fn curves_end_where_they_fall_through_zero() {
+    let points = [(0.0, 0.0), (1.0, 2.0), (2.0, -2.0), (3.0, 1.0)];
+    assert_eq!(until_zero(&points), [(0.0, 0.0), (1.0, 2.0), (1.5, 0.0)]);
+    assert_eq!(until_zero(&points[..2]), points[..2]);
 }

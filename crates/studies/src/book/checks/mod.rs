@@ -13,10 +13,10 @@ use wavestep::expression::Expression;
 use wavestep::language::{Source, read_expression};
 
 /// What a check found: its verdict, what is derived, and what was done, in sentences.
-pub(super) struct Checked {
-    pub(super) verdict: Verdict,
-    pub(super) derived: Vec<Formula>,
-    pub(super) steps: Vec<String>,
+pub struct Checked {
+    pub verdict: Verdict,
+    pub derived: Vec<Formula>,
+    pub steps: Vec<String>,
 }
 
 impl Checked {
@@ -27,10 +27,10 @@ impl Checked {
     }
 }
 
-type Check = fn() -> Result<Checked, Refusal>;
+pub type Check = fn() -> Result<Checked, Refusal>;
 
 /// All checks that entries may ask for, by their names.
-const CHECKS: [(&str, Check); 13] = [
+pub const CHECKS: [(&str, Check); 13] = [
     ("equal-bars", estimates::equal_bars),
     ("energy-estimate", estimates::energy_estimate),
     ("better-estimate", estimates::better_estimate),
@@ -46,7 +46,7 @@ const CHECKS: [(&str, Check); 13] = [
     ("peak-of-spectrum", dispersion::peak_of_spectrum),
 ];
 
-pub(super) fn run(name: &str) -> Result<Checked, Refusal> {
+pub fn run(name: &str) -> Result<Checked, Refusal> {
     let check = CHECKS.iter().find(|(own, _)| *own == name);
     check.ok_or_else(|| Refusal::UnknownName(name.to_owned()))?.1()
 }
@@ -56,30 +56,9 @@ fn read(text: &str) -> Result<Expression, Refusal> {
 }
 
 /// An identity of two expressions: the step that states it, where they have one normal form.
-fn identity(left: &str, right: &str) -> Result<String, Refusal> {
+pub fn identity(left: &str, right: &str) -> Result<String, Refusal> {
     match read(left)? == read(right)? {
         true => Ok(format!("{left} = {right}: the same expression in normal form")),
         false => Err(Refusal::Differs(left.to_owned(), right.to_owned())),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn identities_hold_or_are_refused() {
-        assert!(identity("(a + b)^2", "a^2 + 2*a*b + b^2").is_ok());
-        assert!(identity("(a + b)^2", "a^2 + a*b + b^2").is_err());
-        assert!(identity("cos(a) + cos(b)", "2*cos((a + b)/2)*cos((a - b)/2)").is_ok());
-        assert!(identity("cos(a) + cos(b)", "-2*cos((a + b)/2)*cos((a - b)/2)").is_err());
-    }
-
-    #[test]
-    fn every_name_has_its_check() {
-        for (name, check) in CHECKS {
-            assert!(check().is_ok(), "{name}");
-        }
-        assert!(run("nothing").is_err());
     }
 }

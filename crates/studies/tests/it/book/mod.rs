@@ -3,6 +3,7 @@
 //!
 //! With `UPDATE_DOCUMENTS=1` the page `docs/equations.md` is written anew; read it before you keep it.
 
+mod parts;
 mod perturb;
 mod shown;
 mod verdicts;
