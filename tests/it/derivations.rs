@@ -385,68 +385,76 @@ fn poles_made_equal_give_the_confluent_answer() {
 
 // ---- Random recurrences ------------------------------------------------------------------------
 
-fn coefficient() -> impl Strategy<Value = Option<(i64, i64)>> {
-    prop_oneof![3 => Just(None), 2 => (-3..=3i64, 1..=2i64).prop_map(Some)]
+fn coefficient() -> BoxedStrategy<Option<(i64, i64)>> {
+    prop_oneof![3 => Just(None), 2 => (-3..=3i64, 1..=2i64).prop_map(Some)].boxed()
 }
 
 /// One term `p/q*w[n-lag]'`, where the coefficient is not zero.
-fn terms(waves: usize, lags: std::ops::RangeInclusive<usize>) -> impl Strategy<Value = String> {
+fn terms(waves: usize, lags: std::ops::RangeInclusive<usize>) -> BoxedStrategy<String> {
     let lags: Vec<usize> = lags.collect();
     let places: Vec<(usize, usize, &str)> = (0..waves)
         .flat_map(|wave| {
             lags.clone().into_iter().flat_map(move |lag| [(wave, lag, ""), (wave, lag, "'")])
         })
         .collect();
-    prop::collection::vec(coefficient(), places.len()).prop_map(move |coefficients| {
-        let present = places.iter().zip(coefficients);
-        let written = present.filter_map(|((wave, lag, prime), c)| {
-            c.map(|(p, q)| format!(" + ({p}/{q})*{}[n-{lag}]{prime}", ["u", "v"][*wave]))
-        });
-        written.collect()
-    })
+    prop::collection::vec(coefficient(), places.len())
+        .prop_map(move |coefficients| {
+            let present = places.iter().zip(coefficients);
+            let written = present.filter_map(|((wave, lag, prime), c)| {
+                c.map(|(p, q)| format!(" + ({p}/{q})*{}[n-{lag}]{prime}", ["u", "v"][*wave]))
+            });
+            written.collect()
+        })
+        .boxed()
 }
 
-fn forcing() -> impl Strategy<Value = String> {
+fn forcing() -> BoxedStrategy<String> {
     let function = (-2..=2i64, 0..=2u32, -2..=1i64)
         .prop_map(|(c, power, rate)| format!(" + ({c})*t^{power}*exp({rate}*t)"));
-    prop_oneof![Just(String::new()), function]
+    prop_oneof![Just(String::new()), function].boxed()
 }
 
 /// An equation for `wave`: differential or algebraic, mostly with older waves only beside it.
-fn equation(wave: usize, waves: usize) -> impl Strategy<Value = (bool, String)> {
+fn equation(wave: usize, waves: usize) -> BoxedStrategy<(bool, String)> {
     let name = ["u", "v"][wave];
     let own = prop_oneof![
         4 => (-2..=2i64).prop_map(move |a| (true, format!("{name}[n]' + ({a})*{name}[n]"))),
         1 => Just((false, format!("2*{name}[n]"))),
     ];
     let now = prop_oneof![3 => Just(String::new()), 1 => terms(waves, 0..=0)];
-    (own, terms(waves, 1..=2), now, forcing()).prop_map(|((slope, own), past, now, forcing)| {
-        (slope, format!("equation {own} = 0{past}{now}{forcing}\n"))
-    })
+    (own, terms(waves, 1..=2), now, forcing())
+        .prop_map(|((slope, own), past, now, forcing)| {
+            (slope, format!("equation {own} = 0{past}{now}{forcing}\n"))
+        })
+        .boxed()
 }
 
-fn rule(wave: usize, waves: usize) -> impl Strategy<Value = String> {
+fn rule(wave: usize, waves: usize) -> BoxedStrategy<String> {
     let name = ["u", "v"][wave];
-    (terms(waves, 1..=2), -2..=2i64).prop_map(move |(past, start)| {
-        let past = past.replace('\'', "");
-        format!("continuous {name}[n]{past} starts at {start}\n")
-    })
+    (terms(waves, 1..=2), -2..=2i64)
+        .prop_map(move |(past, start)| {
+            let past = past.replace('\'', "");
+            format!("continuous {name}[n]{past} starts at {start}\n")
+        })
+        .boxed()
 }
 
-fn random_recurrence() -> impl Strategy<Value = String> {
+fn random_recurrence() -> BoxedStrategy<String> {
     let one = (equation(0, 1), rule(0, 1)).prop_map(|(e, r)| ("u", vec![(e, r)]));
     let two = (equation(0, 2), rule(0, 2), equation(1, 2), rule(1, 2))
         .prop_map(|(e, r, f, s)| ("u, v", vec![(e, r), (f, s)]));
     let period = prop_oneof![Just("1"), Just("3/2"), Just("D")];
-    (period, prop_oneof![one.boxed(), two.boxed()]).prop_map(|(period, (waves, parts))| {
-        let mut text = "recurrence \"random\"\nsymbol D > 0\n".to_owned();
-        text.push_str(&format!("period {period}, local s, time t\nwave {waves}\n"));
-        for ((slope, equation), rule) in parts {
-            text.push_str(&equation);
-            text.push_str(if slope { &rule } else { "" });
-        }
-        text
-    })
+    (period, prop_oneof![one.boxed(), two.boxed()])
+        .prop_map(|(period, (waves, parts))| {
+            let mut text = "recurrence \"random\"\nsymbol D > 0\n".to_owned();
+            text.push_str(&format!("period {period}, local s, time t\nwave {waves}\n"));
+            for ((slope, equation), rule) in parts {
+                text.push_str(&equation);
+                text.push_str(if slope { &rule } else { "" });
+            }
+            text
+        })
+        .boxed()
 }
 
 #[test]

@@ -52,47 +52,53 @@ fn assumptions() -> Assumptions {
     assumptions
 }
 
-fn any_polynomial() -> impl Strategy<Value = Polynomial> {
+fn any_polynomial() -> BoxedStrategy<Polynomial> {
     let term = (-3..=3i64, 1..=3i64, 0..=2u32, 0..=1u32, 0..=2u32);
-    prop::collection::vec(term, 0..=3).prop_map(|terms| {
-        let names = [symbol("a"), symbol("b"), x()];
-        terms.into_iter().fold(Polynomial::zero(), |sum, (p, q, a, b, x)| {
-            let powers = [(&names[0], a), (&names[1], b), (&names[2], x)];
-            &sum + &Polynomial::monomial(&rational(p, q), &powers)
+    prop::collection::vec(term, 0..=3)
+        .prop_map(|terms| {
+            let names = [symbol("a"), symbol("b"), x()];
+            terms.into_iter().fold(Polynomial::zero(), |sum, (p, q, a, b, x)| {
+                let powers = [(&names[0], a), (&names[1], b), (&names[2], x)];
+                &sum + &Polynomial::monomial(&rational(p, q), &powers)
+            })
         })
-    })
+        .boxed()
 }
 
 /// A product of inverse factors, often of none.
-fn any_unit() -> impl Strategy<Value = Fraction> {
+fn any_unit() -> BoxedStrategy<Fraction> {
     let powers = prop::array::uniform4(prop_oneof![5 => Just(0u32), 1 => Just(1), 1 => Just(2)]);
-    powers.prop_map(|powers| {
-        FACTORS.iter().zip(powers).fold(Fraction::one(), |unit, (factor, power)| {
-            &unit * &Fraction::reciprocal(&polynomial(factor)).expect("a unit").pow(power)
+    powers
+        .prop_map(|powers| {
+            FACTORS.iter().zip(powers).fold(Fraction::one(), |unit, (factor, power)| {
+                &unit * &Fraction::reciprocal(&polynomial(factor)).expect("a unit").pow(power)
+            })
         })
-    })
+        .boxed()
 }
 
-fn any_fraction() -> impl Strategy<Value = Fraction> {
-    (any_polynomial(), any_unit()).prop_map(|(p, unit)| &Fraction::from(p) * &unit)
+fn any_fraction() -> BoxedStrategy<Fraction> {
+    (any_polynomial(), any_unit()).prop_map(|(p, unit)| &Fraction::from(p) * &unit).boxed()
 }
 
-fn any_rate() -> impl Strategy<Value = Fraction> {
-    prop::sample::select(&RATES[..]).prop_map(fraction)
+fn any_rate() -> BoxedStrategy<Fraction> {
+    prop::sample::select(&RATES[..]).prop_map(fraction).boxed()
 }
 
-fn any_expression() -> impl Strategy<Value = Expression> {
+fn any_expression() -> BoxedStrategy<Expression> {
     let base = prop::sample::select(vec!["0", "0", "0", "a", "-2*b", "1/2", "a*b - 1"]);
     let exponent = (any_rate(), base.prop_map(fraction), any_unit(), any::<bool>());
     let exponent = exponent.prop_map(|(rate, base, unit, over)| {
         let base = if over { &base * &unit } else { base };
         &(&rate * &Fraction::symbol(&x())) + &base
     });
-    prop::collection::vec((exponent, any_fraction()), 0..=3).prop_map(|terms| {
-        let mut sum = Expression::zero();
-        terms.into_iter().for_each(|(exponent, p)| sum.add_term(exponent, p));
-        sum
-    })
+    prop::collection::vec((exponent, any_fraction()), 0..=3)
+        .prop_map(|terms| {
+            let mut sum = Expression::zero();
+            terms.into_iter().for_each(|(exponent, p)| sum.add_term(exponent, p));
+            sum
+        })
+        .boxed()
 }
 
 /// Runs a law on random values, and prints how often it said nothing where that can be.

@@ -592,7 +592,7 @@ fn assert_total(bytes: &[u8]) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-fn name() -> impl Strategy<Value = Spanned<String>> {
+fn name() -> BoxedStrategy<Spanned<String>> {
     "[a-zA-Z][a-z0-9_]{0,3}"
         .prop_filter("reserved", |name| {
             !["cos", "exp", "sin", "sqrt", "sum"].contains(&name.as_str())
@@ -601,85 +601,90 @@ fn name() -> impl Strategy<Value = Spanned<String>> {
             !["starts", "local", "time"].contains(&name.as_str())
         })
         .prop_map(anywhere)
+        .boxed()
 }
 
 fn anywhere<T>(value: T) -> Spanned<T> {
     Spanned::new(value, Span::new(0, 0))
 }
 
-fn number() -> impl Strategy<Value = Node> {
-    (0_u64.., 0_u32..40, 0_u32..40).prop_map(|(digits, down, up)| {
-        let ten = BigInt::from(10);
-        let numerator = BigInt::from(digits) * ten.clone().pow(up);
-        Node::Number(BigRational::new(numerator, ten.pow(down)))
-    })
+fn number() -> BoxedStrategy<Node> {
+    (0_u64.., 0_u32..40, 0_u32..40)
+        .prop_map(|(digits, down, up)| {
+            let ten = BigInt::from(10);
+            let numerator = BigInt::from(digits) * ten.clone().pow(up);
+            Node::Number(BigRational::new(numerator, ten.pow(down)))
+        })
+        .boxed()
 }
 
-fn wave() -> impl Strategy<Value = Node> {
-    (name(), prop::option::of(name()), -9_i64..9, 0_u32..3).prop_map(
-        |(name, base, offset, primes)| {
+fn wave() -> BoxedStrategy<Node> {
+    (name(), prop::option::of(name()), -9_i64..9, 0_u32..3)
+        .prop_map(|(name, base, offset, primes)| {
             let index = anywhere(Index { base, offset });
             Node::Wave(Box::new(Wave { name, index, primes }))
-        },
-    )
+        })
+        .boxed()
 }
 
-fn tree() -> impl Strategy<Value = Expression> {
+fn tree() -> BoxedStrategy<Expression> {
     let leaf = prop_oneof![number(), name().prop_map(|name| Node::Name(name.value)), wave(),];
-    leaf.prop_map(anywhere).prop_recursive(6, 60, 4, |inner| {
-        let boxed = || inner.clone().prop_map(Box::new);
-        prop_oneof![
-            (name(), boxed()).prop_map(|(name, argument)| Node::Call { name, argument }),
-            boxed().prop_map(Node::Exponential),
-            (0_usize..3, boxed()).prop_map(|(i, argument)| {
-                let function = [Function::Cosine, Function::Sine, Function::SquareRoot][i];
-                Node::Function { function, argument }
-            }),
-            (boxed(), name(), name()).prop_map(|(term, index, bound)| Node::Summation {
-                term,
-                index,
-                bound
-            }),
-            boxed().prop_map(Node::Negate),
-            (boxed(), boxed()).prop_map(|(base, exponent)| Node::Power { base, exponent }),
-            prop::collection::vec((any::<bool>(), inner.clone()), 2..5).prop_map(|parts| {
-                Node::Sum(
-                    parts
-                        .into_iter()
-                        .enumerate()
-                        .map(|(position, (plus, value))| Term {
-                            sign: if plus || position == 0 { Sign::Plus } else { Sign::Minus },
-                            value,
-                        })
-                        .collect(),
-                )
-            }),
-            prop::collection::vec((any::<bool>(), inner.clone()), 2..5).prop_map(|parts| {
-                Node::Product(
-                    parts
-                        .into_iter()
-                        .enumerate()
-                        .map(|(position, (times, value))| Factor {
-                            operator: if times || position == 0 {
-                                Operator::Multiply
-                            } else {
-                                Operator::Divide
-                            },
-                            value,
-                        })
-                        .collect(),
-                )
-            }),
-        ]
-        .prop_map(anywhere)
-    })
+    leaf.prop_map(anywhere)
+        .prop_recursive(6, 60, 4, |inner| {
+            let boxed = || inner.clone().prop_map(Box::new);
+            prop_oneof![
+                (name(), boxed()).prop_map(|(name, argument)| Node::Call { name, argument }),
+                boxed().prop_map(Node::Exponential),
+                (0_usize..3, boxed()).prop_map(|(i, argument)| {
+                    let function = [Function::Cosine, Function::Sine, Function::SquareRoot][i];
+                    Node::Function { function, argument }
+                }),
+                (boxed(), name(), name()).prop_map(|(term, index, bound)| Node::Summation {
+                    term,
+                    index,
+                    bound
+                }),
+                boxed().prop_map(Node::Negate),
+                (boxed(), boxed()).prop_map(|(base, exponent)| Node::Power { base, exponent }),
+                prop::collection::vec((any::<bool>(), inner.clone()), 2..5).prop_map(|parts| {
+                    Node::Sum(
+                        parts
+                            .into_iter()
+                            .enumerate()
+                            .map(|(position, (plus, value))| Term {
+                                sign: if plus || position == 0 { Sign::Plus } else { Sign::Minus },
+                                value,
+                            })
+                            .collect(),
+                    )
+                }),
+                prop::collection::vec((any::<bool>(), inner.clone()), 2..5).prop_map(|parts| {
+                    Node::Product(
+                        parts
+                            .into_iter()
+                            .enumerate()
+                            .map(|(position, (times, value))| Factor {
+                                operator: if times || position == 0 {
+                                    Operator::Multiply
+                                } else {
+                                    Operator::Divide
+                                },
+                                value,
+                            })
+                            .collect(),
+                    )
+                }),
+            ]
+            .prop_map(anywhere)
+        })
+        .boxed()
 }
 
 /// Digits on at least one side of the point, zeros alone among them.
-fn digits_around_a_point() -> impl Strategy<Value = (String, String)> {
+fn digits_around_a_point() -> BoxedStrategy<(String, String)> {
     let some = || prop_oneof!["[0-9]{1,30}", "0{1,3}"];
     let any = || prop_oneof!["[0-9]{0,30}", "0{0,3}"];
-    prop_oneof![(some(), any()), (any(), some())]
+    prop_oneof![(some(), any()), (any(), some())].boxed()
 }
 
 proptest! {

@@ -101,31 +101,35 @@ fn identities_hold_as_they_are_read() {
     assert_ne!(read("i"), read("sqrt(-1)"));
 }
 
-fn numbers() -> impl Strategy<Value = Fraction> {
+fn numbers() -> BoxedStrategy<Fraction> {
     let roots = ["1", "sqrt(-1)", "sqrt(2)", "sqrt(3)", "sqrt(-1)*sqrt(3)"].map(fraction);
-    prop::collection::vec((-4_i64..5, 1_i64..4), roots.len()).prop_map(move |values| {
-        roots.iter().zip(&values).fold(Fraction::zero(), |sum, (root, (above, below))| {
-            &sum + &root.scale(&Rational::new((*above).into(), (*below).into()))
+    prop::collection::vec((-4_i64..5, 1_i64..4), roots.len())
+        .prop_map(move |values| {
+            roots.iter().zip(&values).fold(Fraction::zero(), |sum, (root, (above, below))| {
+                &sum + &root.scale(&Rational::new((*above).into(), (*below).into()))
+            })
         })
-    })
+        .boxed()
 }
 
-fn expressions() -> impl Strategy<Value = Expression> {
+fn expressions() -> BoxedStrategy<Expression> {
     let symbols = ["1", "s", "mu", "s^2", "s*mu"].map(fraction);
     let over = Fraction::reciprocal(&"r + 1".parse().unwrap()).unwrap();
     let part = (numbers(), numbers(), 0_usize..5, 0_usize..4, 0_usize..5, any::<bool>());
-    prop::collection::vec(part, 0..4).prop_map(move |parts| {
-        let mut sum = Expression::zero();
-        for (a, b, i, j, k, divided) in parts {
-            let exponent = if k > 2 { Fraction::zero() } else { &a * &symbols[[0, 1, 2][k]] };
-            let mut factor = &b * &symbols[i];
-            if divided && j == 0 {
-                factor = &factor * &over;
+    prop::collection::vec(part, 0..4)
+        .prop_map(move |parts| {
+            let mut sum = Expression::zero();
+            for (a, b, i, j, k, divided) in parts {
+                let exponent = if k > 2 { Fraction::zero() } else { &a * &symbols[[0, 1, 2][k]] };
+                let mut factor = &b * &symbols[i];
+                if divided && j == 0 {
+                    factor = &factor * &over;
+                }
+                sum.add_term(exponent, factor);
             }
-            sum.add_term(exponent, factor);
-        }
-        sum
-    })
+            sum
+        })
+        .boxed()
 }
 
 proptest! {

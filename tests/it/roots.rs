@@ -61,15 +61,17 @@ fn quadratics() -> Vec<(Rational, Rational)> {
 }
 
 /// An algebraic number `a + b√−1 + c√2 + d√3 + e√−1√3`.
-fn numbers() -> impl Strategy<Value = Fraction> {
+fn numbers() -> BoxedStrategy<Fraction> {
     let roots = ["1", "sqrt(-1)", "sqrt(2)", "sqrt(3)", "sqrt(-1)*sqrt(3)"].map(fraction);
-    prop::collection::vec((-4_i64..5, 1_i64..4), roots.len()).prop_map(move |values| {
-        let part = |(root, (above, below)): (&Fraction, &(i64, i64))| {
-            root.scale(&rational(*above, *below))
-        };
-        let parts = roots.iter().zip(&values).map(part);
-        parts.fold(Fraction::zero(), |sum, part| &sum + &part)
-    })
+    prop::collection::vec((-4_i64..5, 1_i64..4), roots.len())
+        .prop_map(move |values| {
+            let part = |(root, (above, below)): (&Fraction, &(i64, i64))| {
+                root.scale(&rational(*above, *below))
+            };
+            let parts = roots.iter().zip(&values).map(part);
+            parts.fold(Fraction::zero(), |sum, part| &sum + &part)
+        })
+        .boxed()
 }
 
 proptest! {

@@ -231,7 +231,7 @@ fn assert_total(text: &str) -> Result<(), TestCaseError> {
 }
 
 /// A statement as text, of random parts that fit the grammar.
-fn statement() -> impl Strategy<Value = String> {
+fn statement() -> BoxedStrategy<String> {
     let name = || prop::sample::select(&["a", "b", "rod", "ram", "mu_1", "Z"]);
     let number = (0_u32..50, 1_u32..9).prop_map(|(over, under)| match under {
         1 => BigRational::from_integer(BigInt::from(over)).to_string(),
@@ -277,7 +277,7 @@ fn statement() -> impl Strategy<Value = String> {
                 .collect();
             format!("observe {name} = {}", terms.join(" "))
         });
-    prop_oneof![declaration, line, observe]
+    prop_oneof![declaration, line, observe].boxed()
 }
 
 proptest! {

@@ -7,9 +7,10 @@ use proptest::prelude::*;
 use wavestep::ball::{Ball, ComplexBall};
 
 /// A complex ball and one of its points.
-fn ball_and_point() -> impl Strategy<Value = (ComplexBall, (BigRational, BigRational))> {
+fn ball_and_point() -> BoxedStrategy<(ComplexBall, (BigRational, BigRational))> {
     (samples::ball_and_point(), samples::ball_and_point())
         .prop_map(|((re, x), (im, y))| (ComplexBall::new(re, im), (x, y)))
+        .boxed()
 }
 
 fn contains(ball: &ComplexBall, (x, y): &(BigRational, BigRational)) -> bool {

@@ -29,13 +29,14 @@ fn assert_encloses(coefficients: &[BigInt], x: &BigRational, precision: u64) {
     assert!(BigRational::from(ball.radius()) <= bound, "{coefficients:?} at {x}: {ball}");
 }
 
-fn arguments() -> impl Strategy<Value = BigRational> {
+fn arguments() -> BoxedStrategy<BigRational> {
     prop_oneof![
         3 => samples::rational(1),
         2 => samples::rational(4),
         1 => samples::rational(8),
         3 => samples::rational(20),
     ]
+    .boxed()
 }
 
 proptest! {

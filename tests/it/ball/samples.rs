@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use wavestep::ball::{Ball, Binary, Magnitude};
 
 /// Integers of up to `bytes` bytes; short ones and powers of two are frequent.
-pub fn integer(bytes: usize) -> impl Strategy<Value = BigInt> {
+pub fn integer(bytes: usize) -> BoxedStrategy<BigInt> {
     let any_length = prop::collection::vec(any::<u8>(), 0..=bytes);
     prop_oneof![
         4 => (any::<bool>(), any_length).prop_map(|(negative, bytes)| {
@@ -18,33 +18,35 @@ pub fn integer(bytes: usize) -> impl Strategy<Value = BigInt> {
         1 => (-3_i64..=3).prop_map(BigInt::from),
         1 => (0..8 * bytes, -1_i64..=1).prop_map(|(bits, more)| (BigInt::one() << bits) + more),
     ]
+    .boxed()
 }
 
 /// Rationals whose terms have up to `bytes` bytes.
-pub fn rational(bytes: usize) -> impl Strategy<Value = BigRational> {
+pub fn rational(bytes: usize) -> BoxedStrategy<BigRational> {
     let denominator = integer(bytes).prop_filter("not zero", |value| value != &BigInt::ZERO);
-    (integer(bytes), denominator).prop_map(|(above, below)| BigRational::new(above, below))
+    (integer(bytes), denominator).prop_map(|(above, below)| BigRational::new(above, below)).boxed()
 }
 
-pub fn magnitude() -> impl Strategy<Value = Magnitude> {
+pub fn magnitude() -> BoxedStrategy<Magnitude> {
     prop_oneof![
         1 => Just(Magnitude::ZERO),
         6 => (any::<u32>(), -200_i64..100)
             .prop_map(|(value, scale)| Magnitude::from_u64(u64::from(value)).scale(scale)),
     ]
+    .boxed()
 }
 
 /// A ball and one of its points; a third of the points are ends.
-pub fn ball_and_point() -> impl Strategy<Value = (Ball, BigRational)> {
+pub fn ball_and_point() -> BoxedStrategy<(Ball, BigRational)> {
     let share = prop_oneof![Just(-256), Just(256), -256_i64..=256, -256_i64..=256];
-    (integer(24), -220_i64..60, magnitude(), share).prop_map(
-        |(mantissa, exponent, radius, share)| {
+    (integer(24), -220_i64..60, magnitude(), share)
+        .prop_map(|(mantissa, exponent, radius, share)| {
             let ball = Ball::new(Binary::new(mantissa, exponent), radius);
             let offset = BigRational::from(&radius) * BigRational::new(share.into(), 256.into());
             let point = BigRational::from(ball.midpoint()) + offset;
             (ball, point)
-        },
-    )
+        })
+        .boxed()
 }
 
 /// An enclosure of a function's value at `x` from another library's value of `bits` bits.

@@ -52,13 +52,13 @@ enum Shape {
     Exponentials(Vec<(i64, i64)>),
 }
 
-fn cells() -> impl Strategy<Value = Vec<(Shape, i64)>> {
+fn cells() -> BoxedStrategy<Vec<(Shape, i64)>> {
     let term = (-6_i64..7, -2_i64..3);
     let shape = prop_oneof![
         (-6_i64..7, -2_i64..3).prop_map(|(a, b)| Shape::Line(a, b)),
         prop::collection::vec(term, 1..3).prop_map(Shape::Exponentials),
     ];
-    prop::collection::vec((shape, 1_i64..9), 1..7)
+    prop::collection::vec((shape, 1_i64..9), 1..7).boxed()
 }
 
 proptest! {

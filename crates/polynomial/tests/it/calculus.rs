@@ -11,8 +11,8 @@ fn at(p: &Polynomial, point: &[Rational; 6]) -> Rational {
     p.evaluate(|x| place(x).map(|i| point[i].clone())).expect("every symbol has a value")
 }
 
-fn points() -> impl Strategy<Value = [Rational; 6]> {
-    [(); 6].map(|()| rationals())
+fn points() -> BoxedStrategy<[Rational; 6]> {
+    [(); 6].map(|()| rationals()).boxed()
 }
 
 proptest! {

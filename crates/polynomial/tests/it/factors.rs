@@ -42,7 +42,7 @@ fn sorted(p: &Polynomial) -> Option<Vec<(Polynomial, u32)>> {
 }
 
 /// Small polynomials in two symbols, no number.
-fn small() -> impl Strategy<Value = Polynomial> {
+fn small() -> BoxedStrategy<Polynomial> {
     let term = (-3_i64..4, 0_u32..3, 0_u32..2);
     let sum = prop::collection::vec(term, 1..4).prop_map(|terms| {
         let term = |(c, s, b): &(i64, u32, u32)| {
@@ -50,7 +50,7 @@ fn small() -> impl Strategy<Value = Polynomial> {
         };
         terms.iter().map(term).sum::<Polynomial>()
     });
-    sum.prop_filter("no number", |p| p.as_constant().is_none())
+    sum.prop_filter("no number", |p| p.as_constant().is_none()).boxed()
 }
 
 proptest! {

@@ -9,28 +9,36 @@ fn root(n: i64) -> Symbol {
 }
 
 /// Polynomials in two symbols and three roots.
-fn rooted() -> impl Strategy<Value = Polynomial> {
+fn rooted() -> BoxedStrategy<Polynomial> {
     let parts = prop::collection::vec((small_polynomials(), 0_u32..8), 0..4);
-    parts.prop_map(|parts| {
-        let part = |(p, roots): &(Polynomial, u32)| {
-            let factors = [-1, 2, 3].into_iter().enumerate().filter(|(i, _)| roots >> i & 1 == 1);
-            factors.fold(p.clone(), |p, (_, n)| &p * &Polynomial::symbol(&root(n)))
-        };
-        valid(parts.iter().map(part).sum())
-    })
+    parts
+        .prop_map(|parts| {
+            let part = |(p, roots): &(Polynomial, u32)| {
+                let factors =
+                    [-1, 2, 3].into_iter().enumerate().filter(|(i, _)| roots >> i & 1 == 1);
+                factors.fold(p.clone(), |p, (_, n)| &p * &Polynomial::symbol(&root(n)))
+            };
+            valid(parts.iter().map(part).sum())
+        })
+        .boxed()
 }
 
 /// Polynomials `a + b x` with numbers that hold roots.
-fn linear() -> impl Strategy<Value = Polynomial> {
-    prop::collection::vec((-3_i64..4, 0_u32..8, any::<bool>()), 0..4).prop_map(|parts| {
-        let part = |(value, roots, with_x): &(i64, u32, bool)| {
-            let mut powers: Vec<_> =
-                [-1, 2, 3].iter().enumerate().map(|(i, n)| (root(*n), roots >> i & 1)).collect();
-            powers.push((symbol("s"), u32::from(*with_x)));
-            monomial(&(rational(*value, 1), powers))
-        };
-        parts.iter().map(part).sum()
-    })
+fn linear() -> BoxedStrategy<Polynomial> {
+    prop::collection::vec((-3_i64..4, 0_u32..8, any::<bool>()), 0..4)
+        .prop_map(|parts| {
+            let part = |(value, roots, with_x): &(i64, u32, bool)| {
+                let mut powers: Vec<_> = [-1, 2, 3]
+                    .iter()
+                    .enumerate()
+                    .map(|(i, n)| (root(*n), roots >> i & 1))
+                    .collect();
+                powers.push((symbol("s"), u32::from(*with_x)));
+                monomial(&(rational(*value, 1), powers))
+            };
+            parts.iter().map(part).sum()
+        })
+        .boxed()
 }
 
 proptest! {

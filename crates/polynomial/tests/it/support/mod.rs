@@ -33,48 +33,51 @@ pub fn monomial((coefficient, powers): &Term) -> Polynomial {
 }
 
 /// Integers of either sign: small ones most often, some of 200 bits, some with many factors.
-pub fn integers() -> impl Strategy<Value = Integer> {
+pub fn integers() -> BoxedStrategy<Integer> {
     prop_oneof![
         6 => (-9_i64..10).prop_map(Integer::from),
         2 => any::<i64>().prop_map(Integer::from),
         1 => any::<[i64; 3]>().prop_map(|[a, b, c]| Integer::from(a) * b * c + 1),
         1 => (0_u32..25, -3_i32..4).prop_map(|(n, sign)| factorial(n) * sign),
     ]
+    .boxed()
 }
 
 /// Rationals of either sign, integers half of the time.
-pub fn rationals() -> impl Strategy<Value = Rational> {
+pub fn rationals() -> BoxedStrategy<Rational> {
     let denominators = prop_oneof![3 => Just(Integer::from(1)), 3 => integers()];
-    (integers(), denominators).prop_map(|(numerator, denominator)| {
-        let zero = Integer::from(0);
-        Rational::new(numerator, if denominator == zero { 12.into() } else { denominator })
-    })
+    (integers(), denominators)
+        .prop_map(|(numerator, denominator)| {
+            let zero = Integer::from(0);
+            Rational::new(numerator, if denominator == zero { 12.into() } else { denominator })
+        })
+        .boxed()
 }
 
-pub fn non_zero_rationals() -> impl Strategy<Value = Rational> {
-    rationals().prop_filter("not zero", |value| *value != rational(0, 1))
+pub fn non_zero_rationals() -> BoxedStrategy<Rational> {
+    rationals().prop_filter("not zero", |value| *value != rational(0, 1)).boxed()
 }
 
-pub fn symbols() -> impl Strategy<Value = Symbol> + Clone {
-    prop::sample::select(vec!["b", "mu", "s", "x_1"]).prop_map(symbol)
+pub fn symbols() -> BoxedStrategy<Symbol> {
+    prop::sample::select(vec!["b", "mu", "s", "x_1"]).prop_map(symbol).boxed()
 }
 
 fn terms_of(
-    symbol: impl Strategy<Value = Symbol> + Clone,
-    exponents: impl Strategy<Value = u32> + Clone,
+    symbol: impl Strategy<Value = Symbol> + Clone + 'static,
+    exponents: impl Strategy<Value = u32> + Clone + 'static,
     count: usize,
-) -> impl Strategy<Value = Vec<Term>> {
+) -> BoxedStrategy<Vec<Term>> {
     let powers = prop::collection::vec((symbol, exponents), 0..4);
-    prop::collection::vec((rationals(), powers), 0..=count)
+    prop::collection::vec((rationals(), powers), 0..=count).boxed()
 }
 
 /// Lists of terms; symbols come twice in a term, and terms twice in a list.
-pub fn terms() -> impl Strategy<Value = Vec<Term>> {
-    terms_of(symbols(), 0_u32..4, 6)
+pub fn terms() -> BoxedStrategy<Vec<Term>> {
+    terms_of(symbols(), 0_u32..4, 6).boxed()
 }
 
 /// Polynomials of a few terms in some of four symbols, among them zero and constants.
-pub fn polynomials() -> impl Strategy<Value = Polynomial> {
+pub fn polynomials() -> BoxedStrategy<Polynomial> {
     let one = |name| Just(symbol(name));
     prop_oneof![
         8 => terms(),
@@ -85,20 +88,24 @@ pub fn polynomials() -> impl Strategy<Value = Polynomial> {
     ]
     .prop_map(|terms| terms.iter().map(monomial).sum())
     .prop_map(valid)
+    .boxed()
 }
 
 /// Polynomials of low degree, for what composes them.
-pub fn small_polynomials() -> impl Strategy<Value = Polynomial> {
-    terms_of(symbols(), 0_u32..3, 3).prop_map(|terms| valid(terms.iter().map(monomial).sum()))
+pub fn small_polynomials() -> BoxedStrategy<Polynomial> {
+    terms_of(symbols(), 0_u32..3, 3)
+        .prop_map(|terms| valid(terms.iter().map(monomial).sum()))
+        .boxed()
 }
 
-pub fn non_zero_polynomials() -> impl Strategy<Value = Polynomial> {
-    polynomials().prop_filter("not zero", |p| !p.is_zero())
+pub fn non_zero_polynomials() -> BoxedStrategy<Polynomial> {
+    polynomials().prop_filter("not zero", |p| !p.is_zero()).boxed()
 }
 
 /// Dense polynomials in one variable, up to degree 11.
-pub fn univariates() -> impl Strategy<Value = Univariate> {
+pub fn univariates() -> BoxedStrategy<Univariate> {
     let denominators = integers().prop_filter("not zero", |d| *d != Integer::from(0));
     (prop::collection::vec(integers(), 0..12), denominators)
         .prop_map(|(coefficients, denominator)| Univariate::new(coefficients, denominator))
+        .boxed()
 }
