@@ -248,7 +248,7 @@ pub trait Signal {
     fn slope_vanishes(&self, stretch: usize, end: Limit) -> Result<bool, EvaluateError>;
 
     /// How many derivatives, from that of an order on, are known to be exactly zero in the limit at an end;
-    /// at most [`MAX_FLATNESS`].
+    /// at most `MAX_FLATNESS`.
     fn flatness(&self, _: usize, _: Limit, _: usize) -> Result<usize, EvaluateError> {
         Ok(0)
     }
