@@ -261,7 +261,7 @@ fn what_flows_in_is_the_derivative() {
         (open(), &["rod_energy", "all"], rational(6, 1)),
         (network(UNITS), &["a_energy", "b_energy", "all"], rational(1, 1500)),
     ];
-    let mut compared = 0;
+    let (mut compared, mut flat) = (0, 0);
     for (network, names, last) in &scenes {
         for name in *names {
             let observed = network.observables().iter().find(|own| own.name == *name).unwrap();
@@ -270,6 +270,19 @@ fn what_flows_in_is_the_derivative() {
             let evaluated = signal(network, name, last);
             let counts = [searched.count().unwrap(), evaluated.count().unwrap()];
             assert!(counts[0] <= counts[1] + 1, "{name}: {counts:?}");
+            // Derivatives that are said to vanish do.
+            for stretch in 0..counts[0] {
+                for end in [Limit::Right, Limit::Left] {
+                    let count = searched.flatness(stretch, end, 1).unwrap();
+                    for order in 1..=count {
+                        let slope = searched.enclose(stretch, order, At::End(end), BITS).unwrap();
+                        let scale = 1500_f64.powi(order as i32);
+                        let what = format!("{name}, {stretch}, {end:?}, {order}");
+                        assert_same(&slope, &Ball::zero(), scale, &what);
+                        flat += usize::from(count > 1);
+                    }
+                }
+            }
             for place in 1..24 {
                 let at = last * rational(place, 24) * rational(1001, 1000);
                 if at >= *last {
@@ -286,6 +299,7 @@ fn what_flows_in_is_the_derivative() {
         }
     }
     assert_eq!(compared, 1035);
+    assert!(flat >= 10, "{flat} derivatives");
 }
 
 /// What begins flat, with the square of a wave that begins at zero, is decided at the beginning.
