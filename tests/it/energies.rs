@@ -321,3 +321,25 @@ fn extrema_of_what_begins_flat_are_decided() {
     }
     assert_eq!(found("all", Goal::Largest).value.to_f64(), 1.0);
 }
+
+/// Only where no motion can be lost at once is an energy conserved by its balance: two masses with nothing
+/// between them may strike each other.
+#[test]
+fn masses_that_may_strike_each_other_are_not_taken_for_conserved() {
+    let scene = |middle: &str| {
+        network(&format!(
+            "scene \"Masses\"\nmass a {{ mass = 1, velocity = 1 }}\nmass b {{ mass = 2, velocity = 1 }}\n\
+             spring k {{ stiffness = 3 }}\nbar rod {{ impedance = 1, travel = 1 }}\n\
+             line free - {middle} - rod - fixed\nobserve all = energy(line)\n"
+        ))
+    };
+    for (middle, is_conserved) in [("a | b - k", false), ("a - k - b", true)] {
+        let network = scene(middle);
+        let window = [&Rational::default(), &rational(4, 1)];
+        let signal =
+            of_scene(&network, &network.observables()[0], window, Purpose::Search).unwrap();
+        assert_eq!(signal.count().unwrap() == 1, is_conserved, "{middle}");
+        let now = derivative(&*signal, 0, &rational(5, 2));
+        assert_same(&now, &Ball::from_rational(&rational(3, 2), BITS), 1.0, middle);
+    }
+}
