@@ -90,7 +90,7 @@ fn bytes(text: &str) -> Result<u64, String> {
         Some(number * size)
     });
     match given {
-        Some(bytes) if bytes >= 1e6 && bytes < 1e18 => Ok(bytes as u64),
+        Some(bytes) if (1e6..1e18).contains(&bytes) => Ok(bytes as u64),
         _ => Err("give at least 1 MB, with its unit, such as 500MB or 2GB".to_owned()),
     }
 }
