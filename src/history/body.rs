@@ -162,7 +162,7 @@ impl Engine {
         let Some(mass) = self.mass_of(network, part)?.filter(|mass| !mass.is_zero()) else {
             return Ok(None);
         };
-        let momentum = self.held_by(network, part, moment, Integrand::RoughSquare)?.momentum;
+        let momentum = self.held_by(network, part, moment, Integrand::ROUGH_SQUARE)?.momentum;
         let inverse = mass.reciprocal(bits)?;
         Ok(momentum.map(|momentum| momentum.multiply(&inverse, bits)))
     }
@@ -225,7 +225,7 @@ impl Engine {
             _ => return Ok(Drift::Unknown),
         }
         let grounded = self.is_grounded(network, part);
-        let held = self.held_by(network, part, moment, Integrand::RoughSquare)?;
+        let held = self.held_by(network, part, moment, Integrand::ROUGH_SQUARE)?;
         let (Some(mut energy), Some(momentum)) = (held.energy, held.momentum) else {
             return Ok(Drift::Unknown);
         };
@@ -266,7 +266,7 @@ impl Engine {
         for element in elements.iter().filter(|element| self.layout.bar(**element) != Some(bar)) {
             alone &= matches!(&network.scene().elements[*element].kind, Kind::Spring(spring)
                 if spring.damping.is_zero());
-            let square = Integrand::RoughSquare;
+            let square = Integrand::ROUGH_SQUARE;
             let Some(own) = self.held(network, *element, moment, square)?.energy else {
                 return Ok(Drift::Unknown);
             };

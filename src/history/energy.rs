@@ -121,13 +121,13 @@ struct Kept {
 /// A wave on one cell: its series, with its integrals once they have been asked for.
 ///
 /// # Invariants
-/// The series and the length never change, and all series of a history are cut off in one way: what is
-/// kept stays true.
+/// The series and the length never change, all series of a history are cut off in one way, and all that is told
+/// of it has one precision: what is kept stays true.
 #[derive(Debug)]
 pub struct Wave {
     series: Series,
     length: Number,
-    /// By [`Integrand`].
+    /// Of the wave, of its square as it is told, and roughly.
     kept: [OnceCell<Kept>; 3],
 }
 
@@ -136,10 +136,13 @@ pub struct Wave {
 pub enum Integrand {
     /// `∫ w dt`.
     Wave,
-    /// `∫ w² dt`.
-    Square,
-    /// The same with few digits: for bounds.
-    RoughSquare,
+    /// `∫ w² dt` with so many bits: what is told of a history takes fewer than following it.
+    Square { bits: u64 },
+}
+
+impl Integrand {
+    /// For bounds.
+    pub const ROUGH_SQUARE: Integrand = Integrand::Square { bits: ROUGH_BITS };
 }
 
 /// The precision of what is worked out roughly.
@@ -165,21 +168,25 @@ impl Wave {
         &self.series
     }
 
-    /// The antiderivative; of a rough square that of the polynomial with so few terms as tell it roughly, of
-    /// an exact one all of it.
+    /// The antiderivative; of a square with fewer bits that of the polynomial with as many terms as these
+    /// tell, of an exact one all of it.
     fn kept(&self, integrand: Integrand, cut: &Truncation) -> &Kept {
-        let integrand = match integrand {
-            Integrand::RoughSquare if self.series.is_exact() => Integrand::Square,
-            own => own,
+        let is_whole = |bits: u64| self.series.is_exact() || bits >= cut.bits;
+        let place = match integrand {
+            Integrand::Wave => 0,
+            Integrand::Square { bits: ROUGH_BITS } if !is_whole(ROUGH_BITS) => 2,
+            Integrand::Square { .. } => 1,
         };
-        self.kept[integrand as usize].get_or_init(|| {
+        self.kept[place].get_or_init(|| {
             let antiderivative = match integrand {
                 Integrand::Wave => Antiderivative::Wave(self.series.integral(Number::zero(), cut)),
-                Integrand::Square => Antiderivative::Square(self.series.energy(cut)),
-                Integrand::RoughSquare => {
-                    let rough = Truncation { bits: ROUGH_BITS, ..*cut };
-                    let norm = CellNorm::new(self.length.magnitude(), &rough);
-                    Antiderivative::Square(self.series.bare(&norm, &rough).energy(&rough))
+                Integrand::Square { bits } if is_whole(bits) => {
+                    Antiderivative::Square(self.series.energy(cut))
+                }
+                Integrand::Square { bits } => {
+                    let few = Truncation { bits, ..*cut };
+                    let norm = CellNorm::new(self.length.magnitude(), &few);
+                    Antiderivative::Square(self.series.bare(&norm, &few).energy(&few))
                 }
             };
             let whole = antiderivative.value(&self.length, cut);

@@ -507,7 +507,9 @@ impl Story<'_> {
         };
         let mut bodies = Vec::new();
         for part in self.parts(closed) {
-            let held = engine.held_by(self.network, &part, moment, Integrand::Square)?;
+            let square =
+                Integrand::Square { bits: precisions(self.digits, MAX_HISTORY_BITS).first() };
+            let held = engine.held_by(self.network, &part, moment, square)?;
             let velocity = engine.mean_velocity(self.network, &part, moment)?;
             let mass = engine.mass_of(self.network, &part)?;
             let carried = match (&held.momentum, &velocity) {
