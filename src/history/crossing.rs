@@ -10,10 +10,13 @@
 
 use crate::ball::{Ball, Magnitude, Number, rational};
 use crate::history::positive::positive_until;
-use crate::history::series::{Series, Truncation};
+use crate::history::series::{CellNorm, Series, Truncation};
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
+
+/// Bits that show most signs.
+const SIGN_BITS: u64 = 96;
 
 /// How a function begins on a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -123,12 +126,21 @@ pub fn follow(
         let bend = f.size_from(2, &reach).multiply(&reach);
         is_positive(&value) && sign(&slope.widened(&bend)) == Some(Ordering::Greater)
     };
+    let few = Truncation { bits: SIGN_BITS, ..*cut };
+    let rough = (cut.bits > 2 * SIGN_BITS).then(|| f.bare(&CellNorm::new(size, &few), &few));
     while let Some((lower, upper)) = parts.pop() {
         let half = (&upper - &lower) / &two;
         let middle = &lower + &half;
-        let near = f.shift(&Number::Exact(middle.clone()), cut);
         let w = Magnitude::from_rational(&half);
         let here = errors.from(&lower);
+        if let Some(rough) = &rough {
+            let near = rough.shift(&Number::Exact(middle.clone()), &few);
+            let left_out = rough.rest.add(&here[0]).add(&near.size_from(1, &w).multiply(&w));
+            if is_positive(&near.coefficient(0).ball(SIGN_BITS).widened(&left_out)) {
+                continue;
+            }
+        }
+        let near = f.shift(&Number::Exact(middle.clone()), cut);
         let value = near.coefficient(0).ball(cut.bits).widened(&here[0]);
         let lowest = value.clone().widened(&near.size_from(1, &w).multiply(&w));
         if is_positive(&lowest) || lower.is_zero() && rises(&upper) {
