@@ -30,7 +30,7 @@ fn product(sign: i64, roots: &[Rational], enclosed: bool) -> Series {
         c = next;
     }
     let number = |c: Rational| match enclosed {
-        true => Number::Exact(c).enclosed(160),
+        true => Number::Exact(c).enclosed(600),
         false => Number::Exact(c),
     };
     Series::new(c.into_iter().map(number).collect(), Magnitude::ZERO)
@@ -44,9 +44,10 @@ fn fallen(course: &Course, root: &Rational) -> bool {
 
 #[test]
 fn the_first_fall_is_found_however_near_the_next_root_is() {
-    let cut = truncation(160, 0);
     let end = Number::integer(1);
-    for enclosed in [true, false] {
+    // With many bits, few of them look first.
+    for (enclosed, bits) in [(true, 160), (false, 160), (true, 512)] {
+        let cut = truncation(bits, 0);
         let near = &rational(1, 3) + Rational::new(1.into(), 1_000_000_000.into());
         let f = product(-1, &[rational(1, 3), near, rational(2, 3)], enclosed);
         assert_eq!(beginning(&f, &f.coefficients), Beginning::Positive);
@@ -58,6 +59,35 @@ fn the_first_fall_is_found_however_near_the_next_root_is() {
         let f = product(1, &[rational(-1, 3), rational(5, 4)], enclosed);
         assert_eq!(beginning(&f, &f.coefficients), Beginning::Negative);
     }
+}
+
+/// What is negative by no more than a tie counts as positive, what is more so falls.
+#[test]
+fn a_tie_passes_over_what_is_as_near_to_zero() {
+    let (cut, end) = (truncation(512, 0), Number::integer(1));
+    let third = rational(1, 3);
+    let tiny = |power: i64| Magnitude::power_of_two(power);
+    let none = Errors::new(0, |_| Magnitude::ZERO);
+    for (dip, passes) in [(-300, true), (-200, false)] {
+        let mut f = product(1, &[third.clone(), third.clone()], true);
+        let down = Number::Exact(Rational::from(&tiny(dip)));
+        f.coefficients[0] = f.coefficients[0].subtract(&down, 600);
+        let found = crossing::follow(&f, (&none, &tiny(-256)), &end, &cut);
+        assert_eq!(found == Course::Positive, passes, "{found:?}");
+        let root = &third - Rational::from(&tiny(dip / 2));
+        match crossing::follow(&f, (&none, &Magnitude::ZERO), &end, &cut) {
+            Course::Falls(at) => assert!(at.ball(600).contains(&root), "{at:?}"),
+            other => panic!("{other:?}"),
+        }
+    }
+    // One that begins a little below zero and rises is passed over at once, one that falls is not.
+    let line = |slope: i64| {
+        let c = [Rational::from(&tiny(-300)) * rational(-1, 1), rational(slope, 1)];
+        Series::new(c.map(|c| Number::Exact(c).enclosed(600)).to_vec(), Magnitude::ZERO)
+    };
+    let course = |slope| crossing::follow(&line(slope), (&none, &tiny(-256)), &end, &cut);
+    assert_eq!(course(1), Course::Positive);
+    assert!(!matches!(course(-1), Course::Positive));
 }
 
 /// What is left out of a function moves its root, and may hide it.
