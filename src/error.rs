@@ -148,9 +148,7 @@ fn kind(error: &ProblemError) -> Kind {
             LockError::Digits(_) => Kind::BadInput,
             _ => Kind::AccuracyNotReached,
         },
-        ProblemError::NoProof(..) | ProblemError::NoDigits(_) | ProblemError::Undecided { .. } => {
-            Kind::AccuracyNotReached
-        }
+        ProblemError::Undecided { .. } => Kind::AccuracyNotReached,
         ProblemError::LocalContact { .. }
         | ProblemError::ModelOfLocalContact(_)
         | ProblemError::EnergyHasNoPieces(_)
@@ -160,6 +158,7 @@ fn kind(error: &ProblemError) -> Kind {
         | ProblemError::NothingArrives(_)
         | ProblemError::NoGeneralForm { .. }
         | ProblemError::Rates { .. }
+        | ProblemError::LongEchoes { .. }
         | ProblemError::Disagreement(..) => Kind::NotSupported,
         // A time, a name, a limit of orders, or a question that this kind of text has no answer to.
         _ => Kind::BadInput,
@@ -219,7 +218,7 @@ fn kind_of_history(error: &HistoryError) -> Kind {
         | HistoryError::TooManyCells { .. }
         | HistoryError::TooMuchMemory { .. } => Kind::TooMuchWork,
         HistoryError::Value(error) => kind_of_evaluate(&error.clone().into()),
-        HistoryError::Refused(_) => Kind::NotSupported,
+        HistoryError::Refused(_) | HistoryError::Opens { .. } => Kind::NotSupported,
         _ => Kind::BadInput,
     }
 }
@@ -292,10 +291,8 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
         ProblemError::WaveOfClosedContacts(_) => {
             "ask for an observable, or leave out `contacts open`"
         }
-        ProblemError::Equations(_) | ProblemError::EquationsHaveNoContacts => DESCRIBE,
-        ProblemError::ModelOfLocalContact(_)
-        | ProblemError::NoProof(..)
-        | ProblemError::NoDigits(_) => "ask for tested values, by the method of steps",
+        ProblemError::Equations(_) => DESCRIBE,
+        ProblemError::ModelOfLocalContact(_) => "ask for tested values, by the method of steps",
         ProblemError::NoPeriods(_)
         | ProblemError::NoPeriodsWhereContactsOpen
         | ProblemError::NoPeriodsWithLocalContact(_) => "give times",
@@ -318,6 +315,9 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
         ProblemError::Rates { .. } => {
             "evaluate it, which works with any certified rates; or give values for which the rates are \
              rational, or roots of one quadratic in rational numbers"
+        }
+        ProblemError::LongEchoes { .. } => {
+            "derive through that order, or evaluate it, which works with any certified rates"
         }
         ProblemError::Disagreement(..) => "please report this scene: it is a fault of wavestep",
         _ => return None,
@@ -378,6 +378,9 @@ fn remedy_of_history(error: &HistoryError) -> &'static str {
         }
         HistoryError::TooMuchMemory { .. } => "ask for an earlier end, or allow more with --memory",
         HistoryError::Refused(_) => "docs/scene-language.md says under `Contacts` what is followed",
+        HistoryError::Opens { .. } => {
+            "ask for an earlier time, or use the method compiled or certified"
+        }
         _ => "ask for an earlier time",
     }
 }

@@ -98,6 +98,19 @@ pub fn set_memory(bytes: u64) {
 
 static MEMORY: AtomicU64 = AtomicU64::new(0);
 
+/// The share of a window through which the scene at hand was followed, for who shows how work goes on; 0 where
+/// nothing is followed.
+pub fn followed_share() -> f64 {
+    f64::from_bits(FOLLOWED.load(Ordering::Relaxed))
+}
+
+/// Tells that share.
+pub(crate) fn tell_followed(share: f64) {
+    FOLLOWED.store(share.to_bits(), Ordering::Relaxed);
+}
+
+static FOLLOWED: AtomicU64 = AtomicU64::new(0);
+
 /// The memory of the machine, where Linux tells.
 fn machine() -> Option<u64> {
     let told = std::fs::read_to_string("/proc/meminfo").ok()?;

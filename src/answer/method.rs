@@ -74,6 +74,19 @@ impl Method {
         ("steps:TOL", "model: method of steps by collocation, relative tolerance [default: 1e-10]"),
     ];
 
+    /// Whether it leaves something out, or has no proof at all.
+    #[doc(hidden)]
+    pub fn is_model(&self) -> bool {
+        matches!(
+            self,
+            Method::Rigid
+                | Method::Third
+                | Method::Modes { .. }
+                | Method::Leapfrog { .. }
+                | Method::Steps { .. }
+        )
+    }
+
     /// The name without settings.
     pub fn name(&self) -> &'static str {
         match self {
@@ -91,6 +104,11 @@ impl Method {
             Method::Leapfrog { .. } => "leapfrog",
             Method::Steps { .. } => "steps",
         }
+    }
+
+    /// Whether it has values only as long as contacts stay closed: it computes from a closed form, or is a model.
+    pub fn needs_closed_contacts(&self) -> bool {
+        !matches!(self, Method::Certified | Method::Compiled)
     }
 
     /// The settings, as they are written; none where there are none.

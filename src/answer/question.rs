@@ -9,6 +9,8 @@ pub struct Question<'a> {
     pub signal: Box<dyn Signal + 'a>,
     /// The scene, and the place of the observable in it; models need it.
     pub scene: Option<(&'a Network, usize)>,
+    /// Whether contacts may open on the window, of which models know nothing.
+    pub contacts_open: bool,
 }
 
 impl Question<'_> {

@@ -91,7 +91,7 @@ impl<'a> Way<'a> {
             | Method::Leapfrog { .. }
             | Method::Steps { .. } => {
                 let (network, place) = question.scene.ok_or(WayError::NeedsScene(method.name()))?;
-                if network.scene().contacts_open {
+                if question.contacts_open {
                     return Err(WayError::NeedsClosedContacts(method.name()));
                 }
                 return Way::of_model(method, network, place);

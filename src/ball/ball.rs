@@ -14,6 +14,7 @@ use num_traits::{One, ToPrimitive};
 use super::binary::Binary;
 use super::error::BallError;
 use super::magnitude::Magnitude;
+use wavestep_polynomial::limbs::further_bytes;
 
 /// Where an exact endpoint would need more bits than this below its midpoint, the radius is widened
 /// instead.
@@ -70,6 +71,11 @@ impl Ball {
         Self::new(middle.midpoint, radius)
     }
 
+    /// How many bytes a ball of so many bits takes beside itself, about.
+    pub(crate) fn further_bytes(bits: u64) -> u64 {
+        further_bytes(bits)
+    }
+
     pub const fn midpoint(&self) -> &Binary {
         &self.midpoint
     }
@@ -94,12 +100,7 @@ impl Ball {
 
     /// Whether zero is in the ball.
     pub fn contains_zero(&self) -> bool {
-        let below = |midpoint: Binary| midpoint <= self.radius.to_binary();
-        if self.midpoint.is_negative() {
-            below(self.midpoint.clone().negate())
-        } else {
-            below(self.midpoint.clone())
-        }
+        self.midpoint.is_within(&self.radius)
     }
 
     /// Whether this rational is in the ball, decided exactly. The cost grows with the exponents.
@@ -163,7 +164,7 @@ impl Ball {
     /// `x·y`: `radius ≤ |m_x| r_y + |m_y| r_x + r_x r_y + ε`, `ε` the rounding error of the
     /// midpoint.
     pub fn multiply(&self, other: &Self, precision: u64) -> Self {
-        let (midpoint, error) = self.midpoint.multiply(&other.midpoint).round(precision);
+        let (midpoint, error) = self.midpoint.multiply_rounded(&other.midpoint, precision);
         let mut radius = error;
         if !other.is_exact() {
             radius = radius.add(&self.magnitude().multiply(&other.radius));
@@ -176,7 +177,7 @@ impl Ball {
 
     /// `x²`: `radius ≤ (2|m| + r) r + ε`.
     pub fn square(&self, precision: u64) -> Self {
-        let (midpoint, error) = self.midpoint.multiply(&self.midpoint).round(precision);
+        let (midpoint, error) = self.midpoint.multiply_rounded(&self.midpoint, precision);
         let sum = self.midpoint.magnitude().scale(1).add(&self.radius);
         Self::new(midpoint, sum.multiply(&self.radius).add(&error))
     }
@@ -184,9 +185,7 @@ impl Ball {
     /// `x·q`: `radius ≤ |q| r + ε`.
     pub fn multiply_rational(&self, factor: &BigRational, precision: u64) -> Self {
         let (numerator, denominator) = (factor.numer(), factor.denom());
-        let product = self.midpoint.mantissa() * numerator;
-        let (midpoint, error) =
-            Binary::quotient(&product, denominator, self.midpoint.exponent(), precision);
+        let (midpoint, error) = self.midpoint.times(numerator, denominator, precision);
         if self.is_exact() {
             return Self::new(midpoint, error);
         }
@@ -201,6 +200,12 @@ impl Ball {
         Self::new(midpoint, radius.add(&error))
     }
 
+    /// `x/n` for a number that is not zero: `radius ≤ r/n + ε`.
+    pub fn over(&self, divisor: u64, precision: u64) -> Self {
+        let (midpoint, error) = self.midpoint.scaled((1, divisor), false, precision);
+        Self::new(midpoint, self.radius.divide(divisor).add(&error))
+    }
+
     /// `1/x`: `radius ≤ r/(|m| (|m| − r)) + ε`, by `|1/x − 1/m| = |x − m|/(|x| |m|)`.
     pub fn reciprocal(&self, precision: u64) -> Result<Self, BallError> {
         if self.contains_zero() {
@@ -208,7 +213,7 @@ impl Ball {
         }
         let inverse = |value: &Binary, precision| {
             let exponent = value.exponent().checked_neg().expect("an exponent within 64 bits");
-            Binary::quotient(&BigInt::one(), value.mantissa(), exponent, precision)
+            Binary::quotient(&BigInt::one(), &value.mantissa(), exponent, precision)
         };
         let (midpoint, error) = inverse(&self.midpoint, precision);
         if self.is_exact() {

@@ -275,7 +275,7 @@ pub fn scale_far(
         .top()
         .unwrap_or(0)
         .saturating_add(power_of_ten(places, 64).magnitude().top().unwrap_or(0));
-    let precision = value.mantissa().bits().max(size.max(0) as u64) + 64;
+    let precision = value.bits().max(size.max(0) as u64) + 64;
     let product = power_of_ten(places, precision)
         .multiply(&Ball::new(value.clone(), Magnitude::ZERO), precision);
     let (lower, upper) = product.endpoints();
@@ -296,7 +296,7 @@ fn round_near_zero(value: Binary, round: fn(&BigInt, &BigInt) -> BigInt) -> BigI
 
 /// `round(value·10^places)`.
 pub fn round_scaled(value: &Binary, places: i64, round: fn(&BigInt, &BigInt) -> BigInt) -> BigInt {
-    let mut numerator = value.mantissa().clone();
+    let mut numerator = value.mantissa();
     let mut denominator =
         BigInt::from(10).pow(if places < 0 { places.unsigned_abs() as u32 } else { 0 });
     if places > 0 {

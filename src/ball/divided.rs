@@ -112,7 +112,7 @@ impl Argument {
             return Self::Words { negative: x.is_negative(), numerator, denominator };
         }
         let (rounded, _) = Binary::quotient(x.numer(), x.denom(), 0, bits);
-        let (mantissa, exponent) = (rounded.mantissa().clone(), rounded.exponent());
+        let (mantissa, exponent) = (rounded.mantissa(), rounded.exponent());
         Self::Long { mantissa, exponent, bits }
     }
 

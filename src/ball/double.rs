@@ -1,8 +1,7 @@
 //! Balls and doubles: the nearest one with its distance, and correct rounding.
 
 use crate::ball::{Ball, Binary, Magnitude};
-use num_bigint::BigInt;
-use num_traits::{ToPrimitive as _, Zero as _};
+use num_traits::Zero as _;
 use wavestep_polynomial::Rational;
 
 impl Ball {
@@ -53,18 +52,13 @@ impl Binary {
         if top < last {
             return if self.is_negative() { -0.0 } else { 0.0 };
         }
-        let (magnitude, exponent) = (self.mantissa().magnitude(), self.exponent());
-        let units = match u64::try_from(last - exponent) {
-            // All bits fit.
-            Err(_) | Ok(0) => (magnitude << (exponent - last) as u64).to_u64(),
-            Ok(below) => {
-                let kept = (magnitude >> below).to_u64();
-                let half = magnitude.bit(below - 1);
-                let more = magnitude.trailing_zeros().is_some_and(|zeros| zeros < below - 1);
-                kept.map(|kept| kept + u64::from(half && (more || kept & 1 == 1)))
-            }
-        };
-        let units = units.expect("at most 54 bits");
+        let (digits, others) = self.leading().expect("not zero");
+        // Between none and 53 of them are kept.
+        let kept = (top - last) as u32;
+        let whole = digits.checked_shr(64 - kept).unwrap_or(0);
+        let rest = digits << kept;
+        let (half, more) = (rest >> 63 == 1, others || rest << 1 != 0);
+        let units = whole + u64::from(half && (more || whole & 1 == 1));
         // Adding a carry to the exponent field is what rounding up to the next power of two is.
         let bits = match units >> 52 {
             0 => units,
@@ -84,13 +78,12 @@ impl Binary {
         }
         let bits = value.to_bits();
         let exponent = ((bits >> 52) & 0x7ff) as i64;
-        let fraction = (bits & ((1 << 52) - 1)) as i64;
+        let fraction = bits & ((1 << 52) - 1);
         let (mantissa, exponent) = match exponent {
             0 => (fraction, -1074),
             _ => (fraction | (1 << 52), exponent - 1075),
         };
-        let mantissa = if value.is_sign_negative() { -mantissa } else { mantissa };
-        Some(Binary::new(BigInt::from(mantissa), exponent))
+        Some(Binary::from_word(value.is_sign_negative(), mantissa, exponent))
     }
 }
 

@@ -21,7 +21,7 @@ const HALVINGS: u32 = 5;
 
 /// A double near `ln m` for a positive number: off by less than `2^−40 (1 + |ln m|)`.
 fn guess(m: &Binary) -> Binary {
-    let (top, bits) = (m.top().expect("not zero"), m.mantissa().bits());
+    let (top, bits) = (m.top().expect("not zero"), m.bits());
     // m = f·2^top with f from 1/2 to 1.
     let mantissa = m.mantissa();
     let kept = if bits > 60 { mantissa >> (bits - 60) } else { mantissa << (60 - bits) };

@@ -56,14 +56,23 @@ impl Magnitude {
         Self { mantissa: short as u64, exponent }
     }
 
+    /// The same for a word.
+    fn rounded_up(mantissa: u64, exponent: i64) -> Self {
+        if mantissa == 0 {
+            return Self::ZERO;
+        }
+        let zeros = mantissa.leading_zeros();
+        Self::of_leading(mantissa << zeros, false, shifted(exponent, 64 - i64::from(zeros)))
+    }
+
     /// The least magnitude of at least `value`.
     pub fn from_u64(value: u64) -> Self {
-        Self::round_up(u128::from(value), 0)
+        Self::rounded_up(value, 0)
     }
 
     /// `2^exponent`, exactly.
     pub fn power_of_two(exponent: i64) -> Self {
-        Self::round_up(1, exponent)
+        Self::rounded_up(1, exponent)
     }
 
     /// An upper bound of `|value|·2^exponent`, within one part in 2^31.
@@ -90,6 +99,16 @@ impl Magnitude {
         Self::round_up((top >> 1) + 1, shifted(exponent, 1))
     }
 
+    /// The least magnitude of at least `f·2^top`, where the fraction `½ ≤ f < 1` begins with these 64 binary digits,
+    /// and others follow or not.
+    pub(super) fn of_leading(digits: u64, more: bool, top: i64) -> Self {
+        let short = (digits >> BITS) + u64::from(more || digits << BITS != 0);
+        match short >> BITS {
+            0 => Self { mantissa: short, exponent: shifted(top, -i64::from(BITS)) },
+            _ => Self { mantissa: short >> 1, exponent: shifted(top, 1 - i64::from(BITS)) },
+        }
+    }
+
     /// An upper bound of `|value|`, within one part in 2^30.
     pub fn from_rational(value: &BigRational) -> Self {
         let (numerator, denominator) = (value.numer().magnitude(), value.denom().magnitude());
@@ -113,26 +132,23 @@ impl Magnitude {
         if small.is_zero() {
             return *large;
         }
-        // 64 further bits below the larger mantissa hold the smaller one; whatever falls below
-        // them counts as one unit.
-        let gap = i128::from(large.exponent) - i128::from(small.exponent);
-        let high = u128::from(large.mantissa) << 64;
-        let low = u128::from(small.mantissa) << 64;
-        let low = if gap < 64 + i128::from(BITS) {
-            (low >> gap) + u128::from(i128::from(low.trailing_zeros()) < gap)
-        } else {
-            1
+        // 31 further bits below the larger mantissa hold the smaller one; whatever falls below them counts as one
+        // unit.
+        let gap = large.exponent.abs_diff(small.exponent);
+        let [high, low] = [large, small].map(|size| size.mantissa << (BITS - 1));
+        let low = match gap < 64 {
+            true => (low >> gap) + u64::from(u64::from(low.trailing_zeros()) < gap),
+            false => 1,
         };
-        Self::round_up(high + low, shifted(large.exponent, -64))
+        Self::rounded_up(high + low, shifted(large.exponent, 1 - i64::from(BITS)))
     }
 
     /// An upper bound of the product.
     pub fn multiply(&self, other: &Self) -> Self {
-        let mantissa = u128::from(self.mantissa) * u128::from(other.mantissa);
-        if mantissa == 0 {
+        if self.is_zero() || other.is_zero() {
             return Self::ZERO;
         }
-        Self::round_up(mantissa, shifted(self.exponent, other.exponent))
+        Self::rounded_up(self.mantissa * other.mantissa, shifted(self.exponent, other.exponent))
     }
 
     /// An upper bound of the quotient by `divisor`.
@@ -144,7 +160,7 @@ impl Magnitude {
         // A mantissa has 32 bits: with 32 more a quotient by a short divisor has 32 bits still.
         if divisor >> (BITS - 1) == 0 {
             let quotient = (self.mantissa << BITS).div_ceil(divisor);
-            return Self::round_up(quotient.into(), shifted(self.exponent, -i64::from(BITS)));
+            return Self::rounded_up(quotient, shifted(self.exponent, -i64::from(BITS)));
         }
         let quotient = (u128::from(self.mantissa) << 95).div_ceil(u128::from(divisor));
         Self::round_up(quotient, shifted(self.exponent, -95))
@@ -157,7 +173,7 @@ impl Magnitude {
         let wide = self.mantissa << (i64::from(BITS) - odd);
         let root = wide.isqrt();
         let root = root + u64::from(root * root < wide);
-        Self::round_up(root.into(), (self.exponent + odd - i64::from(BITS)) / 2)
+        Self::rounded_up(root, (self.exponent + odd - i64::from(BITS)) / 2)
     }
 
     /// `self·2^exponent`, exactly.

@@ -6,7 +6,7 @@
 use super::ball::Ball;
 use super::error::BallError;
 use super::magnitude::Magnitude;
-use num_traits::{Signed, Zero};
+use num_traits::{One as _, Signed, Zero};
 use std::borrow::Cow;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
@@ -121,8 +121,8 @@ impl Number {
 
     pub fn add(&self, other: &Number, bits: u64) -> Number {
         match (self, other) {
-            (Number::Exact(a), Number::Exact(b)) => Number::of_rational(a + b, bits),
             (zero, value) | (value, zero) if zero.is_zero() => value.clone(),
+            (Number::Exact(a), Number::Exact(b)) => Number::of_rational(a + b, bits),
             (a, b) => Number::Enclosed(a.as_ball(bits).add(&b.as_ball(bits), bits)),
         }
     }
@@ -133,9 +133,16 @@ impl Number {
 
     pub fn multiply(&self, other: &Number, bits: u64) -> Number {
         match (self, other) {
-            (Number::Exact(a), Number::Exact(b)) => Number::of_rational(a * b, bits),
             (zero, _) | (_, zero) if zero.is_zero() => Number::zero(),
-            (a, b) => Number::Enclosed(a.as_ball(bits).multiply(&b.as_ball(bits), bits)),
+            (Number::Exact(one), value) | (value, Number::Exact(one)) if one.is_one() => {
+                value.clone()
+            }
+            (Number::Exact(a), Number::Exact(b)) => Number::of_rational(a * b, bits),
+            (Number::Exact(factor), Number::Enclosed(ball))
+            | (Number::Enclosed(ball), Number::Exact(factor)) => {
+                Number::Enclosed(ball.multiply_rational(factor, bits))
+            }
+            (Number::Enclosed(a), Number::Enclosed(b)) => Number::Enclosed(a.multiply(b, bits)),
         }
     }
 
@@ -150,10 +157,12 @@ impl Number {
 
     /// The quotient by an integer that is not zero.
     pub fn over(&self, divisor: u64, bits: u64) -> Number {
-        let inverse = Rational::new(1.into(), divisor.into());
         match self {
-            Number::Exact(value) => Number::of_rational(value * inverse, bits),
-            Number::Enclosed(ball) => Number::Enclosed(ball.multiply_rational(&inverse, bits)),
+            value if divisor == 1 => value.clone(),
+            Number::Exact(value) => {
+                Number::of_rational(value / Rational::from_integer(divisor.into()), bits)
+            }
+            Number::Enclosed(ball) => Number::Enclosed(ball.over(divisor, bits)),
         }
     }
 

@@ -36,7 +36,15 @@ impl Numbers {
         }
         let own = self.constants.iter().find(|constant| constant.symbol == *symbol);
         let ball = match own {
-            Some(constant) => self.enclose_definition(&constant.value, bits + 16).ok()?,
+            Some(constant) => {
+                // Zeros of very different sizes take more bits than are asked for.
+                let attempt = |bits| match self.enclose_definition(&constant.value, bits) {
+                    Ok(ball) => Ok::<_, EnclosureError>(Attempt::Done(ball)),
+                    Err(error) => Ok(Attempt::NotYet(error)),
+                };
+                let precisions = Precisions::doubling(bits + 16, COMPARISON_BITS.max(bits + 16));
+                precisions.raise(attempt).and_then(Attempt::done).ok()?
+            }
             None if symbol.name() == "pi" => Ball::pi(bits),
             None => return None,
         };

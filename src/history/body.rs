@@ -264,8 +264,10 @@ impl Engine {
         let mut energy = Number::zero();
         let mut alone = true;
         for element in elements.iter().filter(|element| self.layout.bar(**element) != Some(bar)) {
-            alone &= matches!(&network.scene().elements[*element].kind, Kind::Spring(spring)
-                if spring.damping.is_zero());
+            alone &= match &network.scene().elements[*element].kind {
+                Kind::Spring(spring) => spring.damping.is_zero(),
+                kind => matches!(kind, Kind::Hertz(_)),
+            };
             let square = Integrand::ROUGH_SQUARE;
             let Some(own) = self.held(network, *element, moment, square)?.energy else {
                 return Ok(Drift::Unknown);

@@ -52,7 +52,7 @@ pub fn opening(network: &Network, joint: usize, instant: &Ball) -> Option<Expres
             if from < Rational::from(&lower) && Rational::from(&upper) < to)
     })?;
     let root = &linear_root(&stretch.value, &local)? + &Expression::from(stretch.from);
-    let bits = 2 * instant.midpoint().mantissa().bits() + 64;
+    let bits = 2 * instant.midpoint().bits() + 64;
     let there = enclose_expression(&root, &|_, _| None, bits).ok()?;
     there.real().subtract(instant, bits).contains_zero().then_some(root)
 }

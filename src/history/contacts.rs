@@ -4,7 +4,7 @@
 //! A contact pushes and never pulls, and a gap is never negative. Whatever enclosures do not decide is
 //! refused by name.
 
-use crate::ball::{Ball, Magnitude, Number};
+use crate::ball::{Magnitude, Number};
 use crate::history::crossing::{Beginning, Course, Errors, beginning, follow, tied_beginning};
 use crate::history::engine::Engine;
 use crate::history::error::{HistoryError, Question};
@@ -49,38 +49,56 @@ pub(crate) struct Contact {
     pub pressed: bool,
 }
 
-/// What keeps a contact as it is on a cell while it is not negative: its force while it is closed, its gap
-/// while it is open.
+/// What keeps a contact as it is on a cell while it is not negative: its gap while it is open; its force while it
+/// is closed, of a local one its compression.
 pub(crate) struct Guard {
-    /// How fast the bodies move apart, where it is open.
-    apart: Option<Series>,
+    kept: Kept,
     series: Series,
     /// Enclosures of its first coefficients.
     starts: Vec<Number>,
 }
 
+/// What is not negative while a contact stays as it is.
+enum Kept {
+    Force,
+    /// Of a gap, how fast it grows.
+    Gap(Series),
+    /// Of a compression, how fast it grows, and the force.
+    Compression(Series, Series),
+}
+
 impl Guard {
     /// Whether there is no force.
     pub fn has_no_force(&self) -> bool {
-        !self.is_closed() || self.series.is_zero()
+        match &self.kept {
+            Kept::Force => self.series.is_zero(),
+            Kept::Gap(_) => true,
+            Kept::Compression(_, force) => force.is_zero(),
+        }
+    }
+
+    /// Whether a contact is known to be closed until the end of the cell: a local one whose compression cannot come
+    /// to zero there.
+    fn is_safe(&self) -> bool {
+        match &self.kept {
+            Kept::Compression(_, force) => !force.coefficients.is_empty(),
+            Kept::Force | Kept::Gap(_) => self.series.is_zero(),
+        }
     }
 
     /// The gap after a time, zero where the contact is closed.
     pub fn gap_after(&self, time: &Number, bits: u64) -> Number {
-        match &self.apart {
-            None => Number::zero(),
-            Some(apart) => apart.integrated(&self.series, time, bits),
+        match &self.kept {
+            Kept::Gap(apart) => apart.integrated(&self.series, time, bits),
+            Kept::Force | Kept::Compression(..) => Number::zero(),
         }
     }
 
-    fn is_closed(&self) -> bool {
-        self.apart.is_none()
-    }
-
     pub fn into_force_and_gap(self) -> (Series, Series) {
-        match self.is_closed() {
-            true => (self.series, Series::zero()),
-            false => (Series::zero(), self.series),
+        match self.kept {
+            Kept::Force => (self.series, Series::zero()),
+            Kept::Gap(_) => (Series::zero(), self.series),
+            Kept::Compression(_, force) => (force, Series::zero()),
         }
     }
 
@@ -90,19 +108,20 @@ impl Guard {
     /// The derivatives of a gap are those of how fast the bodies move apart, of one order less.
     fn skipped(&self, norm: &CellNorm, cut: &Truncation) -> (Series, Errors) {
         let skipped = self.starts.iter().take_while(|c| c.is_zero()).count();
-        let (known, lifts) = match &self.apart {
-            None => (&self.series, 0),
-            Some(apart) => (apart, 1),
+        let (known, lifts) = match &self.kept {
+            Kept::Force => (&self.series, 0),
+            Kept::Gap(rate) | Kept::Compression(rate, _) => (rate, 1),
         };
         let low = (0..skipped.saturating_sub(lifts)).map(|k| known.coefficient(k).magnitude());
         let error = known.rest.add(&norm.of_sizes(&low.collect::<Vec<_>>()));
         let bound = |order: usize| match order.checked_sub(lifts) {
             None => error.multiply(&norm.length),
-            Some(order) => error.scale(cut.rate * order as i64),
+            Some(order) => known.bound_of_derivative(&error, order, cut),
         };
         let errors = Errors::new(skipped, bound);
         let kept = self.series.coefficients.iter().skip(skipped).cloned().collect();
-        (Series::new(kept, self.series.rest), errors)
+        let kept = Series::new(kept, self.series.rest).of_roughness(self.series.roughness);
+        (kept, errors)
     }
 
     /// The size of the first derivatives that may be zero, besides those that are, in the norm of cells.
@@ -113,7 +132,11 @@ impl Guard {
     }
 
     fn quantity(&self) -> &'static str {
-        if self.is_closed() { "the force" } else { "the gap" }
+        match self.kept {
+            Kept::Force => "the force",
+            Kept::Gap(_) => "the gap",
+            Kept::Compression(..) => "the compression",
+        }
     }
 }
 
@@ -143,20 +166,33 @@ impl Engine {
             let closed = state.system.closed.iter().position(|own| own.0 == contact);
             if let Some(row) = closed {
                 let (series, starts) = (&motion.forces[row], &starts[runs + row]);
-                return Guard { apart: None, series: series.clone(), starts: starts.clone() };
+                let (series, starts) = (series.clone(), starts.clone());
+                return Guard { kept: Kept::Force, series, starts };
             }
             let own = &self.open[contact];
-            let apart = motion.velocities[run + 1].subtract(&motion.velocities[run], bits);
-            let series = apart.integral_over(own.gap.clone(), &norm.length, &self.cut);
-            let [left, right] = [run, run + 1].map(|run| &starts[run]);
-            let mut starts = vec![own.gap.clone()];
-            for (k, (left, right)) in (1..).zip(left.iter().zip(right)) {
-                starts.push(right.subtract(left, bits).over(k, bits));
+            let known = match own.closed {
+                true => self.nodes[node].local_contact(contact).and_then(|place| {
+                    Some((state.system.kept[place]?, state.system.driven[place]?))
+                }),
+                false => None,
+            };
+            let first = known.map_or(&own.gap, |(place, _)| &state.state[place]);
+            let [less, more] = if known.is_some() { [run + 1, run] } else { [run, run + 1] };
+            let rate = motion.velocities[more].subtract(&motion.velocities[less], bits);
+            let series = rate.integral_over(first.clone(), &norm.length, &self.cut);
+            let [less, more] = [less, more].map(|run| &starts[run]);
+            let mut starts = vec![first.clone()];
+            for (k, (less, more)) in (1..).zip(less.iter().zip(more)) {
+                starts.push(more.subtract(less, bits).over(k, bits));
             }
             if own.rests {
                 starts[1] = Number::zero();
             }
-            Guard { apart: Some(apart), series, starts }
+            let kept = match known {
+                Some((_, force)) => Kept::Compression(rate, input[force].clone()),
+                None => Kept::Gap(rate),
+            };
+            Guard { kept, series, starts }
         };
         self.nodes[node].contacts().map(guard).collect()
     }
@@ -199,14 +235,14 @@ impl Engine {
             course => return Ok(course),
         };
         let what = Question::Zero { quantity: guard.quantity(), place: self.between(contact) };
-        let course = match self.clock.tie_size() {
-            Some(tie) => follow(&series, (&errors, &tie), length, cut),
-            None => Course::Undecided(Ball::zero()),
-        };
-        match course {
-            Course::Undecided(_) => Err(self.clock.undecided(what, &at)),
-            _ => self.clock.tie(what, &at, &Magnitude::ZERO).map(|()| course),
+        if let Some(tie) = self.clock.tie_size()
+            && let course @ (Course::Positive | Course::Falls(_)) =
+                follow(&series, (&errors, &tie), length, cut)
+        {
+            self.clock.assume(what, &at);
+            return Ok(course);
         }
+        Err(self.clock.undecided(what, &at))
     }
 
     /// Which contact of a node changes first on a cell of this length, by its force or its gap coming to
@@ -224,7 +260,7 @@ impl Engine {
         let after = |time: &Number| now.add(time, bits);
         let mut first: Option<(usize, Number)> = None;
         for (guard, (contact, _)) in guards.iter().zip(self.nodes[node].contacts()) {
-            if guard.series.is_zero() {
+            if guard.is_safe() {
                 continue;
             }
             let at = match self.course(contact, guard, (&now, length), norm)? {
@@ -271,8 +307,8 @@ impl Engine {
         let now = self.states[node].now.clone();
         let own = &self.nodes[node];
         if self.happenings.len() + changes.len() > MAX_EVENTS {
-            let (at, unit) = self.clock.told(&self.clock.time(&now)?);
-            return Err(HistoryError::TooManyEvents { limit: MAX_EVENTS, at, unit });
+            let when = self.clock.told(&self.clock.time(&now)?);
+            return Err(HistoryError::TooManyEvents { limit: MAX_EVENTS, when });
         }
         for contact in changes {
             let known = &mut self.open[*contact];
@@ -293,14 +329,18 @@ impl Engine {
         let velocity = |run: usize| known(state.system.place_of_velocity(run));
         let next = system.state(own, velocity, &displaced, &self.places[node], bits)?;
         let is_kept = |system: &System<Number>, place: usize| system.kept[place].is_some();
+        let is_spring = |place: &usize| !own.elements[*place].law.is_driven();
         let loosened = (0..own.elements.len())
+            .filter(is_spring)
             .any(|place| is_kept(&system, place) != is_kept(&state.system, place));
         for contact in changes {
             let run = self.layout.contacts[*contact].run;
             let inert = system.has_inertia(run) && system.has_inertia(run + 1);
             let own = &mut self.open[*contact];
             // The end of a spring that comes loose leaves with a velocity of its own.
-            own.rests = !own.closed && !loosened && (inert || cause == Cause::Crossing);
+            let is_local = self.nodes[node].local_contact(*contact).is_some();
+            own.rests =
+                !own.closed && !loosened && !is_local && (inert || cause == Cause::Crossing);
         }
         let passivity = Passivity::of(&self.nodes[node], &system)?;
         let state = &mut self.states[node];

@@ -189,13 +189,14 @@ fn fall(
 ) -> Option<Number> {
     let (mut near, mut middle, mut reach) = (near, middle.clone(), reach.clone());
     let bits = cut.bits;
-    let mut best: Option<Ball> = None;
+    let (mut best, mut is_known): (Option<Ball>, bool) = (None, false);
     for _ in 0..2 * (64 - bits.leading_zeros()) + 4 {
         let w = Magnitude::from_rational(&reach);
         // As far as the reach goes beyond the ends of the cell.
         let beyond = (&middle + &reach - end).max(&reach - &middle).max(Rational::zero());
         let beyond = Magnitude::from_rational(&beyond);
-        let errors = errors.from(&(&middle - &reach)).map(|error| cut.extended(&error, &beyond));
+        let errors = errors.from(&(&middle - &reach));
+        let errors = errors.map(|error| f.bound_beyond(&error, &beyond, cut));
         let value = near.coefficient(0).ball(bits).widened(&errors[0]);
         let slope = near.coefficient(1).ball(bits).widened(&errors[1]);
         let slope = slope.widened(&near.size_from(2, &w).multiply(&w));
@@ -208,7 +209,9 @@ fn fall(
             break;
         }
         let root = step.add(&Ball::from_rational(&middle, bits), bits);
-        if best.as_ref().is_some_and(|best| best.radius() <= root.radius()) {
+        if best.as_ref().is_some_and(|best| best.radius() <= &root.radius().scale(1)) {
+            // Where the slope is well known, the value is what tells no more.
+            is_known = slope.radius().scale(3) <= slope.magnitude();
             break;
         }
         let radius = Rational::from(root.radius());
@@ -222,7 +225,7 @@ fn fall(
     }
     // As narrow as the coefficients allow; else the part was too long.
     let narrow = Magnitude::power_of_two(-(bits as i64) / 2);
-    best.filter(|best| best.radius() <= &narrow).map(Number::Enclosed)
+    best.filter(|best| is_known || best.radius() <= &narrow).map(Number::Enclosed)
 }
 
 /// Polynomials of degree 2 with rational coefficients: roots are compared with the end exactly. `None`

@@ -1,8 +1,7 @@
 //! What a wave holds between two instants: `∫ w dt` and `∫ w² dt`, to which the momentum and the energy
 //! of a bar are proportional.
 //!
-//! Both antiderivatives of a cell are worked out once, when first asked for. A part of the cell is then a
-//! difference of two of their values, and the whole cell one value that is kept.
+//! What a whole cell holds is worked out once, when it is first asked for, and kept.
 
 use crate::ball::{Magnitude, Number};
 use crate::history::series::{CellNorm, Series, Truncation};
@@ -34,7 +33,7 @@ impl Series {
         let mut length = (2 * own.len()).saturating_sub(1);
         if !self.is_exact() {
             // p_k with k < N needs no c_j with j ≥ N.
-            length = length.min(cut.order);
+            length = length.min(cut.order.max(own.len()));
             own.iter_mut().for_each(|c| *c = c.enclosed(bits));
         }
         let product = |k: usize| {
@@ -111,14 +110,7 @@ enum Antiderivative {
     Square(Energy),
 }
 
-/// What is kept of an antiderivative: itself, and its value at the end of the cell.
-#[derive(Debug)]
-struct Kept {
-    antiderivative: Antiderivative,
-    whole: Number,
-}
-
-/// A wave on one cell: its series, with its integrals once they have been asked for.
+/// A wave on one cell: its series, with its integrals over the cell once they have been asked for.
 ///
 /// # Invariants
 /// The series and the length never change, all series of a history are cut off in one way, and all that is told
@@ -128,7 +120,7 @@ pub struct Wave {
     series: Series,
     length: Number,
     /// Of the wave, of its square as it is told, and roughly.
-    kept: [OnceCell<Kept>; 3],
+    whole: [OnceCell<Number>; 3],
 }
 
 /// Which integral of a wave is meant.
@@ -160,7 +152,7 @@ impl Antiderivative {
 impl Wave {
     /// A wave on a cell of this length.
     pub fn new(series: Series, length: Number) -> Wave {
-        Wave { series, length, kept: Default::default() }
+        Wave { series, length, whole: Default::default() }
     }
 
     /// The series.
@@ -168,39 +160,37 @@ impl Wave {
         &self.series
     }
 
+    /// Whether so few bits are asked for that they change anything.
+    fn is_rough(&self, bits: u64, cut: &Truncation) -> bool {
+        !self.series.is_exact() && bits < cut.bits
+    }
+
     /// The antiderivative; of a square with fewer bits that of the polynomial with as many terms as these
     /// tell, of an exact one all of it.
-    fn kept(&self, integrand: Integrand, cut: &Truncation) -> &Kept {
-        let is_whole = |bits: u64| self.series.is_exact() || bits >= cut.bits;
-        let place = match integrand {
-            Integrand::Wave => 0,
-            Integrand::Square { bits: ROUGH_BITS } if !is_whole(ROUGH_BITS) => 2,
-            Integrand::Square { .. } => 1,
-        };
-        self.kept[place].get_or_init(|| {
-            let antiderivative = match integrand {
-                Integrand::Wave => Antiderivative::Wave(self.series.integral(Number::zero(), cut)),
-                Integrand::Square { bits } if is_whole(bits) => {
-                    Antiderivative::Square(self.series.energy(cut))
-                }
-                Integrand::Square { bits } => {
-                    let few = Truncation { bits, ..*cut };
-                    let norm = CellNorm::new(self.length.magnitude(), &few);
-                    Antiderivative::Square(self.series.bare(&norm, &few).energy(&few))
-                }
-            };
-            let whole = antiderivative.value(&self.length, cut);
-            Kept { antiderivative, whole }
-        })
+    fn antiderivative(&self, integrand: Integrand, cut: &Truncation) -> Antiderivative {
+        match integrand {
+            Integrand::Wave => Antiderivative::Wave(self.series.integral(Number::zero(), cut)),
+            Integrand::Square { bits } if self.is_rough(bits, cut) => {
+                let few = Truncation { bits, ..*cut };
+                let norm = CellNorm::new(self.length.magnitude(), &few);
+                Antiderivative::Square(self.series.bare(&norm, &few).energy(&few))
+            }
+            Integrand::Square { .. } => Antiderivative::Square(self.series.energy(cut)),
+        }
     }
 
     /// An integral from the start of the cell to a time after it.
     pub fn until(&self, integrand: Integrand, time: &Number, cut: &Truncation) -> Number {
-        self.kept(integrand, cut).antiderivative.value(time, cut)
+        self.antiderivative(integrand, cut).value(time, cut)
     }
 
     /// An integral over the whole cell.
     pub fn whole(&self, integrand: Integrand, cut: &Truncation) -> &Number {
-        &self.kept(integrand, cut).whole
+        let place = match integrand {
+            Integrand::Wave => 0,
+            Integrand::Square { bits: ROUGH_BITS } if self.is_rough(ROUGH_BITS, cut) => 2,
+            Integrand::Square { .. } => 1,
+        };
+        self.whole[place].get_or_init(|| self.until(integrand, &self.length, cut))
     }
 }

@@ -5,17 +5,18 @@
 //! would become negative closes; the cell ends there, and the next one begins with other equations.
 //! Every node has a time of its own and is at most a travel time ahead of its neighbours.
 
-use crate::ball::{Magnitude, Number};
+use crate::ball::{Ball, Magnitude, Number};
 use crate::expression::Fraction;
 use crate::history::contacts::{Cause, Contact, Guard, Happening};
-use crate::history::error::{HistoryError, NotFollowed, Question};
+use crate::history::error::{HistoryError, NotFollowed, Question, When};
 use crate::history::load::Course;
 use crate::history::moment::{Clock, Moment};
 use crate::history::motion::Motion;
 use crate::history::passivity::{Passivity, StateError};
+use crate::history::pressing::TooLong;
 use crate::history::series::{CellNorm, LONGEST_CELL, Series, Truncation};
 use crate::history::track::{Arriving, Track};
-use crate::limits::{MAX_CONTACTS, MAX_HISTORY_CELLS, memory};
+use crate::limits::{MAX_CONTACTS, MAX_HISTORY_CELLS, memory, tell_followed};
 use crate::network::{Contacts, ElementLaw, Layout, Network, Node, Side, System, Unresisted};
 use crate::scene::{Dimension, Drive, ElementIndex};
 use std::cmp::Ordering;
@@ -28,15 +29,17 @@ const TOLD_APART: f64 = 1e-12;
 /// The most changes of contacts of one node at one instant.
 const MAX_CHANGES: usize = 16;
 
-/// What a number takes beside its bits where it is allocated.
-const HEAP_BYTES: u64 = 24;
+/// So many bits beyond what is known of a node are worked with, and so many at least.
+const SPARE_BITS: i64 = 48;
+const LEAST_BITS: u64 = 96;
 
 /// What a node did on one cell.
 pub(crate) struct Cell {
     /// Velocities of its runs.
     pub velocities: Vec<Series>,
-    /// Displacements of its runs since the start.
-    pub displacements: Vec<Series>,
+    /// Displacements of its runs since the start, when it begins.
+    pub displacements: Vec<Number>,
+    pub length: Magnitude,
     /// The displacements of its elements: zero for those that have none, and for springs that hang on an
     /// open contact.
     pub compressions: Vec<Series>,
@@ -49,8 +52,7 @@ pub(crate) struct Cell {
 impl Cell {
     /// How many coefficients are held of it, with those of the waves that leave.
     fn coefficients(&self) -> usize {
-        let all =
-            [&self.velocities, &self.displacements, &self.compressions, &self.forces, &self.gaps];
+        let all = [&self.velocities, &self.compressions, &self.forces, &self.gaps];
         let held = all.into_iter().flatten().map(|series| series.coefficients.len() + 1);
         held.sum::<usize>()
             + self.velocities.iter().map(|series| series.coefficients.len()).sum::<usize>()
@@ -74,6 +76,16 @@ struct Reach {
     inputs: Vec<Series>,
 }
 
+/// How long a cell may be.
+#[derive(Clone, Copy)]
+struct Longest<'a> {
+    /// The rate of the free motion, and which share of the cell that it allows is taken.
+    rate: Magnitude,
+    share: &'a Rational,
+    /// Where more is known, a length.
+    most: Option<&'a Rational>,
+}
+
 /// What a node does on a cell, before it is taken over.
 struct Planned {
     inputs: Vec<Series>,
@@ -95,6 +107,8 @@ pub(crate) struct State {
     pub errors: Vec<StateError>,
     arriving: [Arriving; 2],
     displacements: Vec<Number>,
+    /// How long its last cell beside a pressed local contact was allowed to be.
+    pressed_for: Option<Rational>,
 }
 
 /// Scene, waves and nodes as far as they are known.
@@ -117,6 +131,8 @@ pub(crate) struct Engine {
     count: usize,
     /// What the cells hold, about.
     bytes: u64,
+    /// The size of the largest wave so far.
+    loudest: Magnitude,
 }
 
 type Outcome<T> = Result<T, HistoryError>;
@@ -149,6 +165,27 @@ fn loads(network: &Network, clock: &Clock) -> Outcome<BTreeMap<ElementIndex, Loa
     Ok(loads)
 }
 
+/// The nodes of a line in numbers.
+fn nodes(network: &Network, layout: &Layout, clock: &Clock) -> Outcome<Vec<Node<Number>>> {
+    let model = network.model();
+    let of_masses = model.lumps.values().filter_map(|law| match law {
+        ElementLaw::Mass { velocity, .. } => Some(velocity),
+        _ => None,
+    });
+    let velocities = model.bars.values().map(|bar| &bar.velocity).chain(of_masses);
+    let mut fastest = 0.0_f64;
+    for velocity in velocities {
+        fastest = fastest.max(clock.number(velocity)?.ball(64).to_double().0.abs());
+    }
+    let fastest = if fastest > 0.0 { fastest } else { 1.0 };
+    let mut nodes = Vec::with_capacity(layout.nodes.len());
+    for node in &layout.nodes {
+        let node = node.map(|value| clock.number(value))?;
+        nodes.push(node.with_typical_compressions(fastest, clock.bits)?);
+    }
+    Ok(nodes)
+}
+
 impl Engine {
     /// The scene at its start.
     ///
@@ -161,9 +198,12 @@ impl Engine {
             return Err(HistoryError::MissingValue(symbol.clone()));
         }
         let clock = Clock::new(numbers, bits, &network.assumed);
-        let layout = Layout::of(network.scene(), network.model(), Contacts::Links);
-        let nodes = layout.nodes.iter().map(|node| node.map(|value| clock.number(value)));
-        let nodes = nodes.collect::<Result<Vec<_>, _>>()?;
+        let contacts = match network.scene().contacts_open || network.local_contact().is_none() {
+            true => Contacts::Links,
+            false => Contacts::LocalLinks,
+        };
+        let layout = Layout::of(network.scene(), network.model(), contacts);
+        let nodes = nodes(network, &layout, &clock)?;
         let loads = loads(network, &clock)?;
         let mut bars = Vec::new();
         let mut waves = Vec::new();
@@ -192,6 +232,7 @@ impl Engine {
             places,
             count: 0,
             bytes: 0,
+            loudest: Magnitude::ZERO,
         };
         let seconds = if network.scene().dimensional { " s" } else { "" };
         engine.clock.tell_in(engine.unit(network, Dimension::TIME)?, seconds);
@@ -272,6 +313,7 @@ impl Engine {
                 errors,
                 arriving,
                 displacements,
+                pressed_for: None,
             });
             self.cells.push(Vec::new());
         }
@@ -284,7 +326,7 @@ impl Engine {
         node: usize,
         is_closed: impl Fn(usize) -> bool,
     ) -> Outcome<System<Number>> {
-        let system = System::of(&self.nodes[node], is_closed, self.cut.bits);
+        let system = System::of(&self.nodes[node], is_closed, self.clock.bits);
         let place = || self.places[node].clone();
         Ok(system.map_err(|Unresisted| NotFollowed::Massless { place: place() })?)
     }
@@ -319,10 +361,12 @@ impl Engine {
         self.foresee_cells(until)?;
         while let Some((node, now)) = self.behind() {
             if self.clock.compare(now, until)? == Ordering::Greater {
-                return Ok(());
+                break;
             }
+            tell_followed(self.clock.about(now) / self.clock.about(until));
             self.advance(node)?;
         }
+        tell_followed(0.0);
         Ok(())
     }
 
@@ -348,9 +392,13 @@ impl Engine {
         }
     }
 
+    /// How far a node was followed, as it is told.
+    fn reached(&self, node: usize) -> Outcome<When> {
+        Ok(self.clock.told(&self.clock.time(&self.states[node].now)?))
+    }
+
     fn too_many_cells(&self, node: usize) -> Outcome<HistoryError> {
-        let (at, unit) = self.clock.told(&self.clock.time(&self.states[node].now)?);
-        Ok(HistoryError::TooManyCells { limit: MAX_HISTORY_CELLS, at, unit })
+        Ok(HistoryError::TooManyCells { limit: MAX_HISTORY_CELLS, when: self.reached(node)? })
     }
 
     /// The node that was followed the least far, and how far. What arrives there has left the others:
@@ -369,13 +417,11 @@ impl Engine {
         }
     }
 
-    /// When the inputs of a node change next, but no later than this share of the longest cell that a rate allows; and
-    /// whether that is what ends the cell.
+    /// When the inputs of a node change next, but no later than a cell may be long; and whether that is what ends it.
     fn next_change(
         &self,
         node: usize,
-        rate: Magnitude,
-        share: &Rational,
+        Longest { rate, share, most }: Longest<'_>,
     ) -> Outcome<(Moment, bool)> {
         let state = &self.states[node];
         let mut ends: Vec<Moment> =
@@ -396,13 +442,16 @@ impl Engine {
             });
         }
         let rates = self.loads_of(node).map(|load| load.course.rate());
-        let longest = match (rates.fold(rate, Magnitude::max).top(), &first) {
-            (Some(top), _) => Rational::from(&Magnitude::power_of_two(LONGEST_CELL - top)),
+        let longest = match (most, rates.fold(rate, Magnitude::max).top(), &first) {
+            (Some(most), ..) => most.clone(),
+            (_, Some(top), _) => {
+                Rational::from(&Magnitude::power_of_two(LONGEST_CELL - top)) * share
+            }
             // Where nothing has a rate and nothing arrives, a cell is one unit of time.
-            (None, None) => Rational::from_integer(1.into()),
-            (None, Some(first)) => return Ok((first.clone(), false)),
+            (None, None, None) => share.clone(),
+            (None, None, Some(first)) => return Ok((first.clone(), false)),
         };
-        let step = Clock::step(&state.now, &(longest * share));
+        let step = Clock::step(&state.now, &longest);
         Ok(match first {
             Some(first) if self.clock.compare(&first, &step)? != Ordering::Greater => {
                 (first, false)
@@ -416,15 +465,21 @@ impl Engine {
         self.nodes[node].elements.iter().filter_map(|own| self.loads.get(&own.element))
     }
 
-    /// What acts on a node on a cell from now on: arriving waves, then its loads.
-    fn inputs(&self, node: usize, norm: &CellNorm) -> Outcome<Vec<Series>> {
+    /// What acts on a node on a cell of a length from now on: arriving waves, then its loads and, nothing yet, its
+    /// local contacts; and the norm of the cell, as rough as these are.
+    fn inputs(&self, node: usize, length: Magnitude) -> Outcome<(Vec<Series>, CellNorm)> {
         let state = &self.states[node];
-        let mut inputs = Vec::new();
-        for arriving in &state.arriving {
-            let series = arriving.series(&self.waves, &state.now, &self.clock, &self.cut)?;
-            inputs.push(series.settled(norm, &self.cut));
-        }
-        for load in self.loads_of(node) {
+        let arriving = |own: &Arriving| own.series(&self.waves, &state.now, &self.clock, &self.cut);
+        let arriving = state.arriving.iter().map(arriving).collect::<Result<Vec<_>, _>>()?;
+        let roughness = arriving.iter().filter_map(|series| series.roughness).max();
+        let norm = CellNorm::new(length, &self.cut).of_roughness(roughness);
+        let settled = arriving.iter().map(|series| series.settled(&norm, &self.cut));
+        let mut inputs: Vec<Series> = settled.collect();
+        for own in self.nodes[node].elements.iter().filter(|own| own.law.is_driven()) {
+            let Some(load) = self.loads.get(&own.element) else {
+                inputs.push(Series::zero());
+                continue;
+            };
             let begun = self.clock.compare(&Moment::at(load.from.clone()), &state.now)?;
             let acts = begun != Ordering::Greater
                 && match &load.until {
@@ -435,11 +490,11 @@ impl Engine {
                     None => true,
                 };
             inputs.push(match acts {
-                true => load.course.series(&self.clock.time(&state.now)?, norm, &self.cut)?,
+                true => load.course.series(&self.clock.time(&state.now)?, &norm, &self.cut)?,
                 false => Series::zero(),
             });
         }
-        Ok(inputs)
+        Ok((inputs, norm))
     }
 
     /// Follows a node over one cell.
@@ -452,10 +507,17 @@ impl Engine {
             return Err(self.too_many_cells(node)?);
         }
         if self.bytes > memory() {
-            let (at, unit) = self.clock.told(&self.clock.time(&self.states[node].now)?);
-            let megabytes = memory() / 1_000_000;
-            return Err(HistoryError::TooMuchMemory { megabytes, at, unit });
+            let (megabytes, when) = (memory() / 1_000_000, self.reached(node)?);
+            return Err(HistoryError::TooMuchMemory { megabytes, when });
         }
+        let all = self.cut.bits;
+        self.cut.bits = self.bits_of(node);
+        let advanced = self.advance_over(node);
+        self.cut.bits = all;
+        advanced
+    }
+
+    fn advance_over(&mut self, node: usize) -> Outcome<()> {
         let whole = Rational::from_integer(1.into());
         let planned = match self.plan(node, &whole)? {
             Ok(planned) => planned,
@@ -473,11 +535,24 @@ impl Engine {
         Ok(())
     }
 
+    /// The precision that is of use for the next cell of a node: errors that have come together since the start hide
+    /// what is far below them.
+    fn bits_of(&self, node: usize) -> u64 {
+        let state = &self.states[node];
+        let own = state.errors.iter().map(|error| (error.size(), self.cut.largest));
+        let arrives = state.arriving.iter().map(|own| (own.rest(&self.waves), self.loudest));
+        let known = own.chain(arrives).filter_map(|(error, size)| Some(size.top()? - error.top()?));
+        known.min().map_or(self.cut.bits, |bits| {
+            let bits = u64::try_from(bits.saturating_add(SPARE_BITS)).unwrap_or(0);
+            bits.max(LEAST_BITS).min(self.cut.bits)
+        })
+    }
+
     /// How far the next cell of a node reaches. Where the rate of its free motion is what ends the cell, and the
     /// fastest of that has died out, a second look finds a longer one.
     fn next_cell(&mut self, node: usize, share: &Rational) -> Outcome<Reach> {
         let fastest = self.states[node].passivity.rate();
-        let reach = self.reach(node, fastest, share)?;
+        let reach = self.reach(node, Longest { rate: fastest, share, most: None })?;
         if !reach.is_step {
             return Ok(reach);
         }
@@ -486,19 +561,49 @@ impl Engine {
         let cell = (&reach.norm, &self.cut);
         let free = state.system.free_rate(&state.passivity, known, &reach.inputs, cell);
         match free.scale(1) < fastest {
-            true => self.reach(node, free, share),
+            true => self.reach(node, Longest { rate: free, share, most: None }),
             false => Ok(reach),
         }
     }
 
-    /// How far a cell reaches whose free motion has this rate.
-    fn reach(&mut self, node: usize, rate: Magnitude, share: &Rational) -> Outcome<Reach> {
-        let (end, is_step) = self.next_change(node, rate, share)?;
+    /// How far a cell reaches that is no longer than it may be.
+    fn reach(&mut self, node: usize, longest: Longest<'_>) -> Outcome<Reach> {
+        let (end, is_step) = self.next_change(node, longest)?;
         let length = self.clock.since(&self.states[node].now, &end)?;
         self.cut.longest = self.cut.longest.max(length.magnitude());
-        let norm = CellNorm::new(length.magnitude(), &self.cut);
-        let inputs = self.inputs(node, &norm)?;
+        let (inputs, norm) = self.inputs(node, length.magnitude())?;
         Ok(Reach { end, is_step, length, norm, inputs })
+    }
+
+    /// How far the next cell of a node reaches, and what the node does there. Beside a pressed local contact it is as
+    /// short as the motion can be followed at once.
+    fn answer(&mut self, node: usize, share: &Rational) -> Outcome<(Reach, Motion)> {
+        let rate = self.states[node].passivity.rate();
+        // What was short enough before tells about how long the next cell may be.
+        let mut reach = match self.states[node].pressed_for.take() {
+            Some(length) => {
+                let most = length * Rational::from_integer(2.into());
+                self.reach(node, Longest { rate, share, most: Some(&most) })?
+            }
+            None => self.next_cell(node, share)?,
+        };
+        loop {
+            let state = &self.states[node];
+            let (system, cut) = (&state.system, &self.cut);
+            let known = (&state.state[..], &state.errors[..]);
+            let cell = (&reach.norm, cut);
+            if state.passivity.blocks.iter().all(|block| block.pressed.is_empty()) {
+                let motion = system.solve(&state.passivity, known, &reach.inputs, cell);
+                return Ok((reach, motion));
+            }
+            match system.press(&state.passivity, known, &mut reach.inputs, cell) {
+                Ok(motion) => return Ok((reach, motion)),
+                Err(TooLong(most)) => {
+                    reach = self.reach(node, Longest { rate, share, most: Some(&most) })?;
+                    self.states[node].pressed_for = Some(most);
+                }
+            }
+        }
     }
 
     /// What a node does on its next cell, no longer than this share of the longest. The inner error is that
@@ -506,11 +611,8 @@ impl Engine {
     fn plan(&mut self, node: usize, share: &Rational) -> Outcome<Outcome<Planned>> {
         let mut changed = 0;
         loop {
-            let Reach { end, is_step, length, norm, inputs } = self.next_cell(node, share)?;
-            let state = &self.states[node];
-            let (system, cut) = (&state.system, &self.cut);
-            let known = (&state.state[..], &state.errors[..]);
-            let motion = system.solve(&state.passivity, known, &inputs, (&norm, cut));
+            let (Reach { end, is_step, length, norm, inputs }, motion) =
+                self.answer(node, share)?;
             let guards = self.guards(node, &motion, &inputs, &norm);
             let changes = self.changes(node, &guards)?;
             if changes.is_empty() {
@@ -537,7 +639,8 @@ impl Engine {
     fn finish(&mut self, node: usize, planned: Planned) -> Outcome<()> {
         let Planned { inputs, motion, guards, end, length, .. } = planned;
         let (cut, length) = (self.cut, &length);
-        let norm = CellNorm::new(length.magnitude(), &cut);
+        let known = inputs.iter().chain(&motion.state).filter_map(|series| series.roughness);
+        let norm = CellNorm::new(length.magnitude(), &cut).of_roughness(known.max());
         let own = &self.nodes[node];
         let now = self.states[node].now.clone();
         for (guard, (contact, _)) in guards.iter().zip(own.contacts()) {
@@ -560,13 +663,13 @@ impl Engine {
             let Side::Bar(bar) = bar else { continue };
             let leaving = state.system.leaving(&motion, &inputs, (side, run), cut.bits);
             let leaving = leaving.settled(&norm, &cut);
+            self.loudest = self.loudest.max(leaving.coefficient(0).magnitude());
             self.waves[bar][1 - side].push(leaving, end.clone(), length.clone());
         }
-        let mut displacements = Vec::new();
+        let displacements = state.displacements.clone();
         for (velocity, start) in motion.velocities.iter().zip(&mut state.displacements) {
             let displacement = velocity.integral_over(start.clone(), &norm.length, &cut);
             *start = velocity.integrated(&displacement, length, cut.bits);
-            displacements.push(displacement);
         }
         let compressions = state
             .system
@@ -590,9 +693,10 @@ impl Engine {
         }
         let velocities = motion.velocities;
         let (forces, gaps) = guards.into_iter().map(Guard::into_force_and_gap).unzip();
-        let cell = Cell { velocities, displacements, compressions, forces, gaps };
-        self.bytes +=
-            cell.coefficients() as u64 * (size_of::<Number>() as u64 + cut.bits / 8 + HEAP_BYTES);
+        let length = norm.length;
+        let cell = Cell { velocities, displacements, length, compressions, forces, gaps };
+        let each = size_of::<Number>() as u64 + Ball::further_bytes(cut.bits);
+        self.bytes += cell.coefficients() as u64 * each;
         self.cells[node].push((now, cell));
         self.states[node].now = end;
         Ok(())

@@ -3,6 +3,7 @@
 use crate::ball::{Ball, BallError};
 use crate::enclosure::EnclosureError;
 use crate::signal::EvaluateError;
+use std::fmt;
 use wavestep_polynomial::Symbol;
 
 /// Why a history cannot be followed to its end.
@@ -19,46 +20,46 @@ pub enum HistoryError {
     #[error(transparent)]
     Refused(#[from] NotFollowed),
     /// Something that the precision allowed does not decide.
-    #[error("undecided {what}, at t = {}{unit} with {bits} bits", at.to_decimal(20))]
+    #[error("undecided {what}, at t = {when:.20} with {bits} bits")]
     Undecided {
         /// What is not decided.
         what: Question,
         /// About when.
-        at: Box<Ball>,
-        /// The unit of time after a space, empty where there is none.
-        unit: &'static str,
+        when: When,
         /// The precision in bits.
         bits: u64,
     },
     /// More events than are followed.
-    #[error("more than {limit} events, the last of them followed at t = {}{unit}", at.to_decimal(8))]
+    #[error("more than {limit} events, the last of them followed at t = {when}")]
     TooManyEvents {
         /// How many are followed.
         limit: usize,
         /// About when the last one was.
-        at: Box<Ball>,
-        /// As in [`HistoryError::Undecided`].
-        unit: &'static str,
+        when: When,
     },
     /// More cells than are worked out.
-    #[error("more than {limit} cells of waves; followed until t = {}{unit}", at.to_decimal(8))]
+    #[error("more than {limit} cells of waves; followed until t = {when}")]
     TooManyCells {
         /// How many are worked out.
         limit: usize,
         /// How far the history was followed.
-        at: Box<Ball>,
-        /// As in [`HistoryError::Undecided`].
-        unit: &'static str,
+        when: When,
     },
     /// More memory than is allowed.
-    #[error("the waves until t = {}{unit} take more than {megabytes} MB of memory", at.to_decimal(8))]
+    #[error("the waves until t = {when} take more than {megabytes} MB of memory")]
     TooMuchMemory {
         /// How much is allowed.
         megabytes: u64,
         /// How far the history was followed.
-        at: Box<Ball>,
-        /// As in [`HistoryError::Undecided`].
-        unit: &'static str,
+        when: When,
+    },
+    /// A contact that opens, where it has to stay closed.
+    #[error("{} and {} part at t = {at}, and this is for contacts that stay closed", between[0], between[1])]
+    Opens {
+        /// What is at its left and right.
+        between: [String; 2],
+        /// When, with its unit.
+        at: String,
     },
     /// A time after the last one that was asked for.
     #[error("a time after the last one that was followed")]
@@ -66,6 +67,22 @@ pub enum HistoryError {
     /// A value that is not enclosed.
     #[error(transparent)]
     Evaluate(Box<EvaluateError>),
+}
+
+/// About when, as it is told: with its unit, in as many digits as a format asks for.
+#[derive(Clone, PartialEq, Debug)]
+pub struct When {
+    /// In the user's unit of time.
+    pub time: Box<Ball>,
+    /// That unit after a space, empty where there is none.
+    pub unit: &'static str,
+}
+
+impl fmt::Display for When {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let digits = f.precision().unwrap_or(8);
+        write!(f, "{}{}", self.time.to_decimal(digits), self.unit)
+    }
 }
 
 /// What is not followed through the openings of contacts.

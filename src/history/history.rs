@@ -20,6 +20,10 @@ use wavestep_polynomial::Rational;
 /// How many of the longest travel times a history is followed where no end is given.
 pub(crate) const PATIENCE: u32 = 100;
 
+/// The precision that a scene with a local contact is begun with where no digits are asked for: its cost grows as the
+/// cube of the bits, and errors hardly grow in the few contacts that there are.
+pub(crate) const LEAST_BITS: u64 = 64;
+
 /// What happens at a contact.
 ///
 /// ```
@@ -264,7 +268,13 @@ impl History {
             }
             Err(error) => undecided(error),
         };
-        precisions(digits, MAX_HISTORY_BITS).raise(attempt)?.best()
+        let precisions = match network.local_contact() {
+            None => precisions(digits, MAX_HISTORY_BITS),
+            Some(_) => {
+                Precisions::whole_doublings(LEAST_BITS + 4 * digits as u64, MAX_HISTORY_BITS)
+            }
+        };
+        precisions.raise(attempt)?.best()
     }
 
     /// Whether every instant has its digits.
@@ -458,6 +468,9 @@ impl Story<'_> {
         let Number::Enclosed(instant) = self.engine.clock.time(&row.moment)? else {
             return Ok(None);
         };
+        if self.network.local_contact().is_some() {
+            return Ok(None);
+        }
         let joint = self.engine.layout.contacts[row.contact].joint;
         Ok(closed_form::opening(self.network, joint, &instant))
     }

@@ -9,7 +9,7 @@
 //! is taken from it, `crossing` and `positive` for the proof that nothing is
 //! passed over, `observe` and `phased` for what is
 //! seen of it, `validity` for how long closed contacts are true, `closed_form` for instants in closed form,
-//! `series` for the arithmetic, `passivity` for what becomes of errors, `energy` for what a wave holds, `body` for
+//! `series` for the arithmetic, `pressing` for local contacts, `passivity` for what becomes of errors, `energy` for what a wave holds, `body` for
 //! energies and momenta of bodies and for why they never meet again.
 
 mod body;
@@ -29,12 +29,14 @@ mod part;
 pub mod passivity;
 mod phased;
 pub mod positive;
+pub mod pressing;
 mod reading;
 pub mod series;
 pub mod track;
 mod validity;
 
-pub use error::{HistoryError, NotFollowed, Question};
+pub use error::{HistoryError, NotFollowed, Question, When};
 pub use history::{Body, ContactSummary, Ending, Event, EventKind, History};
 pub(crate) use phased::{FollowedSignal, Follower};
 pub use validity::Validity;
+pub(crate) use validity::stays_closed;

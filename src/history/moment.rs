@@ -7,7 +7,7 @@
 use crate::ball::{Ball, Magnitude, Number, Value};
 use crate::enclosure::{EnclosureError, Numbers};
 use crate::expression::Fraction;
-use crate::history::error::{HistoryError, Question};
+use crate::history::error::{HistoryError, Question, When};
 use crate::network::Assumed;
 use num_traits::Zero;
 use std::cell::RefCell;
@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
 /// Digits of the times in assumptions.
-const TOLD_DIGITS: usize = 12;
+pub const TOLD_DIGITS: usize = 12;
 
 /// An instant in the scale of the scene.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -72,15 +72,14 @@ impl Clock {
     }
 
     /// A time of the scene as it is told, with its unit.
-    pub fn told(&self, time: &Number) -> (Box<Ball>, &'static str) {
-        let (unit, name) = &self.unit;
-        (Box::new(time.multiply(unit, self.bits).ball(self.bits)), name)
+    pub fn told(&self, time: &Number) -> When {
+        let (scale, unit) = &self.unit;
+        When { time: Box::new(time.multiply(scale, self.bits).ball(self.bits)), unit }
     }
 
     /// That a question about a time is not decided.
     pub fn undecided(&self, what: Question, at: &Number) -> HistoryError {
-        let (at, unit) = self.told(at);
-        HistoryError::Undecided { what, at, unit, bits: self.bits }
+        HistoryError::Undecided { what, when: self.told(at), bits: self.bits }
     }
 
     /// How far from zero a tie may be; `None` where more bits are to be tried first.
@@ -97,6 +96,17 @@ impl Clock {
         if self.tie_size().is_none_or(|tie| *size > tie) {
             return Err(self.undecided(what, at));
         }
+        self.assume(what, at);
+        Ok(())
+    }
+
+    /// Whether anything was taken for granted.
+    pub fn has_ties(&self) -> bool {
+        !self.ties.borrow().is_empty()
+    }
+
+    /// Takes the case on the border for granted.
+    pub fn assume(&self, what: Question, at: &Number) {
         if !self.ties.borrow().contains(&what) {
             let (unit, name) = &self.unit;
             let at = Value::of(&at.multiply(unit, self.bits), TOLD_DIGITS).to_text(TOLD_DIGITS);
@@ -104,7 +114,6 @@ impl Clock {
             self.assumed.add(format!("{assumption}, which {} bits do not decide", self.bits));
             self.ties.borrow_mut().push(what);
         }
-        Ok(())
     }
 
     /// An instant of which an enclosure is known.

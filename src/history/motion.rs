@@ -3,7 +3,7 @@
 use crate::ball::{Magnitude, Number};
 use crate::history::error::{HistoryError, NotFollowed};
 use crate::history::passivity::{Block, Passivity, StateError};
-use crate::history::series::{CellNorm, Series, Truncation};
+use crate::history::series::{CellNorm, Roughness, Series, Truncation};
 use crate::network::{Node, System, dot, inverse};
 
 /// So many derivatives at the start of a cell are enclosed one by one.
@@ -47,50 +47,59 @@ pub struct Motion {
 }
 
 /// What is added to an error.
-enum Added {
+pub(super) enum Added {
     /// Nothing: the block is exact, or nothing changes it.
     Nothing,
     /// So much, and so much per unit of time.
     Error { at_once: Magnitude, per_time: Magnitude },
+    /// The same, and all of it grows by this factor.
+    Growing { at_once: Magnitude, per_time: Magnitude, factor: Magnitude },
 }
 
 /// A block on a cell: the coefficients of its members, the norm of what they leave out, and its size at the
 /// start.
-struct Course {
-    columns: Vec<Vec<Number>>,
-    rest: Magnitude,
-    at_start: Magnitude,
-    added: Added,
+pub(super) struct Course {
+    pub columns: Vec<Vec<Number>>,
+    pub rest: Magnitude,
+    pub at_start: Magnitude,
+    pub added: Added,
+    pub roughness: Option<Roughness>,
 }
 
 impl Course {
     /// One that leaves nothing out.
-    fn exact(columns: Vec<Vec<Number>>) -> Course {
+    pub fn exact(columns: Vec<Vec<Number>>) -> Course {
         let none = Magnitude::ZERO;
-        Course { columns, rest: none, at_start: none, added: Added::Nothing }
+        let added = Added::Nothing;
+        Course { columns, rest: none, at_start: none, added, roughness: None }
     }
 }
 
 /// What a node is given on a cell.
-struct Given<'a> {
+pub(super) struct Given<'a> {
     input: &'a [Series],
     /// The same without radii, and the norms of what was left out.
-    settled: Vec<Series>,
-    errors: Vec<Magnitude>,
-    norm: &'a CellNorm,
-    cut: &'a Truncation,
+    pub settled: Vec<Series>,
+    pub errors: Vec<Magnitude>,
+    pub norm: &'a CellNorm,
+    pub cut: &'a Truncation,
 }
 
 impl<'a> Given<'a> {
-    fn new(input: &'a [Series], norm: &'a CellNorm, cut: &'a Truncation) -> Given<'a> {
+    pub fn new(input: &'a [Series], norm: &'a CellNorm, cut: &'a Truncation) -> Given<'a> {
         let settled: Vec<Series> = input.iter().map(|own| own.bare(norm, cut)).collect();
         let errors = settled.iter().map(|own| own.rest).collect();
         Given { input, settled, errors, norm, cut }
     }
 
-    /// The coefficients of x^k.
-    fn coefficients(&self, k: usize) -> impl Iterator<Item = Number> {
-        self.settled.iter().map(move |series| series.coefficient(k))
+    /// The coefficients of x^k, without radii.
+    pub fn coefficients(&self, k: usize) -> Vec<Number> {
+        self.settled.iter().map(|series| series.coefficient(k)).collect()
+    }
+
+    /// The same as they are given: rational ones are not rounded.
+    fn as_given(&self, k: usize) -> Vec<Number> {
+        self.input.iter().map(|series| series.coefficient(k)).collect()
     }
 }
 
@@ -113,14 +122,27 @@ impl System<Number> {
         (norm, cut): (&CellNorm, &Truncation),
     ) -> Motion {
         let given = Given::new(input, norm, cut);
+        let blocks = passivity.blocks.iter().zip(errors);
+        let courses = blocks.map(|(block, error)| self.course(block, state, error, &given));
+        self.motion(passivity, courses.collect(), input, cut)
+    }
+
+    /// What a node does, by the courses of its blocks.
+    pub(super) fn motion(
+        &self,
+        passivity: &Passivity,
+        courses: Vec<Course>,
+        input: &[Series],
+        cut: &Truncation,
+    ) -> Motion {
         let mut states = vec![Series::zero(); self.states()];
         let mut added = Vec::with_capacity(passivity.blocks.len());
-        for (block, error) in passivity.blocks.iter().zip(errors) {
-            let course = self.course(block, state, error, &given);
+        for (block, course) in passivity.blocks.iter().zip(courses) {
             for (place, member) in block.members.iter().enumerate() {
                 let own = course.columns.iter().map(|column| column[place].clone()).collect();
                 states[*member] = Series::new(own, block.entry(place, &course.rest))
-                    .with_rest_at_start(block.entry(place, &course.at_start));
+                    .with_rest_at_start(block.entry(place, &course.at_start))
+                    .of_roughness(course.roughness);
             }
             added.push(course.added);
         }
@@ -162,7 +184,7 @@ impl System<Number> {
     }
 
     /// What a block does on a cell.
-    fn course(
+    pub(super) fn course(
         &self,
         block: &Block,
         state: &[Number],
@@ -173,15 +195,7 @@ impl System<Number> {
         if block.is_still() {
             return Course::exact(vec![own]);
         }
-        let acting = || {
-            let acts = |(j, _): &(usize, &Series)| block.is_driven_by(*j);
-            given.input.iter().enumerate().filter(acts).map(|(_, series)| series)
-        };
-        let degree = acting().map(|series| series.coefficients.len()).max().unwrap_or(0);
-        let is_exact = own.iter().all(|value| value.exact().is_some())
-            && acting().all(Series::is_exact)
-            && degree <= MAX_EXACT_DEGREE;
-        if is_exact && let Some(columns) = self.exact_columns(block, &own, degree + 4, given) {
+        if let Some(columns) = self.exact_columns(block, &own, given) {
             return Course::exact(columns);
         }
         if block.is_stiff(&given.norm.length)
@@ -243,7 +257,7 @@ impl System<Number> {
 
     /// `B u_k` for the members of a block.
     fn pushed(&self, block: &Block, k: usize, given: &Given<'_>) -> Vec<Number> {
-        let both: Vec<Number> = given.coefficients(k).collect();
+        let both = given.coefficients(k);
         let rows = block.members.iter().map(|i| &self.change[*i][self.states()..]);
         rows.map(|row| dot(row, &both, given.cut.bits)).collect()
     }
@@ -263,7 +277,7 @@ impl System<Number> {
         let (norm, cut) = (given.norm, given.cut);
         let mut residuals = Vec::with_capacity(columns.len());
         for (k, column) in columns.iter().enumerate() {
-            let next = self.next(block, column, k, given);
+            let next = self.next(block, column, (k, given.coefficients(k)), cut.bits);
             let above = columns.get(k + 1);
             let left = next.iter().enumerate().map(|(place, next)| match above {
                 Some(above) => next.subtract(&above[place], cut.bits).magnitude(),
@@ -276,32 +290,48 @@ impl System<Number> {
         let at_start = error.size().add(&free);
         let most = at_start.add(&per_time.multiply(&block.memory(&norm.length)));
         let rest = cut.driven(&most, &per_time);
-        Course { columns, rest, at_start, added: Added::Error { at_once: free, per_time } }
+        let added = Added::Error { at_once: free, per_time };
+        Course { columns, rest, at_start, added, roughness: norm.roughness }
     }
 
-    /// The next coefficients of a block.
-    fn next(&self, block: &Block, column: &[Number], k: usize, given: &Given<'_>) -> Vec<Number> {
-        let bits = given.cut.bits;
+    /// The next coefficients of a block after those of x^k.
+    fn next(
+        &self,
+        block: &Block,
+        column: &[Number],
+        (k, input): (usize, Vec<Number>),
+        bits: u64,
+    ) -> Vec<Number> {
         let mut both = vec![Number::zero(); self.states()];
         for (member, value) in block.members.iter().zip(column) {
             both[*member] = value.clone();
         }
-        both.extend(given.coefficients(k));
+        both.extend(input);
         let rows = block.members.iter().map(|i| &self.change[*i]);
         rows.map(|row| dot(row, &both, bits).over(k as u64 + 1, bits)).collect()
     }
 
     /// The coefficients of a polynomial with rational ones, if they are few.
-    fn exact_columns(
+    pub(super) fn exact_columns(
         &self,
         block: &Block,
         own: &[Number],
-        most: usize,
         given: &Given<'_>,
     ) -> Option<Vec<Vec<Number>>> {
+        let acting = || {
+            let acts = |(j, _): &(usize, &Series)| block.is_driven_by(*j);
+            given.input.iter().enumerate().filter(acts).map(|(_, series)| series)
+        };
+        let degree = acting().map(|series| series.coefficients.len()).max().unwrap_or(0);
+        let is_exact = own.iter().all(|value| value.exact().is_some())
+            && acting().all(Series::is_exact)
+            && degree <= MAX_EXACT_DEGREE;
+        if !is_exact {
+            return None;
+        }
         let mut columns = vec![own.to_vec()];
-        for k in 0..most {
-            let next = self.next(block, &columns[k], k, given);
+        for k in 0..degree + 4 {
+            let next = self.next(block, &columns[k], (k, given.as_given(k)), given.cut.bits);
             columns.push(next);
         }
         let last = columns.pop()?;
@@ -349,7 +379,7 @@ impl System<Number> {
                 break left_out;
             }
             power = power.multiply(&norm.length);
-            let next = self.next(block, &column, k, given);
+            let next = self.next(block, &column, (k, given.coefficients(k)), cut.bits);
             columns.push(std::mem::replace(&mut column, next));
         };
         let per_time = block.push(&given.errors);
@@ -357,7 +387,8 @@ impl System<Number> {
         let at_once = rounding.add(&left_out);
         let most = error.size().add(&at_once).add(&per_time.multiply(&block.memory(&norm.length)));
         let rest = cut.driven(&most, &per_time).add(&left_out);
-        Course { columns, rest, at_start, added: Added::Error { at_once, per_time } }
+        let added = Added::Error { at_once, per_time };
+        Course { columns, rest, at_start, added, roughness: norm.roughness }
     }
 
     /// The state at the end of a cell, and its errors.
@@ -375,19 +406,26 @@ impl System<Number> {
             let values: Vec<Number> = (block.members.iter())
                 .map(|member| motion.state[*member].polynomial(length, cut.bits))
                 .collect();
-            let Added::Error { at_once, per_time } = added else {
-                after.push(StateError::of(block, &values));
-                for (member, value) in block.members.iter().zip(values) {
-                    state[*member] = value;
+            let (at_once, per_time, factor) = match added {
+                Added::Error { at_once, per_time } => (at_once, per_time, None),
+                Added::Growing { at_once, per_time, factor } => (at_once, per_time, Some(factor)),
+                Added::Nothing => {
+                    after.push(StateError::of(block, &values));
+                    for (member, value) in block.members.iter().zip(values) {
+                        state[*member] = value;
+                    }
+                    continue;
                 }
-                continue;
             };
             let split: Vec<(Number, Magnitude)> =
                 values.iter().map(|value| value.split(cut.bits)).collect();
             let radius = block.size(split.iter().map(|(_, radius)| *radius));
             let arrived = per_time.multiply(&block.memory(&length.magnitude()));
             let added = at_once.add(&arrived).add(&radius);
-            let error = error.clone().after(length, &added, block);
+            let error = match factor {
+                None => error.clone().after(length, &added, block),
+                Some(factor) => StateError::new(error.size().add(&added).multiply(factor)),
+            };
             let size = error.size();
             for (place, (member, (middle, _))) in block.members.iter().zip(split).enumerate() {
                 state[*member] = middle.widened(&block.entry(place, &size), cut.bits);

@@ -9,11 +9,14 @@ use crate::history::error::HistoryError;
 use crate::history::history::unit;
 use crate::history::moment::Moment;
 use crate::history::part::{NodeQuantity, Part, Source};
+use crate::history::series::Series;
 use crate::network::{
-    Elements, Energy, Field, Lump, Lumped, Network, Reading, Section, Side, Term, Window,
+    ElementLaw, Elements, Energy, Field, Link, Lump, Lumped, Network, Reading, Section, Side, Term,
+    Window,
 };
 use crate::scene::ElementIndex;
 use crate::signal::Limit;
+use wavestep_polynomial::Rational;
 
 type Outcome<T> = Result<T, HistoryError>;
 
@@ -129,11 +132,14 @@ impl Engine {
         }
     }
 
-    /// The contact at a bare end of a spring, which presses as the spring does, by its place among those of
-    /// the node.
+    /// The contact at a bare end of a spring, which presses as the spring does, or the one that a local contact is, by
+    /// its place among those of the node.
     fn contact_of_spring(&self, lump: Lump) -> Option<usize> {
         let node = &self.nodes[lump.node];
         let Lumped { run, law, .. } = &node.elements[lump.place];
+        if let Link::Local { .. } = node.links.get(*run)? {
+            return node.contact_right_of(*run).filter(|_| law.is_link());
+        }
         let left = || node.contact_left_of(*run).filter(|_| node.is_bare(*run));
         let right = || node.contact_right_of(run + 1).filter(|_| node.is_bare(run + 1));
         law.is_link().then(|| left().or_else(right)).flatten()
@@ -151,6 +157,9 @@ impl Engine {
         square: Integrand,
     ) -> Outcome<Option<Number>> {
         let bits = self.cut.bits;
+        if let Some(energy) = self.energy_of_local_contact(element, (moment, limit))? {
+            return Ok(Some(energy));
+        }
         let Ok(parts) = elements.energy(element) else { return Ok(None) };
         let mut energy = Number::zero();
         for part in parts {
@@ -166,6 +175,31 @@ impl Engine {
             energy = energy.add(&value, bits);
         }
         Ok(Some(energy))
+    }
+
+    /// The energy of a local contact at an instant, `∫ X dα = X α/(m+1)`; none of what is no local contact.
+    fn energy_of_local_contact(
+        &self,
+        element: ElementIndex,
+        (moment, limit): (&Moment, Limit),
+    ) -> Outcome<Option<Number>> {
+        let mut nodes = self.nodes.iter().enumerate();
+        let found = nodes.find_map(|(node, own)| Some((node, own, own.place(element)?)));
+        let Some((number, node, place)) = found else { return Ok(None) };
+        let Lumped { run, law: ElementLaw::LocalContact { exponent, .. }, .. } =
+            &node.elements[place]
+        else {
+            return Ok(None);
+        };
+        let contact = node.contact_right_of(*run).expect("a local contact parts its node");
+        let (start, cell) = self.cell(number, moment, limit)?;
+        let since = self.clock.since(start, moment)?;
+        let value = |series: &Series| series.value(&since, &self.cut);
+        let work =
+            value(&cell.forces[contact]).multiply(&value(&cell.compressions[place]), self.cut.bits);
+        let share =
+            Rational::from_integer(1.into()) / (exponent + Rational::from_integer(1.into()));
+        Ok(Some(work.multiply(&Number::Exact(share), self.cut.bits)))
     }
 
     /// The energy of a bar, of the waves that entered in the last travel time; what comes from the far side of

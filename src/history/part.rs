@@ -8,10 +8,11 @@ use crate::history::energy::Integrand;
 use crate::history::engine::{Cell, Engine};
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
-use crate::history::series::Series;
+use crate::history::series::{Series, Truncation};
 use crate::history::track::Track;
 use crate::network::{ElementLaw, Side, Window};
 use crate::signal::Limit;
+use std::borrow::Cow;
 
 type Outcome<T> = Result<T, HistoryError>;
 
@@ -56,13 +57,16 @@ impl Part {
 }
 
 impl Cell {
-    fn series(&self, quantity: NodeQuantity) -> &Series {
-        match quantity {
+    fn series(&self, quantity: NodeQuantity, cut: &Truncation) -> Cow<'_, Series> {
+        Cow::Borrowed(match quantity {
             NodeQuantity::Velocity(run) => &self.velocities[run],
-            NodeQuantity::Displacement(run) => &self.displacements[run],
+            NodeQuantity::Displacement(run) => {
+                let start = self.displacements[run].clone();
+                return Cow::Owned(self.velocities[run].integral_over(start, &self.length, cut));
+            }
             NodeQuantity::Compression(place) => &self.compressions[place],
             NodeQuantity::Force(place) => &self.forces[place],
-        }
+        })
     }
 }
 
@@ -75,7 +79,8 @@ impl Engine {
         let value = match &part.source {
             Source::Node { node, quantity } => {
                 let (start, cell) = self.cell(*node, moment, limit)?;
-                cell.series(*quantity).value(&self.clock.since(start, moment)?, &self.cut)
+                cell.series(*quantity, &self.cut)
+                    .value(&self.clock.since(start, moment)?, &self.cut)
             }
             Source::Wave { bar, direction, delay: None } => {
                 let length = match &part.over {
@@ -114,7 +119,7 @@ impl Engine {
         let series = match &part.source {
             Source::Node { node, quantity } => {
                 let (start, cell) = self.cell(*node, now, Limit::Right)?;
-                cell.series(*quantity).shift(&self.clock.since(start, now)?, &self.cut)
+                cell.series(*quantity, &self.cut).shift(&self.clock.since(start, now)?, &self.cut)
             }
             Source::Wave { bar, direction, delay: Some(delay) } => {
                 let track = &self.waves[*bar][*direction];

@@ -5,8 +5,12 @@
 //! changes it by `|B u|` in a unit of time at most. An error of the state obeys the same equations. So it is
 //! bounded by one number, which grows with what arrives and dies out as the motion itself does, however
 //! many cells the time is cut into.
+//!
+//! A local contact that is pressed counts as the spring that it is at a typical compression; `pressing` adds what
+//! it differs from that.
 
 use crate::ball::{Ball, BallError, Magnitude, Number};
+use crate::history::pressing::Pressed;
 use crate::history::series::{LONGEST_CELL, Truncation};
 use crate::network::{Node, System};
 
@@ -60,6 +64,8 @@ pub struct Block {
     driven: Vec<Magnitude>,
     /// A time, as a power of two, and what is left of an error after it, where it dies out.
     pub decay: Option<(i64, Magnitude)>,
+    /// The local contacts that are pressed, whose compressions are members.
+    pub pressed: Vec<Pressed>,
 }
 
 /// The blocks of a node whose contacts are as they are.
@@ -71,7 +77,16 @@ impl Passivity {
     /// # Errors
     /// [`BallError::DivisorMayBeZero`] for a mass or a stiffness of which it is not known.
     pub fn of(node: &Node<Number>, system: &System<Number>) -> Result<Passivity, BallError> {
-        let weights = weights(node, system);
+        let pressed = Pressed::all(node, system)?;
+        let stiffened;
+        let system = match pressed.is_empty() {
+            true => system,
+            false => {
+                stiffened = system.stiffened(&pressed, BITS);
+                &stiffened
+            }
+        };
+        let weights = weights(node, system, &pressed);
         let states = system.states();
         let joined =
             |i: usize, j: usize| !system.change[i][j].is_zero() || !system.change[j][i].is_zero();
@@ -88,7 +103,7 @@ impl Passivity {
             }
             left.retain(|other| !members.contains(other));
             members.sort_unstable();
-            blocks.push(Block::of(system, members, &weights)?);
+            blocks.push(Block::of(system, members, &weights)?.with_pressed(&pressed));
         }
         Ok(Passivity { blocks })
     }
@@ -115,17 +130,18 @@ impl Passivity {
 }
 
 /// The masses and stiffnesses of a state: it holds the energy `½ Σ w y²`.
-fn weights(node: &Node<Number>, system: &System<Number>) -> Vec<Number> {
+fn weights(node: &Node<Number>, system: &System<Number>, pressed: &[Pressed]) -> Vec<Number> {
     let mass = |group: &usize| {
         let runs = (0..node.runs()).filter(|run| system.group[*run] == *group);
         runs.fold(Number::zero(), |sum, run| sum.add(&node.mass_of(run, BITS), BITS))
     };
     let mut weights: Vec<Number> = system.heavy.iter().map(mass).collect();
     for (own, kept) in node.elements.iter().zip(&system.kept) {
-        if kept.is_some() {
-            let [stiffness, _] = own.law.resistance().expect("what is kept is elastic");
-            weights.push(stiffness.clone());
-        }
+        let Some(kept) = kept else { continue };
+        weights.push(match pressed.iter().find(|pressed| pressed.state == *kept) {
+            Some(pressed) => pressed.stiffness.clone(),
+            None => own.law.resistance().expect("what is kept is elastic")[0].clone(),
+        });
     }
     weights
 }
@@ -161,7 +177,23 @@ impl Block {
             decay: decay(matrix, &rate, &own, &inverses),
             rate,
             members,
+            pressed: Vec::new(),
         })
+    }
+
+    /// With those of these contacts that belong to it: their errors are not known to die out.
+    fn with_pressed(mut self, pressed: &[Pressed]) -> Block {
+        let own = pressed.iter().filter(|pressed| self.members.contains(&pressed.state));
+        self.pressed = own.cloned().collect();
+        if !self.pressed.is_empty() {
+            self.decay = None;
+        }
+        self
+    }
+
+    /// `|B_j|` of an input.
+    pub fn pushed_by(&self, input: usize) -> &Magnitude {
+        &self.driven[input]
     }
 
     /// Whether nothing changes it.

@@ -2,18 +2,18 @@
 
 use crate::ball::{Attempt, Ball, Magnitude, Number, Precisions};
 use crate::enclosure::EnclosureError;
-use crate::expression::{Expression, Fraction};
+use crate::expression::{Expression, Fraction, Root};
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
-use crate::history::history::undecided;
+use crate::history::history::{LEAST_BITS, undecided};
 use crate::history::moment::Moment;
 use crate::history::part::{Part, Source};
 use crate::history::series::{Series, Truncation};
 use crate::limits::MAX_HISTORY_BITS;
-use crate::network::{Network, Observed, Squared};
+use crate::network::{Network, Observed, Squared, Term};
 use crate::scene::Dimension;
 use crate::signal::{
-    At, Effort, EvaluateError, Instant, Known, Limit, MAX_FLATNESS, Point, Signal, Taylor,
+    At, Effort, EvaluateError, Instant, Known, Limit, MAX_FLATNESS, Point, Signal, Silence, Taylor,
 };
 use num_traits::Zero as _;
 use std::borrow::Cow;
@@ -91,8 +91,11 @@ impl<'a> Follower<'a> {
             Ok(known) => Ok(Attempt::Done(Ok(known))),
             Err(error) => undecided(error),
         };
-        let known =
-            Precisions::whole_doublings(FIRST_BITS, MAX_HISTORY_BITS).raise(attempt)?.best()?;
+        let first = match network.local_contact() {
+            None => FIRST_BITS,
+            Some(_) => 2 * LEAST_BITS,
+        };
+        let known = Precisions::whole_doublings(first, MAX_HISTORY_BITS).raise(attempt)?.best()?;
         Ok(Rc::new(Follower { network, until, known: RefCell::new(known) }))
     }
 
@@ -100,6 +103,14 @@ impl<'a> Follower<'a> {
         let mut engine = Engine::new(network, bits)?;
         engine.follow_until(until)?;
         Ok(Rc::new(engine))
+    }
+
+    /// The highest precision of stretches. Those of a scene with a local contact keep the one that they have first.
+    fn most_bits(&self, known: &Engine) -> u64 {
+        match self.network.local_contact() {
+            None => MAX_HISTORY_BITS,
+            Some(_) => known.cut.bits,
+        }
     }
 
     /// What is known at a precision; where more is known, that.
@@ -132,6 +143,7 @@ pub(crate) struct FollowedSignal<'a> {
     follower: Rc<Follower<'a>>,
     seen: Seen<'a>,
     window: [Rational; 2],
+    silence: Option<Silence>,
     /// The highest precision of stretches.
     most_bits: u64,
     known: RefCell<Rc<Followed>>,
@@ -144,10 +156,21 @@ impl<'a> FollowedSignal<'a> {
         observed: &Observed,
         window: [&Rational; 2],
     ) -> Result<Self, HistoryError> {
-        let (readings, unit) = (observed.readings.clone(), observed.unit.clone());
+        let follower = follower(network, window)?;
+        let readings = (&*observed.readings, &observed.unit);
+        let signal = FollowedSignal::linear(&follower, readings, window)?;
+        Ok(FollowedSignal { silence: Silence::of(network, observed), ..signal })
+    }
+
+    /// A sum of readings, in a unit, of a scene that is followed already.
+    pub fn linear(
+        follower: &Rc<Follower<'a>>,
+        (readings, unit): (&[Term], &Root),
+        window: [&Rational; 2],
+    ) -> Result<Self, HistoryError> {
+        let (network, readings, unit) = (follower.network, readings.to_vec(), unit.clone());
         let parts = Box::new(move |engine: &Engine| engine.parts(network, &readings, &unit));
-        let seen = Seen { parts, integrated: 0 };
-        FollowedSignal::seen(&follower(network, window)?, seen, window)
+        FollowedSignal::seen(follower, Seen { parts, integrated: 0 }, window)
     }
 
     /// What an energy is the square of, in the scale of the scene; its stretches are known with the
@@ -165,7 +188,8 @@ impl<'a> FollowedSignal<'a> {
             Squared::Entering { bar, direction } => Ok(vec![entering(*bar, *direction)]),
         });
         let signal = FollowedSignal::seen(follower, Seen { parts, integrated: 0 }, window)?;
-        Ok(FollowedSignal { most_bits: MAX_HISTORY_BITS, ..signal })
+        let most_bits = follower.most_bits(&follower.known.borrow());
+        Ok(FollowedSignal { most_bits, ..signal })
     }
 
     /// What a wave that enters a bar, to the right (0) or to the left (1), adds to its state at the start,
@@ -181,7 +205,8 @@ impl<'a> FollowedSignal<'a> {
             Ok(vec![entering(bar, direction), Part::of(before, Number::integer(-1))])
         });
         let signal = FollowedSignal::seen(follower, Seen { parts, integrated }, window)?;
-        Ok(FollowedSignal { most_bits: MAX_HISTORY_BITS, ..signal })
+        let most_bits = follower.most_bits(&follower.known.borrow());
+        Ok(FollowedSignal { most_bits, ..signal })
     }
 
     fn seen(
@@ -190,9 +215,10 @@ impl<'a> FollowedSignal<'a> {
         window: [&Rational; 2],
     ) -> Result<Self, HistoryError> {
         let engine = Rc::clone(&follower.known.borrow());
+        let most_bits = SEARCH_BITS.min(follower.most_bits(&engine));
         let known = RefCell::new(Rc::new(Followed::of(follower.network, engine, &seen)?));
         let (follower, window) = (Rc::clone(follower), window.map(Clone::clone));
-        Ok(FollowedSignal { follower, seen, window, most_bits: SEARCH_BITS, known })
+        Ok(FollowedSignal { follower, seen, window, silence: None, most_bits, known })
     }
 
     /// Finds all breaks, so that stretches can be asked for.
@@ -204,6 +230,10 @@ impl<'a> FollowedSignal<'a> {
     /// What is known at a precision; where more is known, that.
     fn followed(&self, bits: u64) -> Result<Rc<Followed>, EvaluateError> {
         let known = Rc::clone(&self.known.borrow());
+        // How many cells a local contact begins with depends on the precision: once counted they stay.
+        if known.pieces.get().is_some() && self.follower.network.local_contact().is_some() {
+            return Ok(known);
+        }
         let engine = self.follower.engine(bits)?;
         if Rc::ptr_eq(&engine, &known.engine) {
             return Ok(known);
@@ -413,7 +443,11 @@ impl Signal for FollowedSignal<'_> {
         if self.seen.integrated > 0 {
             return self.integral(at, limit);
         }
-        let moment = Moment::at(self.scaled_time(at));
+        let now = self.scaled_time(at);
+        if self.silence.as_ref().is_some_and(|silence| silence.holds([(&now, limit); 2])) {
+            return Ok(Point::exact(Rational::zero()));
+        }
+        let moment = Moment::at(now);
         let value = move |bits: u64| -> Result<Number, EvaluateError> {
             let mut first = self.known.borrow().engine.cut.bits;
             if bits > first {
@@ -449,7 +483,9 @@ impl Signal for FollowedSignal<'_> {
         // All signals of one follower have to tell of the same engine.
         let known = self.followed(0).ok()?;
         let Moment { event, delay } = &known.piece(stretch).ends[0];
-        let event = event.map(|event| (known.engine.cut.bits, event));
+        let clock = &known.engine.clock;
+        let bits = if clock.has_ties() { clock.bits } else { 0 };
+        let event = event.map(|event| (bits, event));
         let scene = std::ptr::from_ref(self.follower.network).addr();
         Some(Instant { scene, event, delay: delay.clone() })
     }
@@ -496,7 +532,12 @@ impl Signal for FollowedSignal<'_> {
     }
 
     fn is_zero(&self, stretch: usize) -> bool {
-        self.known.borrow().piece(stretch).series.is_zero()
+        let known = self.known.borrow();
+        let Piece { ends: [from, to], series, .. } = known.piece(stretch);
+        let since_start = from.event.is_none() && to.event.is_none();
+        let ends = [(&from.delay, Limit::Right), (&to.delay, Limit::Left)];
+        let is_silent = |silence: &Silence| since_start && silence.holds(ends);
+        series.is_zero() || self.silence.as_ref().is_some_and(is_silent)
     }
 
     fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational> {
@@ -572,6 +613,9 @@ impl Signal for FollowedSignal<'_> {
 
     fn exact(&self, stretch: usize, at: At<'_>) -> Result<Option<Rational>, EvaluateError> {
         let followed = self.cut(0)?;
+        if self.is_zero(stretch) {
+            return Ok(Some(Rational::zero()));
+        }
         let end = &followed.piece(stretch).ends[1];
         let zero = |part| followed.engine.vanishes_before(part, end);
         if matches!(at, At::End(Limit::Left)) && followed.parts.iter().all(zero) {

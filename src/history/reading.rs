@@ -64,21 +64,18 @@ impl Engine {
         let place = self.nodes[node].contacts().position(|(own, _)| own == contact);
         let place = place.expect("a contact of the node");
         let mut sum = Number::zero();
-        for (number, (start, cell)) in self.cells[node].iter().enumerate() {
+        let first = self.cell_number(node, from, Limit::Right)?;
+        let last = self.cell_number(node, to, Limit::Left)?;
+        for number in first..=last {
+            let (start, cell) = &self.cells[node][number];
             let force = &cell.forces[place];
-            let end = self.cells[node].get(number + 1).map(|(start, _)| start);
-            let end = end.unwrap_or(self.now(node));
-            let outside = force.is_zero()
-                || self.clock.compare(end, from)? != Ordering::Greater
-                || self.clock.compare(start, to)? != Ordering::Less;
-            if outside {
+            if force.is_zero() {
                 continue;
             }
-            let first = self.clock.compare(start, from)? == Ordering::Less;
-            let begin = if first { from } else { start };
-            let end = self.clock.earlier(end.clone(), to.clone())?;
+            let begin = if number == first { from } else { start };
+            let end = if number == last { to } else { self.end_of(node, number) };
             let shifted = force.shift(&self.clock.since(start, begin)?, &self.cut);
-            let length = self.clock.since(begin, &end)?;
+            let length = self.clock.since(begin, end)?;
             let part = shifted.integral(Number::zero(), &self.cut).value(&length, &self.cut);
             sum = sum.add(&part, self.cut.bits);
         }
@@ -90,20 +87,27 @@ impl Engine {
     /// # Errors
     /// As [`Track::cell`].
     pub fn cell(&self, node: usize, moment: &Moment, limit: Limit) -> Outcome<(&Moment, &Cell)> {
-        let cells = &self.cells[node];
-        let (mut low, mut high) = (0, cells.len());
+        let (start, cell) = &self.cells[node][self.cell_number(node, moment, limit)?];
+        Ok((start, cell))
+    }
+
+    /// Where the n-th cell of a node ends.
+    fn end_of(&self, node: usize, number: usize) -> &Moment {
+        self.cells[node].get(number + 1).map_or(self.now(node), |(start, _)| start)
+    }
+
+    fn cell_number(&self, node: usize, moment: &Moment, limit: Limit) -> Outcome<usize> {
+        let (mut low, mut high) = (0, self.cells[node].len());
         while low < high {
             let middle = low.midpoint(high);
-            let end = cells.get(middle + 1).map_or(self.now(node), |(start, _)| start);
-            let behind = match self.clock.compare(end, moment)? {
+            let behind = match self.clock.compare(self.end_of(node, middle), moment)? {
                 Ordering::Less => false,
                 Ordering::Equal => limit == Limit::Left,
                 Ordering::Greater => true,
             };
             if behind { high = middle } else { low = middle + 1 }
         }
-        let (start, cell) = cells.get(low).ok_or(HistoryError::AfterLast)?;
-        Ok((start, cell))
+        if low < self.cells[node].len() { Ok(low) } else { Err(HistoryError::AfterLast) }
     }
 
     /// The velocity beside a contact before the start: of a mass, a bar or a wall.

@@ -6,8 +6,49 @@
 //! `‖e‖ = sup |e^(j)(x)|/γ^j` over all `j ≥ 0` and all `x` of the cell. With a rate `γ` above all rates of the
 //! scene this norm bounds the error of every derivative at once, and shifts within the cell leave it as it is:
 //! nothing is lost from cell to cell but what a node itself amplifies.
+//!
+//! What a local contact sends out is analytic only near the cell, so that its derivatives grow as factorials. Its
+//! errors are bounded in a weaker norm, that of a [`Roughness`].
 
 use crate::ball::{Magnitude, Number};
+
+/// How near to its cell a function may cease to be analytic: with a roughness `r` a bound `ρ` of its error means
+/// `|e^(j)(x)| ≤ ρ j! 2^(rj)` for all `j ≥ 0`. Sums, integrals, shifts and the equations of a node keep it. Any
+/// error in the norm of the cell is one of each roughness `2^r ≥ γ`.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct Roughness(i64);
+
+impl Roughness {
+    /// Nothing but values is bounded. As bounds of derivatives stand numbers that no value of a scene comes near, so
+    /// that nothing is decided by them.
+    pub const VALUES: Roughness = Roughness(1 << 40);
+
+    /// Of a function that is bounded at all distances up to this one from its cell; no smoother than the norm of
+    /// cells.
+    pub fn within(distance: &Magnitude, cut: &Truncation) -> Roughness {
+        let (least, most) = (cut.rate, Roughness::VALUES.0);
+        Roughness(distance.top().map_or(most, |top| 1 - top).clamp(least, most))
+    }
+
+    /// The distance within which values are bounded.
+    pub fn distance(self) -> Magnitude {
+        Magnitude::power_of_two(-self.0)
+    }
+
+    /// That of half the distance.
+    pub fn halved(self) -> Roughness {
+        Roughness((self.0 + 1).min(Roughness::VALUES.0))
+    }
+
+    /// What a bound of values is to be multiplied with so much beyond the ends of a cell: `Σ (j+1) 2^(rj) by^j ≤ 4`
+    /// up to half the distance, which holds for the first derivative too.
+    fn growth(self, by: &Magnitude) -> Magnitude {
+        match *by <= Magnitude::power_of_two(-self.0 - 1) {
+            true => Magnitude::power_of_two(2),
+            false => Magnitude::power_of_two(Roughness::VALUES.0),
+        }
+    }
+}
 
 /// How series are cut off.
 ///
@@ -47,14 +88,6 @@ impl Truncation {
         Truncation { bits, order, rate, longest: Magnitude::ZERO, largest: Magnitude::ZERO }
     }
 
-    /// The bound of an error so much beyond the ends of its cell, `e^(γ by)` times that on the cell.
-    pub fn extended(&self, bound: &Magnitude, by: &Magnitude) -> Magnitude {
-        match by.is_zero() || bound.is_zero() {
-            true => *bound,
-            false => bound.multiply(&growth(&self.per_time(by))),
-        }
-    }
-
     /// `γ · size`.
     fn per_time(&self, size: &Magnitude) -> Magnitude {
         size.scale(self.rate)
@@ -80,6 +113,8 @@ pub struct CellNorm {
     largest: Vec<Magnitude>,
     /// `k!/γ^k`.
     factors: Vec<Magnitude>,
+    /// That of errors on the cell.
+    pub roughness: Option<Roughness>,
 }
 
 impl CellNorm {
@@ -96,11 +131,26 @@ impl CellNorm {
             largest.push(most);
             factors.push(factor);
         }
-        CellNorm { length, powers, largest, factors }
+        CellNorm { length, powers, largest, factors, roughness: None }
     }
 
-    /// `‖c x^k‖ = |c| k!/γ^k · max_{i≤k} (γh)^i/i!`.
+    /// The norm of errors of a roughness.
+    pub fn of_roughness(self, roughness: Option<Roughness>) -> CellNorm {
+        CellNorm { roughness, ..self }
+    }
+
+    /// `1/γ`, or the distance within which a rough function is bounded.
+    fn unit(&self) -> Magnitude {
+        self.roughness.map_or(self.factors[1], Roughness::distance)
+    }
+
+    /// `‖c x^k‖ = |c| k!/γ^k · max_{i≤k} (γh)^i/i!`. Of a rough function, by what it is within the distance `δ` of
+    /// the cell, at most `|c| (h + δ)^k`.
     pub fn of_term(&self, k: usize, size: &Magnitude) -> Magnitude {
+        if let Some(roughness) = self.roughness {
+            let reach = self.length.add(&roughness.distance());
+            return (0..k).fold(*size, |norm, _| norm.multiply(&reach));
+        }
         let last = self.factors.len() - 1;
         let known = size.multiply(&self.factors[k.min(last)]).multiply(&self.largest[k.min(last)]);
         // Beyond what is tabled, a power of h at most, or of k/γ.
@@ -114,12 +164,17 @@ impl CellNorm {
     /// bound.
     pub fn of_residual(&self, k: usize, size: &Magnitude) -> Magnitude {
         let norm = self.of_term(k - 1, &size.multiply(&Magnitude::from_u64(4 * k as u64)));
-        norm.divide(3).multiply(&self.factors[1])
+        norm.divide(3).multiply(&self.unit())
     }
 
     /// A bound of `‖Σ c_k x^k‖` for all `|c_k| ≤ s_k`: with `q_k = s_k k!/γ^k` the derivative of order `j` is
     /// at most `γ^j Σ_{k≥j} q_k (γh)^(k−j)/(k−j)!`, and so `Σ_i (γh)^i/i! · max_{k≥i} q_k` bounds all of them.
     pub fn of_sizes(&self, sizes: &[Magnitude]) -> Magnitude {
+        if let Some(roughness) = self.roughness {
+            let reach = self.length.add(&roughness.distance());
+            let terms = sizes.iter().rev();
+            return terms.fold(Magnitude::ZERO, |sum, size| sum.multiply(&reach).add(size));
+        }
         let tabled = sizes.len().min(self.powers.len());
         let (mut sum, mut most) = (Magnitude::ZERO, Magnitude::ZERO);
         for (k, size) in sizes.iter().enumerate().skip(tabled) {
@@ -159,12 +214,14 @@ fn moved(sizes: &[Magnitude], j: usize, r: &Magnitude) -> Magnitude {
 ///
 /// # Invariants
 /// - `coefficients` hold `c_0, c_1, …`, the last one not zero;
-/// - `‖e‖ ≤ rest` in the norm of the cell, and so on every part of it, and `|e(0)| ≤ rest_at_start`.
+/// - `‖e‖ ≤ rest` in the norm of the cell, and so on every part of it, and `|e(0)| ≤ rest_at_start`; where it is
+///   rough, in the norm of its roughness.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Series {
     pub coefficients: Vec<Number>,
     pub rest: Magnitude,
     rest_at_start: Magnitude,
+    pub roughness: Option<Roughness>,
 }
 
 impl Series {
@@ -178,7 +235,7 @@ impl Series {
         while coefficients.last().is_some_and(Number::is_zero) {
             coefficients.pop();
         }
-        Series { coefficients, rest, rest_at_start: rest }
+        Series { coefficients, rest, rest_at_start: rest, roughness: None }
     }
 
     /// The same function, of whose error less is known to be at the start.
@@ -186,8 +243,37 @@ impl Series {
         Series { rest_at_start, ..self }
     }
 
+    /// The same function, whose rest is a bound of this roughness or of its own, whichever is the larger.
+    pub fn of_roughness(self, roughness: Option<Roughness>) -> Series {
+        Series { roughness: self.roughness.max(roughness), ..self }
+    }
+
     pub fn zero() -> Series {
         Series::new(Vec::new(), Magnitude::ZERO)
+    }
+
+    /// A bound of the derivative of an order of its error, of which values are bounded by `error`.
+    pub fn bound_of_derivative(
+        &self,
+        error: &Magnitude,
+        order: usize,
+        cut: &Truncation,
+    ) -> Magnitude {
+        let Some(Roughness(rate)) = self.roughness else {
+            return error.scale(cut.rate * order as i64);
+        };
+        let grown = error.scale(rate * order as i64);
+        (2..=order as u64).fold(grown, |bound, j| bound.multiply(&Magnitude::from_u64(j)))
+    }
+
+    /// The bound of its error or of the slope of it so much beyond the ends of its cell: `e^(γ by)` times that on the
+    /// cell, unless it is rough.
+    pub fn bound_beyond(&self, bound: &Magnitude, by: &Magnitude, cut: &Truncation) -> Magnitude {
+        if by.is_zero() || bound.is_zero() {
+            return *bound;
+        }
+        let factor = self.roughness.map(|roughness| roughness.growth(by));
+        bound.multiply(&factor.unwrap_or_else(|| growth(&cut.per_time(by))))
     }
 
     /// Whether it is known to be zero.
@@ -210,11 +296,11 @@ impl Series {
         self.coefficients.get(k).cloned().unwrap_or_else(Number::zero)
     }
 
-    /// An enclosure of `f^(k)(0)/k!`: of `c_k`, and `γ^k/k!` times the rest.
+    /// An enclosure of `f^(k)(0)/k!`: of `c_k`, and a bound of that derivative of the rest over `k!`.
     pub fn start(&self, k: usize, cut: &Truncation) -> Number {
         let mut rest = match k {
             0 => self.rest_at_start,
-            _ => self.rest.scale(cut.rate * k as i64),
+            _ => self.bound_of_derivative(&self.rest, k, cut),
         };
         (2..=k as u64).for_each(|i| rest = rest.divide(i));
         self.coefficient(k).widened(&rest, cut.bits)
@@ -223,9 +309,12 @@ impl Series {
     /// `a f + b g`.
     pub fn combine(&self, a: &Number, other: &Series, b: &Number, bits: u64) -> Series {
         let length = self.coefficients.len().max(other.coefficients.len());
-        let term = |k| {
-            let own = self.coefficient(k).multiply(a, bits);
-            own.add(&other.coefficient(k).multiply(b, bits), bits)
+        let scaled = |series: &Series, k: usize, factor: &Number| {
+            series.coefficients.get(k).map(|c| c.multiply(factor, bits))
+        };
+        let term = |k| match (scaled(self, k, a), scaled(other, k, b)) {
+            (Some(own), Some(other)) => own.add(&other, bits),
+            (own, other) => own.or(other).unwrap_or_else(Number::zero),
         };
         let sizes = [a, b].map(Number::magnitude);
         let sum = |own: &Magnitude, other: &Magnitude| {
@@ -233,6 +322,7 @@ impl Series {
         };
         Series::new((0..length).map(term).collect(), sum(&self.rest, &other.rest))
             .with_rest_at_start(sum(&self.rest_at_start, &other.rest_at_start))
+            .of_roughness(self.roughness.max(other.roughness))
     }
 
     pub fn add(&self, other: &Series, bits: u64) -> Series {
@@ -256,7 +346,7 @@ impl Series {
         if exact {
             let mut shifted = self.coefficients.clone();
             divide(&mut shifted, |c, next| c.add(&next.multiply(a, bits), bits));
-            return Series::new(shifted, self.rest);
+            return Series::new(shifted, self.rest).of_roughness(self.roughness);
         }
         let (middle, radius) = a.split(bits);
         let mut shifted: Vec<Number> = self.coefficients.iter().map(|c| c.enclosed(bits)).collect();
@@ -268,7 +358,7 @@ impl Series {
                 *c = c.widened(&moved(&sizes, j, &radius), bits);
             }
         }
-        Series::new(shifted, self.rest)
+        Series::new(shifted, self.rest).of_roughness(self.roughness)
     }
 
     /// The same function, its coefficients without radii and without the last ones that tell nothing on a
@@ -308,12 +398,14 @@ impl Series {
             radii.push(radius);
         }
         let at_start = radii.first().map_or(rest, |radius| self.rest_at_start.add(radius));
-        Series::new(coefficients, rest.add(&norm.of_sizes(&radii))).with_rest_at_start(at_start)
+        Series::new(coefficients, rest.add(&norm.of_sizes(&radii)))
+            .with_rest_at_start(at_start)
+            .of_roughness(self.roughness.max(norm.roughness))
     }
 
     /// The same function so much beyond the ends of the cell.
     pub fn extended(&self, by: &Magnitude, cut: &Truncation) -> Series {
-        Series { rest: cut.extended(&self.rest, by), ..self.clone() }
+        Series { rest: self.bound_beyond(&self.rest, by, cut), ..self.clone() }
     }
 
     /// The first coefficients of a polynomial in `ξ`, and a bound of its distance from `f(a + ξ)` for all
@@ -400,13 +492,16 @@ impl Series {
             coefficients.push(c.over(k as u64 + 1, cut.bits));
         }
         let longest = (*length).max(Magnitude::power_of_two(-cut.rate));
-        Series::new(coefficients, self.rest.multiply(&longest)).with_rest_at_start(Magnitude::ZERO)
+        Series::new(coefficients, self.rest.multiply(&longest))
+            .with_rest_at_start(Magnitude::ZERO)
+            .of_roughness(self.roughness)
     }
 
-    /// `f'`: `‖e'‖ ≤ γ ‖e‖`.
+    /// `f'`: `‖e'‖ ≤ γ ‖e‖`; of a rough function `(j+1)! 2^(r(j+1)) ≤ 2^r · j! 2^((r+1)j)`.
     pub fn derivative(&self, cut: &Truncation) -> Series {
         let terms = self.coefficients.iter().enumerate().skip(1);
         let slopes = terms.map(|(k, c)| c.multiply(&Number::integer(k as i64), cut.bits));
-        Series::new(slopes.collect(), cut.per_time(&self.rest))
+        let rest = self.bound_of_derivative(&self.rest, 1, cut);
+        Series::new(slopes.collect(), rest).of_roughness(self.roughness.map(Roughness::halved))
     }
 }

@@ -1,6 +1,6 @@
 //! A function of time, cell by cell.
 
-use crate::ball::Number;
+use crate::ball::{Magnitude, Number};
 use crate::enclosure::EnclosureError;
 use crate::expression::Fraction;
 use crate::history::energy::{Integrand, Wave};
@@ -156,6 +156,16 @@ impl Arriving {
                 let (start, wave) = &waves[*bar][*direction].cells[*cell];
                 Ok(wave.series().shift(&clock.since(&start.after(travel), now)?, cut))
             }
+        }
+    }
+
+    /// A bound of the errors of that series.
+    pub fn rest(&self, waves: &[[Track; 2]]) -> Magnitude {
+        match self {
+            Arriving::Delayed { bar, direction, cell, .. } => {
+                waves[*bar][*direction].cells[*cell].1.series().rest
+            }
+            _ => Magnitude::ZERO,
         }
     }
 

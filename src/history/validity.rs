@@ -8,8 +8,8 @@ use crate::history::contacts::Happening;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::history::{PATIENCE, longest, precisions, undecided};
-use crate::history::moment::Moment;
-use crate::limits::MAX_HISTORY_BITS;
+use crate::history::moment::{Moment, TOLD_DIGITS};
+use crate::limits::{MAX_HISTORY_BITS, MAX_HISTORY_CELLS};
 use crate::network::Network;
 use crate::scene::Dimension;
 use std::cmp::Ordering;
@@ -74,6 +74,21 @@ impl Validity {
             Err(error) => undecided(error),
         };
         precisions(digits, MAX_HISTORY_BITS).raise(attempt)?.best()
+    }
+}
+
+/// That contacts stay closed until a time in the user's units.
+///
+/// # Errors
+/// [`HistoryError::Opens`]; else as [`Validity::of`].
+pub fn stays_closed(network: &Network, until: &Rational) -> Result<(), HistoryError> {
+    match Validity::of(network, Some(until), TOLD_DIGITS, MAX_HISTORY_CELLS)? {
+        Validity::Followed(_) => Ok(()),
+        Validity::Until { time, between } => {
+            let unit = if network.scene().dimensional { " s" } else { "" };
+            let at = time.to_text(TOLD_DIGITS) + unit;
+            Err(HistoryError::Opens { between, at })
+        }
     }
 }
 

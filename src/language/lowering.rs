@@ -333,11 +333,12 @@ impl<'a> Lowering<'a> {
     }
 }
 
-/// One formula of a listing: the wave, the period, the variable, and the exact expression.
+/// One formula of a listing: the wave, the period, or how often each period of a lattice has passed, the
+/// variable, and the exact expression.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ExactFormula {
     pub wave: String,
-    pub n: usize,
+    pub counts: Vec<usize>,
     pub variable: Symbol,
     pub expression: Expression,
 }
@@ -346,10 +347,10 @@ pub struct ExactFormula {
 pub(super) fn listing(tree: &syntax::Listing) -> Outcome<Vec<ExactFormula>> {
     let scope = Scope::new(&tree.source);
     let lower = |formula: &Spanned<syntax::Formula>| {
-        let syntax::Formula { wave, index, argument, value } = &formula.value;
+        let syntax::Formula { wave, counts, argument, value } = &formula.value;
         Ok(ExactFormula {
             wave: wave.value.clone(),
-            n: usize::try_from(index.value).expect("an index fits"),
+            counts: counts.iter().map(|count| count.value as usize).collect(),
             variable: symbol(&argument.value),
             expression: scope.lower(value, Place::Formula)?.rest,
         })

@@ -222,12 +222,12 @@ pub struct Listing {
     pub formulas: Vec<Spanned<Formula>>,
 }
 
-/// `f[3](s) = value`.
+/// `f[3](s) = value`, `phi_f[2,1](s) = value`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Formula {
     pub wave: Name,
-    /// The period; at most a million.
-    pub index: Spanned<u32>,
+    /// The period, or how often each period of a lattice has passed; at most a million.
+    pub counts: Vec<Spanned<u32>>,
     pub argument: Name,
     pub value: Expression,
 }

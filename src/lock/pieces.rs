@@ -3,24 +3,28 @@
 use crate::export::expression_text;
 use crate::expression::{Expression, Fraction};
 use crate::lock::difference::{Difference, compared};
-use crate::lock::stated::{of_recurrence, of_scene};
+use crate::lock::stated::{of_lattice, of_recurrence};
 use crate::lock::{Contents, LIMIT_BITS, Lock, LockError, Request, Values};
 use crate::network::Network;
 use crate::planner::{self, Purpose};
-use crate::signal::{ClosedSignal, Limit, Signal, digits};
+use crate::recurrence::WaveIndex;
+use crate::signal::{Arrival, ClosedSignal, Limit, Signal, arrivals, digits};
 use crate::solution::Solution;
 use std::collections::{BTreeMap, BTreeSet};
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
-/// Pieces by wave and period.
+/// What the name of an echo begins with.
+pub(super) const ECHO: &str = "phi_";
+
+/// Pieces by wave and period; on a lattice echoes, by how often each of its periods has passed.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub(super) struct Pieces {
     /// The last period of which pieces are locked; none where values alone are.
     pub through: Option<usize>,
-    pub all: BTreeMap<(String, usize), Piece>,
+    pub all: BTreeMap<(String, Vec<usize>), Piece>,
 }
 
-/// A wave function on one period.
+/// A wave function on one period, or an echo.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Piece {
     pub variable: Symbol,
@@ -32,12 +36,13 @@ pub(super) struct Piece {
 pub enum Derivable<'a> {
     /// Equations between periods.
     Equations(&'a Solution),
-    /// A scene, with its solution where it has periods.
+    /// A scene, with its solution where it has periods, and not a lattice of them.
     Scene(&'a Network, Option<&'a Solution>),
 }
 
 impl Lock {
-    /// Derives the pieces of all waves on the periods from 0 through `through`, and values: of all waves and
+    /// Derives the pieces of all waves on the periods from 0 through `through`, on a lattice the echoes that are
+    /// known to come first within so many periods together, and values: of all waves and
     /// observables; of the observables alone where a scene has units, constants or no periods.
     pub fn of_pieces(
         from: Derivable<'_>,
@@ -55,8 +60,15 @@ impl Lock {
             for (wave, name) in statement.waves.iter().enumerate() {
                 for (n, expression) in solution.pieces(wave, 0, through)?.into_iter().enumerate() {
                     let piece = Piece { variable: statement.local.clone(), expression };
-                    all.insert((name.clone(), n), piece);
+                    all.insert((name.clone(), vec![n]), piece);
                 }
+            }
+        }
+        if let (Derivable::Scene(network, None), Some(through)) = (from, through) {
+            let waves: Vec<WaveIndex> = (0..network.waves().len()).collect();
+            for Arrival { wave, counts, echo, .. } in arrivals(network, &waves, through)? {
+                let piece = Piece { variable: network.local(), expression: echo };
+                all.insert((network.waves()[wave].name.clone(), counts), piece);
             }
         }
         let values = match from {
@@ -69,7 +81,7 @@ impl Lock {
             Derivable::Scene(network, _) => of_observables(network, &request)?,
         };
         let stated = match from {
-            Derivable::Scene(network, None) => of_scene(network.scene()),
+            Derivable::Scene(network, None) => of_lattice(network),
             Derivable::Equations(solution) | Derivable::Scene(_, Some(solution)) => {
                 of_recurrence(solution.recurrence().statement())
             }
@@ -108,8 +120,15 @@ fn rounded(signal: &dyn Signal, time: &Rational, request: &Request) -> Result<St
 
 impl Pieces {
     pub fn differences(&self, now: &Pieces) -> Vec<Difference> {
-        compared(&self.all, &now.all, |(wave, n)| format!("{wave}[{n}]"), differing_terms)
+        compared(&self.all, &now.all, name, differing_terms)
     }
+}
+
+/// `f[3]`, `phi_f[2,1]`.
+pub(super) fn name((wave, counts): &(String, Vec<usize>)) -> String {
+    let echo = if counts.len() > 1 { ECHO } else { "" };
+    let counts: Vec<String> = counts.iter().map(ToString::to_string).collect();
+    format!("{echo}{wave}[{}]", counts.join(","))
 }
 
 fn differing_terms(old: &Piece, new: &Piece) -> Vec<String> {

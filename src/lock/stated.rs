@@ -1,10 +1,16 @@
 //! What a recurrence or a scene states of itself, each in one line, as the language writes it.
 
+use crate::enclosure::Numbers;
 use crate::export::expression_text;
 use crate::expression::Fraction;
+use crate::network::Network;
 use crate::recurrence::{Observation, Statement};
 use crate::scene::{Observable, Place, Position, Scene, Seen};
 use std::collections::BTreeMap;
+
+/// The digits of a period that is told as a decimal number, and bits for so many.
+const PERIOD_DIGITS: usize = 20;
+const PERIOD_BITS: u64 = 192;
 
 /// Title, period, symbols and observables of a recurrence.
 pub(super) fn of_recurrence(statement: &Statement) -> BTreeMap<String, String> {
@@ -19,6 +25,20 @@ pub(super) fn of_recurrence(statement: &Statement) -> BTreeMap<String, String> {
     for observable in &statement.observables {
         let seen = observed(&observable.observation, statement);
         stated.insert(format!("observable {}", observable.name), seen);
+    }
+    stated
+}
+
+/// Title, line and observables of a scene on a lattice, and the periods of that: exactly where they are rational.
+pub(super) fn of_lattice(network: &Network) -> BTreeMap<String, String> {
+    let numbers = Numbers::new(&network.model().constants);
+    let mut stated = of_scene(network.scene());
+    for (number, period) in (1..).zip(network.lattice().periods()) {
+        let told = match (period.as_constant(), numbers.enclose(period, PERIOD_BITS)) {
+            (None, Ok(ball)) => ball.to_decimal(PERIOD_DIGITS).midpoint().to_string(),
+            _ => fraction(period),
+        };
+        stated.insert(format!("period {number}"), told);
     }
     stated
 }

@@ -29,7 +29,7 @@ use crate::history::EventKind;
 use crate::language::{Diagnostic, Source, Span, normalise_name, parse_number, read_listing};
 use crate::limits::{MAX_DIGITS, MAX_LOCK_BYTES};
 use crate::lock::events::{Events, Facts};
-use crate::lock::pieces::{Piece, Pieces};
+use crate::lock::pieces::{ECHO, Piece, Pieces, name};
 use crate::lock::{Contents, Lock, Request, Values};
 use num_traits::Signed as _;
 use std::collections::BTreeMap;
@@ -219,8 +219,12 @@ impl Lock {
 
 impl Pieces {
     fn write(&self, text: &mut String) {
-        let formula = |((wave, n), piece): (&(String, usize), &Piece)| {
-            Formula::piece(wave, *n, &piece.expression, &piece.variable)
+        let formula = |((wave, counts), piece): (&(String, Vec<usize>), &Piece)| {
+            let Piece { variable, expression } = piece;
+            match counts[..] {
+                [n] => Formula::piece(wave, n, expression, variable),
+                _ => Formula::echo(wave, counts, expression, variable),
+            }
         };
         let formulas: Vec<Formula> = self.all.iter().map(formula).collect();
         if formulas.is_empty() {
@@ -239,8 +243,14 @@ impl Pieces {
         let blanked = Source::with_limit(first.source.name(), listing, MAX_LOCK_BYTES)?;
         for formula in read_listing(&blanked)? {
             let piece = Piece { variable: formula.variable, expression: formula.expression };
-            let key = (formula.wave, formula.n);
-            let message = format!("{}[{}] stands there twice", key.0, key.1);
+            let mut wave = formula.wave;
+            if formula.counts.len() > 1
+                && let Some(name) = wave.strip_prefix(ECHO)
+            {
+                wave = name.to_owned();
+            }
+            let key = (wave, formula.counts);
+            let message = format!("{} stands there twice", name(&key));
             if self.all.insert(key, piece).is_some() {
                 return Err(Diagnostic::new(first.source, message, first.span, "in this file")
                     .with_remedy("restore the file, or lock again"));

@@ -355,7 +355,7 @@ impl Motion<'_> {
                 return forces.and_then(end).unwrap_or(0.0);
             }
             Acting::Link(link) => match station.node.links[link] {
-                Link::Element(place) => place,
+                Link::Element(place) | Link::Local { place, .. } => place,
                 Link::Contact(_) => return 0.0,
             },
             Acting::Element(place) => place,

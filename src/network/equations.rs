@@ -5,6 +5,7 @@
 //! trip later: the wave functions of successive periods, as textbooks have them.
 
 use crate::expression::{Expression, Fraction};
+use crate::network::assumed::Assumed;
 use crate::network::clocks::Clocks;
 use crate::network::delay::Lattice;
 use crate::network::error::NetworkError;
@@ -14,7 +15,7 @@ use crate::network::observed::{FieldBar, Observed};
 use crate::network::scaled::ScaledScene;
 use crate::recurrence::{Fault, InvalidRecurrence, LinearForm, Recurrence, WaveIndex};
 use crate::scene::{ElementIndex, Scene};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::OnceLock;
 use wavestep_polynomial::Rational;
 
 /// The meaning of a wave of a network.
@@ -57,25 +58,6 @@ pub struct Network {
     pub assumed: Assumed,
 }
 
-/// What is taken for granted of a scene because no precision decides it, in words; shared by all copies of its
-/// network.
-#[derive(Clone, Default, Debug)]
-pub struct Assumed(Arc<Mutex<Vec<String>>>);
-
-impl Assumed {
-    /// All of it, in the order in which it was met.
-    pub fn all(&self) -> Vec<String> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
-    }
-
-    pub fn add(&self, assumption: String) {
-        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if !all.contains(&assumption) {
-            all.push(assumption);
-        }
-    }
-}
-
 /// The bars of a scene, from left to right, and its network with the integrals of their waves.
 #[derive(Clone, Debug)]
 pub(crate) struct FieldBars {
@@ -84,11 +66,8 @@ pub(crate) struct FieldBars {
 }
 
 impl ScaledScene {
-    /// The network of the scene, which every law has to be linear for.
+    /// The network of the scene.
     pub fn network(self) -> Result<Network, NetworkError> {
-        if let Some(contact) = self.local_contact() {
-            return Err(NetworkError::NotLinear(self.scene.elements[contact].name.clone()));
-        }
         let mut network = Network {
             clocks: Clocks::of(&self),
             scaled: self,
@@ -124,6 +103,11 @@ impl Network {
     /// The scene in its own scales.
     pub fn model(&self) -> &Model {
         &self.scaled.model
+    }
+
+    /// The first local contact of the line: with one there are nodes and delays, and no recurrence.
+    pub fn local_contact(&self) -> Option<ElementIndex> {
+        self.scaled.local_contact()
     }
 
     /// The times at which waves arrive.

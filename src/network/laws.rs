@@ -76,11 +76,22 @@ fn scaled(form: &LinearForm, factor: &Fraction) -> LinearForm {
 impl Network {
     /// The recurrence of the scene, where all delays lie on one grid. It is derived once.
     pub fn recurrence(&self) -> Result<Recurrence, NetworkError> {
+        self.all_linear()?;
         let derive = || match self.lattice().periods().len() {
             1 => Recurrence::new(self.statement(&[1])).map_err(|invalid| self.refused(invalid)),
             _ => Err(NetworkError::Incommensurate),
         };
         self.derived.get_or_init(derive).clone()
+    }
+
+    /// Refuses a scene with a local contact, whose law is not linear.
+    pub(super) fn all_linear(&self) -> Result<(), NetworkError> {
+        match self.local_contact() {
+            Some(contact) => {
+                Err(NetworkError::NotLinear(self.scene().elements[contact].name.clone()))
+            }
+            None => Ok(()),
+        }
     }
 
     /// The recurrence of the scene as a statement; `strides` turn counts on the lattice into lags.

@@ -10,8 +10,10 @@ use crate::scene::{ElementIndex, End, Joint, Kind, Scene};
 pub enum Contacts {
     /// They stay closed: what touches moves together.
     Closed,
-    /// They open and close, and part what moves together.
+    /// They open and close, and part what moves together; local ones too.
     Links,
+    /// Local ones do; the others stay closed.
+    LocalLinks,
 }
 
 /// A contact of a line that may open.
@@ -57,7 +59,12 @@ impl Layout {
             }
             if !matches!(scene.elements[*element].kind, Kind::Bar(_)) {
                 let node = open.as_mut().expect("an endless line begins with a bar");
-                node.attach(*element, model.lumps[element].clone());
+                let law = model.lumps[element].clone();
+                let is_local = matches!(law, ElementLaw::LocalContact { .. });
+                node.attach(*element, law);
+                if is_local && contacts != Contacts::Closed {
+                    layout.local_contact(scene, node, joint);
+                }
                 continue;
             }
             let (bar, impedance) = (layout.bars.len(), &model.bars[element].impedance);
@@ -77,14 +84,28 @@ impl Layout {
 
     /// Adds a contact to the node that begins where the last one ended.
     fn contact(&mut self, scene: &Scene, node: &mut Node<Fraction>, joint: usize) {
+        let number = self.number(scene, node.links.len(), joint);
+        node.links.push(Link::Contact(number));
+    }
+
+    /// Lets the last element of the node, a local contact at a place of the line, part what it stands between. It
+    /// belongs to what is at its left, or to what is at its right where that is the wall.
+    fn local_contact(&mut self, scene: &Scene, node: &mut Node<Fraction>, place: usize) {
+        let joint = if place == 0 { 0 } else { place + 1 };
+        let contact = self.number(scene, node.links.len() - 1, joint);
+        let link = node.links.last_mut().expect("a local contact is a link");
+        *link = Link::Local { contact, place: node.elements.len() - 1 };
+    }
+
+    /// The number of one more contact, at the right of a run.
+    fn number(&mut self, scene: &Scene, run: usize, joint: usize) -> usize {
         let name = |place: Option<usize>| {
             let element = place.and_then(|place| scene.line.elements.get(place));
             element.map_or("wall".to_owned(), |element| scene.elements[*element].name.clone())
         };
         let names = [name(joint.checked_sub(1)), name(Some(joint))];
-        let (number, run) = (self.contacts.len(), node.links.len());
         self.contacts.push(Contact { names, node: self.nodes.len(), run, joint });
-        node.links.push(Link::Contact(number));
+        self.contacts.len() - 1
     }
 
     /// Adds a node; a bar at its left ends there.

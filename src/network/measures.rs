@@ -9,11 +9,11 @@ use crate::expression::{Fraction, Root};
 use crate::network::error::NetworkError;
 use crate::network::layout::Layout;
 use crate::network::model::{Model, Scale, bar_roots};
-use crate::network::node::Side;
+use crate::network::node::{ElementLaw, Lumped, Side};
 use crate::network::reading::{Elements, Face, Field, Reading, Section, Term, section};
 use crate::scene::{
-    Body, Dimension, ElementIndex, Joint, Kind, Measure, Mistake, Observable, Place, Position,
-    Scene, Seen,
+    Body, Dimension, Drive, ElementIndex, Joint, Kind, Measure, Mistake, Observable, Place,
+    Position, Scene, Seen,
 };
 use wavestep_polynomial::Rational;
 
@@ -32,6 +32,8 @@ pub struct Measured {
     pub name: String,
     /// In the scene's own scales.
     pub value: MeasuredValue,
+    /// The loads that it is zero without, by boundary conditions alone, where there are such.
+    pub loads: Option<Vec<ElementIndex>>,
     /// What 1 in these scales is, in metres, kilograms and seconds.
     pub unit: Root,
     /// The dimension of the unit; none for scenes without units.
@@ -89,7 +91,7 @@ impl<'a> Table<'a> {
                 let dimension =
                     if self.scene.dimensional { Dimension::ENERGY } else { Dimension::NONE };
                 let unit = unit(&self.model.scale, Measure::Energy, None)?;
-                Ok(Measured { name: name.clone(), value, unit, dimension })
+                Ok(Measured { name: name.clone(), value, loads: None, unit, dimension })
             }
             _ => Err(refused(Mistake::MixedDimensions)),
         }
@@ -129,8 +131,13 @@ impl<'a> Table<'a> {
             );
         }
         let (unit, dimension) = first.unwrap_or((Fraction::one().into(), Dimension::NONE));
+        let loads = sum.iter().map(|term: &Term| match &term.of {
+            Reading::InBar(field, section) => loads_alone(self.scene, self.layout, *field, section),
+            _ => None,
+        });
+        let loads = loads.collect::<Option<Vec<_>>>().map(|loads| loads.concat());
         let value = MeasuredValue::Linear(sum);
-        Ok(Measured { name: name.to_owned(), value, unit, dimension })
+        Ok(Measured { name: name.to_owned(), value, loads, unit, dimension })
     }
 
     /// The table itself: what a measure is at a place, and its unit.
@@ -221,18 +228,30 @@ impl<'a> Table<'a> {
 /// Whether a boundary condition alone makes a field zero: the force at a free end, the motion at a fixed
 /// one that cannot open.
 pub(super) fn vanishes(scene: &Scene, layout: &Layout, field: Field, section: &Section) -> bool {
-    let Some(side) = section.end(Fraction::is_zero) else { return false };
-    let Some(node) = layout.ends[section.bar][side] else { return false };
-    let node = &layout.nodes[node];
+    loads_alone(scene, layout, field, section).is_some_and(|loads| loads.is_empty())
+}
+
+/// The loads that by a boundary condition are all that a field is made of: at a free end they are the force.
+fn loads_alone(
+    scene: &Scene,
+    layout: &Layout,
+    field: Field,
+    section: &Section,
+) -> Option<Vec<ElementIndex>> {
+    let side = section.end(Fraction::is_zero)?;
+    let node = &layout.nodes[layout.ends[section.bar][side]?];
     let joints = &scene.line.joints;
     let joint = if side == 0 { joints.first() } else { joints.last() };
     let may_open = scene.contacts_open && joint == Some(&Joint::Contact);
     let beyond = [node.left, node.right][side];
-    node.elements.is_empty()
-        && match field {
-            Field::Force => beyond == Side::Free,
-            Field::Velocity | Field::Displacement => beyond == Side::Fixed && !may_open,
+    let is_force = |own: &Lumped<Fraction>| matches!(own.law, ElementLaw::Load(Drive::Force));
+    let is_told = match field {
+        Field::Force => beyond == Side::Free && node.elements.iter().all(is_force),
+        Field::Velocity | Field::Displacement => {
+            beyond == Side::Fixed && !may_open && node.elements.is_empty()
         }
+    };
+    is_told.then(|| node.elements.iter().map(|own| own.element).collect())
 }
 
 /// The time in which a wave goes a distance; in bars given by impedance distances are times.

@@ -12,9 +12,10 @@
 //! Waves travel from node to node in the travel times of the bars. [`Network::recurrence`] writes the
 //! laws as equations between the wave functions of successive periods.
 //!
-//! A [`ScaledScene`] comes before the network: it is all that models of a scene need, and all that
-//! there is of one with a local contact, whose law is not linear.
+//! A [`ScaledScene`] comes before the network: it is all that models of a scene need. A local contact is not linear: a
+//! network with one has no recurrence.
 
+mod assumed;
 mod balance;
 mod clocks;
 mod delay;
@@ -33,9 +34,10 @@ mod scaled;
 mod system;
 mod unfold;
 
+pub use assumed::Assumed;
 pub use delay::Lattice;
-pub use equations::{Assumed, Network, Role};
 pub(crate) use equations::{FieldBars, WaveRole};
+pub use equations::{Network, Role};
 pub use error::NetworkError;
 pub(crate) use laws::{Law, Rule};
 pub use layout::{Contact, Contacts, Layout};

@@ -66,7 +66,7 @@ pub struct Model {
     /// One second in the unit of time.
     pub slowness: Fraction,
     pub bars: BTreeMap<ElementIndex, ModelBar>,
-    /// The lumped elements. No [`Network`](crate::network::Network) holds a local contact.
+    /// The lumped elements.
     pub lumps: BTreeMap<ElementIndex, ElementLaw<Fraction>>,
     /// What those of them do that are loads.
     pub loads: BTreeMap<ElementIndex, ModelLoad>,

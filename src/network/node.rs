@@ -49,6 +49,8 @@ pub enum Link {
     Contact(usize),
     /// A spring or a local contact, by its place among the elements of the node.
     Element(usize),
+    /// A local contact that parts what it stands between, by its number in the line and its place among the elements.
+    Local { contact: usize, place: usize },
 }
 
 /// A term of the balance of forces on a run.
@@ -179,9 +181,17 @@ impl<V> Node<V> {
     /// The element that is a link; none for a contact.
     pub fn spanning(&self, link: usize) -> Option<&Lumped<V>> {
         match self.links[link] {
-            Link::Element(place) => Some(&self.elements[place]),
+            Link::Element(place) | Link::Local { place, .. } => Some(&self.elements[place]),
             Link::Contact(_) => None,
         }
+    }
+
+    /// The place among the elements of a contact that is a local one.
+    pub fn local_contact(&self, contact: usize) -> Option<usize> {
+        self.links.iter().find_map(|link| match link {
+            Link::Local { contact: own, place } if *own == contact => Some(*place),
+            _ => None,
+        })
     }
 
     /// The place of an element among those of the node.
@@ -226,7 +236,7 @@ impl<V> Node<V> {
     /// The contacts with the runs at their left.
     pub fn contacts(&self) -> impl Iterator<Item = (usize, usize)> {
         self.links.iter().enumerate().filter_map(|(run, link)| match link {
-            Link::Contact(contact) => Some((*contact, run)),
+            Link::Contact(contact) | Link::Local { contact, .. } => Some((*contact, run)),
             Link::Element(_) => None,
         })
     }

@@ -46,8 +46,11 @@ impl Network {
                 MeasuredValue::Linear(terms) => terms,
                 MeasuredValue::Energy(_) => Vec::new(),
             };
+            let all = &self.scaled.model.loads;
+            let time = |load| (all[&load].from.clone(), all[&load].until.clone());
+            let acts = measured.loads.map(|loads| loads.into_iter().map(time).collect());
             let (name, unit, dimension) = (measured.name, measured.unit, measured.dimension);
-            let observed = Observed { name, value, readings, balance, unit, dimension };
+            let observed = Observed { name, value, readings, balance, acts, unit, dimension };
             self.observables.push(observed);
         }
         Ok(())

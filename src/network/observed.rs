@@ -16,6 +16,9 @@ pub struct Observed {
     pub(crate) readings: Vec<Term>,
     /// What changes it, where that is known of a momentum or an energy.
     pub(crate) balance: Option<Balance>,
+    /// When the loads act without which boundary conditions make it zero, each from a time and until another, in
+    /// the scale of the scene; `None` where it is made of more than such loads.
+    pub(crate) acts: Option<Vec<(Fraction, Option<Fraction>)>>,
     /// The unit of its values, in metres, kilograms and seconds.
     pub unit: Root,
     /// The dimension of the unit; none for scenes without units.

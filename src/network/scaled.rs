@@ -10,15 +10,14 @@ use crate::scene::{ElementIndex, Kind, Scene};
 
 /// A scene with its model in scales of its own: what models in doubles are made of.
 ///
-/// A [`Network`](crate::network::Network) holds one, and more: the delays and the laws of waves, which need every law to be
-/// linear. A scene with a local contact has no network, and this alone.
+/// A [`Network`](crate::network::Network) holds one, and more: the delays, and the laws of waves where every law is linear.
 ///
 /// # Invariants
 /// The model is that of the scene, and of nothing else.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ScaledScene {
-    pub scene: Scene,
-    pub model: Model,
+    pub(in crate::network) scene: Scene,
+    pub(in crate::network) model: Model,
     /// Its bars and nodes, with all contacts closed.
     pub layout: Layout,
     /// The observables of the scene, as sums of readings.

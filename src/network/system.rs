@@ -29,7 +29,7 @@ pub struct System<V> {
     /// Groups with a mass that move freely.
     pub heavy: Vec<usize>,
     /// Where the displacement of each element of the node stands in the state. Dampers alone have none,
-    /// and springs without load.
+    /// and springs without load and local contacts that are open.
     pub kept: Vec<Option<usize>>,
     /// Where each load and local contact of the node stands in the input.
     pub driven: Vec<Option<usize>>,
@@ -145,11 +145,19 @@ impl System<Number> {
         is_closed: impl Fn(usize) -> bool,
         bits: u64,
     ) -> Result<System<Number>, Unresisted> {
-        let closed: Vec<(usize, usize)> =
-            node.contacts().filter(|(contact, _)| is_closed(*contact)).collect();
+        let closed: Vec<(usize, usize)> = (node.contacts())
+            .filter(|(contact, run)| {
+                matches!(node.links[*run], Link::Contact(_)) && is_closed(*contact)
+            })
+            .collect();
         let mut joined: Vec<bool> =
             (0..node.links.len()).map(|link| closed.iter().any(|(_, own)| *own == link)).collect();
         let mut idle = vec![false; node.elements.len()];
+        for link in &node.links {
+            if let Link::Local { contact, place } = link {
+                idle[*place] = !is_closed(*contact);
+            }
+        }
         // An undamped spring beside an open contact, with nothing else at its end, carries no force.
         while let Some(link) = loose(node, &joined) {
             if let Link::Element(place) = node.links[link] {
@@ -253,7 +261,7 @@ impl Law<'_> {
             }
             Acting::Link(link) => match self.node.links[link] {
                 Link::Contact(_) => Number::zero(),
-                Link::Element(place) => self.force_of(place, motion),
+                Link::Element(place) | Link::Local { place, .. } => self.force_of(place, motion),
             },
             Acting::Element(place) => self.force_of(place, motion),
         };

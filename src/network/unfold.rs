@@ -24,6 +24,7 @@ impl Network {
     /// The recurrence of the scene with counts on its lattice up to `bounds`, one for each period
     /// of [`Network::lattice`].
     pub fn unfold(&self, bounds: &[usize]) -> Result<Unfolded, NetworkError> {
+        self.all_linear()?;
         assert_eq!(bounds.len(), self.lattice().periods().len(), "one bound a period");
         let largest = self.largest_lags();
         let mut strides = Vec::new();

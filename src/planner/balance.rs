@@ -1,13 +1,10 @@
 //! Energies and momenta with what flows in, their derivative: what roots and extrema ask for.
 
 use super::energy;
-use super::{SignalError, has_periods};
+use super::{SignalError, Sources};
 use crate::expression::{Fraction, Root};
-use crate::history::{FollowedSignal, Follower};
 use crate::network::{Balance, FlowTerm, Network, Observed, ObservedValue, Squared};
-use crate::signal::{
-    Balanced, ClosedSignal, Combination, Constant, Operation, Product, Scale, Signal,
-};
+use crate::signal::{Balanced, Combination, Constant, Operation, Product, Scale, Signal};
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
@@ -25,20 +22,15 @@ pub(super) fn of_scene<'a>(
         return Ok(Box::new(Operation::new(&scale, rule, unit, window)));
     }
     let one = Root::from(Fraction::one());
+    let sources = Sources::until(network, window)?;
     let of: Box<dyn Signal + 'a> = match &observed.value {
-        ObservedValue::Energy(terms) => energy::of_scene(network, terms, &one, window)?,
-        ObservedValue::Linear(value) if has_periods(network) => {
-            let [momentum] = ClosedSignal::several(network, &[(value, window)], window[1])?
-                .try_into()
-                .unwrap_or_else(|_| unreachable!("one for each"));
-            Box::new(momentum)
-        }
-        ObservedValue::Linear(_) => {
-            let scaled = Observed { unit: one.clone(), ..observed.clone() };
-            Box::new(FollowedSignal::of_scene(network, &scaled, window)?)
-        }
+        ObservedValue::Energy(terms) => energy::of_sources(&sources, terms, &one, window)?,
+        ObservedValue::Linear(value) => sources.signal(value, &observed.readings, window)?,
     };
-    let operands = factors(network, flow, window)?;
+    let factors = flow.iter().flat_map(|term| &term.factors);
+    let operands = sources.signals(
+        factors.map(|(reading, waves)| (waves, Squared::Reading(reading.clone()), window)),
+    )?;
     let mut places = 0..operands.len();
     let product = |term: &FlowTerm| Product {
         coefficient: term.coefficient.clone(),
@@ -49,25 +41,4 @@ pub(super) fn of_scene<'a>(
     let flow = Box::new(Operation::new(&scale, flow, one, window));
     let rule = Balanced::new(&scale, of, flow);
     Ok(Box::new(Operation::new(&scale, rule, unit, window)))
-}
-
-/// The factors of all terms, one after the other.
-fn factors<'a>(
-    network: &'a Network,
-    flow: &[FlowTerm],
-    window: [&Rational; 2],
-) -> Result<Vec<Rc<dyn Signal + 'a>>, SignalError> {
-    let all = flow.iter().flat_map(|term| &term.factors);
-    if has_periods(network) {
-        let all: Vec<_> = all.map(|(_, waves)| (waves, window)).collect();
-        let signals = ClosedSignal::several(network, &all, window[1])?.into_iter();
-        return Ok(signals.map(|signal| Rc::new(signal) as Rc<dyn Signal>).collect());
-    }
-    let follower = Follower::new(network, window[1])?;
-    let mut signals: Vec<Rc<dyn Signal + 'a>> = Vec::new();
-    for (reading, _) in all {
-        let reading = Squared::Reading(reading.clone());
-        signals.push(Rc::new(FollowedSignal::squared(&follower, &reading, window)?));
-    }
-    Ok(signals)
 }

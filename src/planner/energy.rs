@@ -1,12 +1,9 @@
 //! Energies as signals: `Σ c q²` of masses and springs, `Σ c ∫ q² dt` of the waves in bars.
 
-use super::{SignalError, has_periods};
+use super::{SignalError, Sources};
 use crate::expression::{Fraction, Root};
-use crate::history::{FollowedSignal, Follower};
 use crate::network::{EnergyTerm, Network, Window};
-use crate::signal::{
-    ClosedSignal, Combination, EvaluateError, Integral, Operation, Product, Scale, Signal,
-};
+use crate::signal::{Combination, EvaluateError, Integral, Operation, Product, Scale, Signal};
 use num_traits::{Signed as _, Zero as _};
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
@@ -19,15 +16,25 @@ pub(super) fn of_scene<'a>(
     network: &'a Network,
     terms: &[EnergyTerm],
     unit: &Root,
+    window: [&Rational; 2],
+) -> Result<Box<dyn Signal + 'a>, SignalError> {
+    of_sources(&Sources::until(network, window)?, terms, unit, window)
+}
+
+/// The same of sources that are known until the end of the window.
+pub(super) fn of_sources<'a>(
+    sources: &Sources<'a>,
+    terms: &[EnergyTerm],
+    unit: &Root,
     [from, to]: [&Rational; 2],
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
-    if to < from {
-        return Err(EvaluateError::EmptyWindow.into());
-    }
+    let network = sources.network;
     let scale = Scale::of(network);
     let reaches: Vec<Rational> =
         terms.iter().map(|term| reach(&scale, term, from)).collect::<Result<_, _>>()?;
-    let squared = squared(network, terms, &reaches, to)?;
+    let seen = terms.iter().zip(&reaches);
+    let squared =
+        sources.signals(seen.map(|(term, from)| (&term.of, term.squared.clone(), [from, to])))?;
     let (mut operands, mut products): (Vec<Rc<dyn Signal + 'a>>, Vec<Product>) = Default::default();
     for (place, (term, of)) in terms.iter().zip(squared).enumerate() {
         let coefficient = term.coefficient.clone();
@@ -74,24 +81,4 @@ fn reach(scale: &Scale<'_>, term: &EnergyTerm, from: &Rational) -> Result<Ration
         Window::Always => Rational::zero(),
     };
     Ok(if reach.is_negative() { Rational::zero() } else { reach })
-}
-
-/// What the terms are the squares of.
-fn squared<'a>(
-    network: &'a Network,
-    terms: &[EnergyTerm],
-    reaches: &[Rational],
-    to: &Rational,
-) -> Result<Vec<Rc<dyn Signal + 'a>>, SignalError> {
-    let windows = terms.iter().zip(reaches.iter().map(|from| [from, to]));
-    if has_periods(network) {
-        let squared: Vec<_> = windows.map(|(term, window)| (&term.of, window)).collect();
-        let signals = ClosedSignal::several(network, &squared, to)?.into_iter();
-        return Ok(signals.map(|signal| Rc::new(signal) as Rc<dyn Signal>).collect());
-    }
-    let follower = Follower::new(network, to)?;
-    let signal = |(term, window): (&EnergyTerm, _)| -> Result<Rc<dyn Signal + 'a>, SignalError> {
-        Ok(Rc::new(FollowedSignal::squared(&follower, &term.squared, window)?))
-    };
-    windows.map(signal).collect()
 }

@@ -8,10 +8,13 @@
 mod balance;
 mod energy;
 
-use crate::history::{FollowedSignal, Follower, HistoryError};
-use crate::network::{FieldBars, Network, Observed, ObservedValue};
+use crate::expression::{Fraction, Root};
+use crate::history::{self, FollowedSignal, Follower, HistoryError};
+use crate::network::{FieldBars, Network, Observed, ObservedValue, Squared, Term};
+use crate::recurrence::Observation;
 use crate::signal::{ClosedSignal, EvaluateError, Signal};
 use num_traits::Zero as _;
+use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
 /// Why there is no signal.
@@ -36,26 +39,14 @@ pub enum Purpose {
     Stretches,
     /// The same for roots and extrema: energies and momenta with what flows in.
     Search,
+    /// Values by what knows of contacts that stay closed alone: methods that need a closed form, and models.
+    ClosedContacts,
 }
 
 /// Whether the waves of a scene have periods and echoes, which can be counted; else it is followed, and has
 /// events.
 pub fn has_periods(network: &Network) -> bool {
-    !network.scene().contacts_open
-}
-
-/// Where the values of a quantity come from.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum Source {
-    #[error("in closed form: the echoes that have arrived are added up")]
-    Closed,
-    #[error("followed from cell to cell, since contacts open")]
-    Followed,
-}
-
-/// Where the values of all quantities of a scene come from.
-pub fn source(network: &Network) -> Source {
-    if has_periods(network) { Source::Closed } else { Source::Followed }
+    !network.scene().contacts_open && network.local_contact().is_none()
 }
 
 /// An observable of a scene on a window of the user's time.
@@ -68,21 +59,79 @@ pub fn of_scene<'a>(
     if let (Purpose::Search, Some(known)) = (purpose, &observed.balance) {
         return balance::of_scene(network, observed, known, window);
     }
+    let needs_closed = purpose == Purpose::ClosedContacts && !has_periods(network);
+    if needs_closed {
+        history::stays_closed(network, window[1])?;
+    }
     if let ObservedValue::Energy(terms) = &observed.value {
         return energy::of_scene(network, terms, &observed.unit, window);
     }
-    if has_periods(network) {
+    if needs_closed || has_periods(network) {
         let signal = ClosedSignal::of_scene(network, observed, window)?;
         return Ok(Box::new(match purpose {
             Purpose::Echoes => signal.echo_by_echo(),
-            Purpose::Values | Purpose::Stretches | Purpose::Search => signal,
+            _ => signal,
         }));
     }
     let followed = FollowedSignal::of_scene(network, observed, window)?;
     Ok(match purpose {
         Purpose::Values | Purpose::Echoes => Box::new(followed),
-        Purpose::Stretches | Purpose::Search => Box::new(followed.cut_at_breaks()?),
+        _ => Box::new(followed.cut_at_breaks()?),
     })
+}
+
+/// Where signals come from of which one is made: they share one closed form or one history.
+struct Sources<'a> {
+    network: &'a Network,
+    /// The end of the window, in the user's time.
+    to: Rational,
+    /// Where contacts open.
+    follower: Option<Rc<Follower<'a>>>,
+}
+
+/// Something that is read of a motion, in waves, and as a reading of what is followed, on a window.
+type Seen<'s> = (&'s Observation, Squared, [&'s Rational; 2]);
+
+impl<'a> Sources<'a> {
+    fn until(network: &'a Network, [from, to]: [&Rational; 2]) -> Result<Self, SignalError> {
+        if to < from {
+            return Err(EvaluateError::EmptyWindow.into());
+        }
+        let follower = (!has_periods(network)).then(|| Follower::new(network, to)).transpose()?;
+        Ok(Sources { network, to: to.clone(), follower })
+    }
+
+    /// Signals in the scale of the scene.
+    fn signals<'s>(
+        &self,
+        seen: impl Iterator<Item = Seen<'s>>,
+    ) -> Result<Vec<Rc<dyn Signal + 'a>>, SignalError> {
+        let Some(follower) = &self.follower else {
+            let seen: Vec<_> = seen.map(|(waves, _, window)| (waves, window)).collect();
+            let signals = ClosedSignal::several(self.network, &seen, &self.to)?.into_iter();
+            return Ok(signals.map(|signal| Rc::new(signal) as Rc<dyn Signal>).collect());
+        };
+        let mut signals: Vec<Rc<dyn Signal + 'a>> = Vec::new();
+        for (_, reading, window) in seen {
+            signals.push(Rc::new(FollowedSignal::squared(follower, &reading, window)?));
+        }
+        Ok(signals)
+    }
+
+    /// A sum of readings in the scale of the scene.
+    fn signal(
+        &self,
+        waves: &Observation,
+        readings: &[Term],
+        window: [&Rational; 2],
+    ) -> Result<Box<dyn Signal + 'a>, SignalError> {
+        let Some(follower) = &self.follower else {
+            let mut signals = ClosedSignal::several(self.network, &[(waves, window)], &self.to)?;
+            return Ok(Box::new(signals.pop().expect("one signal for one observation")));
+        };
+        let unit = Root::from(Fraction::one());
+        Ok(Box::new(FollowedSignal::linear(follower, (readings, &unit), window)?))
+    }
 }
 
 /// A wave as it enters a bar, without the state at the start, its integral over time since then, and the

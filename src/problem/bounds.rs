@@ -1,8 +1,11 @@
 //! Work that would explode is refused before it starts.
 
 use super::ProblemError;
-use crate::limits::MAX_DERIVED_TERMS;
-use crate::recurrence::Recurrence;
+use crate::expression::{Expression, Fraction};
+use crate::limits::{MAX_DERIVED_ECHOES, MAX_DERIVED_TERMS};
+use crate::network::Network;
+use crate::recurrence::{Recurrence, WaveIndex};
+use crate::solution::{Demand, EchoByEcho, SolveError};
 use wavestep_polynomial::Symbol;
 
 /// The most constants that are counted.
@@ -52,4 +55,52 @@ pub(super) fn refuse_terms(terms: u128) -> Result<(), ProblemError> {
 pub(super) fn refuse_pieces(recurrence: &Recurrence, through: usize) -> Result<(), ProblemError> {
     let last = terms_of_piece(recurrence, through);
     refuse_terms(terms_through(last, through, recurrence.statement().waves.len()))
+}
+
+/// The most terms of echoes with names for rates after which a further one is derived: each has ten to a thousand
+/// times as many as the one before.
+pub(super) const MAX_NAMED_TERMS: usize = 10_000;
+
+/// How many terms the last echoes have that were derived of all waves.
+pub(super) fn length(by_echo: &EchoByEcho<'_>, waves: usize) -> usize {
+    let last = (0..waves).filter_map(|wave| by_echo.transforms(wave).last());
+    let values = last.flat_map(|echo| echo.poles()).flat_map(|(_, row)| row);
+    values.flat_map(Expression::terms).map(|(_, value)| value.numerator().term_count()).sum()
+}
+
+/// The first echo of some waves, before the last that is wanted, that has more than so many terms, and how many
+/// it has.
+pub(super) fn first_long_echo(
+    recurrence: &Recurrence,
+    waves: &[WaveIndex],
+    last: usize,
+    most: usize,
+) -> Result<Option<(usize, usize)>, SolveError> {
+    let mut demand = Demand::none(recurrence);
+    for wave in waves {
+        (0..last).for_each(|k| demand.add(recurrence, *wave, k));
+    }
+    let mut by_echo = EchoByEcho::new(recurrence).wanting(demand);
+    for n in 0..last {
+        by_echo.advance()?;
+        let terms = length(&by_echo, recurrence.statement().waves.len());
+        if terms > most {
+            return Ok(Some((n, terms)));
+        }
+    }
+    Ok(None)
+}
+
+/// Refuses the echoes of so many waves on a lattice where there may be too many.
+pub(super) fn refuse_echoes(
+    network: &Network,
+    waves: usize,
+    through: usize,
+) -> Result<(), ProblemError> {
+    let each = |echoes: usize, _: &Fraction| echoes.saturating_mul(through.saturating_add(1));
+    let echoes = network.lattice().periods().iter().fold(waves, each);
+    match echoes > MAX_DERIVED_ECHOES {
+        true => Err(ProblemError::TooManyEchoes { echoes, limit: MAX_DERIVED_ECHOES }),
+        false => Ok(()),
+    }
 }

@@ -1,8 +1,9 @@
 //! What can be said of a problem after it was read: it is ordered, and derived in two ways that must agree.
 
+use super::bounds::{MAX_NAMED_TERMS, length};
 use super::constants::rates;
 use super::{Kind, Problem, ProblemError};
-use crate::expression::{Condition, Expression};
+use crate::expression::Condition;
 use crate::network::{Network, NetworkError};
 use crate::recurrence::Statement;
 use crate::scene::PI;
@@ -15,9 +16,6 @@ const PERIODS: usize = 6;
 
 /// The same where formulas hold several named constants.
 const PERIODS_WITH_CONSTANTS: usize = 2;
-
-/// Formulas with more terms are compared, and no longer ones.
-const MAX_TERMS: usize = 10_000;
 
 /// How many periods of a lattice are followed in a check.
 const FIRST_ECHOES: usize = 3;
@@ -91,8 +89,10 @@ pub enum General {
 impl Problem {
     /// Checks the problem: its laws are solved and the first periods derived in two ways.
     pub fn check(&self) -> Result<Checked, ProblemError> {
+        if let Some(contact) = self.local_contact() {
+            return Ok(Checked::LocalContact(contact));
+        }
         match &self.kind {
-            Kind::LocalContact(_) => Ok(Checked::LocalContact(self.local_contact())),
             Kind::Line { network, .. } if self.on_lattice() => on_lattice(network),
             _ => match self.check_periods() {
                 Ok(periods) => Ok(Checked::Periods(Box::new(periods))),
@@ -170,7 +170,7 @@ impl Problem {
                 by_period.advance().map_err(|error| self.explained(error.into()))?;
                 agree(statement, n, &by_echo, &by_period)?;
             }
-            if length(&by_echo, statement.waves.len()) > MAX_TERMS {
+            if length(&by_echo, statement.waves.len()) > MAX_NAMED_TERMS {
                 return Ok((ways, n));
             }
         }
@@ -194,13 +194,6 @@ fn agree(
         }
     }
     Ok(())
-}
-
-/// How many terms the last echoes of all waves have.
-fn length(by_echo: &EchoByEcho<'_>, waves: usize) -> usize {
-    let last = (0..waves).filter_map(|wave| by_echo.transforms(wave).last());
-    let values = last.flat_map(|echo| echo.poles()).flat_map(|(_, row)| row);
-    values.flat_map(Expression::terms).map(|(_, value)| value.numerator().term_count()).sum()
 }
 
 fn general(solution: &Solution, wave: usize) -> General {

@@ -59,18 +59,25 @@ impl Problem {
     /// What is told where the exact form needs rates that formulas cannot hold, instead of what was found
     /// wrong.
     pub(super) fn explained(&self, error: ProblemError) -> ProblemError {
+        let is_of_rates =
+            matches!(error, ProblemError::Solve(_) | ProblemError::NoGeneralForm { .. });
+        match self.named_rates().filter(|_| is_of_rates) {
+            Some((place, waves, rates)) => ProblemError::Rates { place, waves, rates },
+            None => error,
+        }
+    }
+
+    /// Where rates have names, waves that decay together, and their rates.
+    pub(super) fn named_rates(&self) -> Option<(String, Vec<String>, Vec<String>)> {
         let (Kind::Line { network, .. }, Ok(recurrence)) = (&self.kind, self.recurrence()) else {
-            return error;
+            return None;
         };
         let named =
             |rate: &Fraction| recurrence.constants().iter().any(|c| rate.contains(&c.symbol));
         let mut systems = recurrence.coupled().iter();
-        let Some(system) = systems.find(|system| system.rates.iter().any(named)) else {
-            return error;
-        };
+        let system = systems.find(|system| system.rates.iter().any(named))?;
         let waves: Vec<String> = system.waves.iter().map(|w| recurrence.wave_name(*w)).collect();
-        let (place, rates) = (network.place_of_waves(&waves), rates(recurrence, system));
-        ProblemError::Rates { place, waves, rates }
+        Some((network.place_of_waves(&waves), waves, rates(recurrence, system)))
     }
 }
 

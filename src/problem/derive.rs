@@ -1,12 +1,13 @@
 //! Exact forms: pieces, echoes, general forms, and how they follow from the scene.
 
-use super::bounds::{refuse_terms, terms_of_piece, terms_through};
+use super::bounds::{
+    MAX_NAMED_TERMS, first_long_echo, refuse_echoes, refuse_terms, terms_of_piece, terms_through,
+};
 use super::error::Missing;
 use super::{Kind, Problem, ProblemError};
 use crate::export::{self, Derivation, Formula, SourceForm};
 use crate::expression::{Expression, Fraction};
 use crate::language;
-use crate::limits::MAX_DERIVED_ECHOES;
 use crate::network::{Network, ObservedValue};
 use crate::recurrence::{Observable, Recurrence, WaveIndex};
 use crate::signal::{Arrival, arrivals};
@@ -14,6 +15,12 @@ use crate::solution::{ObserveError, ObservedStretch, Solution, Unknown};
 
 /// The periods that an explanation ends with.
 const FIRST_PIECES: usize = 2;
+
+/// How many orders are derived after the first, where nothing is said.
+const FEW: usize = 3;
+
+/// The most terms of all waves that an echo with names for rates has of these.
+const FEW_TERMS: usize = 5_000;
 
 /// What is to be derived.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -120,19 +127,38 @@ impl Problem {
         let recurrence = solution.recurrence();
         let ToDerive::Observable(name) = what else {
             let waves = self.waves_to_derive(what)?;
-            refuse_explosion(recurrence, orders, form, waves.len())?;
+            self.refuse_explosion(recurrence, orders, form, &waves)?;
             let functions = |wave| functions(solution, wave, orders, form);
             let all = waves.into_iter().map(functions).collect::<Result<_, _>>()?;
             return Ok(Derived::Functions(all));
         };
         let observable = observable(recurrence, name)?;
-        refuse_explosion(recurrence, orders, form, observable.observation.waves.len())?;
+        self.refuse_explosion(recurrence, orders, form, &waves_seen(observable))?;
         if form == Form::Echo {
             return Err(ProblemError::EchoesOfObservable(observable.name.clone()));
         }
         match solution.offset(&observable.observation) {
             Some(_) => Ok(Derived::Functions(vec![observed(solution, observable, orders)?])),
             None => between_arrivals(solution, observable, orders),
+        }
+    }
+
+    /// The orders from one on that are derived where none are asked for: four, or those before the first whose
+    /// formulas are long, with what says so.
+    pub fn first_orders(&self, what: ToDerive<'_>, from: usize) -> (Orders, Option<ProblemError>) {
+        let last = from.saturating_add(FEW);
+        let named = self.recurrence().ok().filter(|of| of.has_named_rates() && !self.on_lattice());
+        let Some(recurrence) = named else { return (Orders::Through(from, last), None) };
+        let waves = match what {
+            ToDerive::Observable(name) => observable(recurrence, name).map(waves_seen),
+            _ => self.waves_to_derive(what),
+        };
+        let waves = waves.unwrap_or_default();
+        match self.long_echoes(recurrence, &waves, last + 1, FEW_TERMS) {
+            Err(long @ ProblemError::LongEchoes { n, .. }) => {
+                (Orders::Through(from, n.saturating_sub(1).max(from)), Some(long))
+            }
+            _ => (Orders::Through(from, last), None),
         }
     }
 
@@ -147,7 +173,7 @@ impl Problem {
         let recurrence = solution.recurrence();
         let waves = self.waves_to_derive(what)?;
         has_source_form(recurrence)?;
-        refuse_explosion(recurrence, orders, Form::Period, waves.len())?;
+        self.refuse_explosion(recurrence, orders, Form::Period, &waves)?;
         let found = source_form(solution, &waves, orders);
         found.map_err(|error| self.explained(error))
     }
@@ -232,6 +258,44 @@ impl Problem {
         })
     }
 
+    fn refuse_explosion(
+        &self,
+        recurrence: &Recurrence,
+        orders: Orders,
+        form: Form,
+        waves: &[WaveIndex],
+    ) -> Result<(), ProblemError> {
+        let ((_, last), parts) = (orders.ends(), waves.len());
+        if recurrence.has_named_rates() {
+            return self.long_echoes(recurrence, waves, last, MAX_NAMED_TERMS);
+        }
+        let one = match form {
+            Form::Echo => last as u128 + 1,
+            Form::Period | Form::Piecewise => terms_of_piece(recurrence, last),
+        };
+        refuse_terms(match orders {
+            Orders::Only(_) => one.saturating_mul(parts.max(1) as u128),
+            Orders::Through(..) => terms_through(one, last, parts),
+        })
+    }
+
+    /// Refuses echoes with names for rates after one with more than so many terms.
+    fn long_echoes(
+        &self,
+        recurrence: &Recurrence,
+        waves: &[WaveIndex],
+        last: usize,
+        most: usize,
+    ) -> Result<(), ProblemError> {
+        let Some((place, together, rates)) = self.named_rates() else { return Ok(()) };
+        match first_long_echo(recurrence, waves, last, most)? {
+            Some((n, terms)) => {
+                Err(ProblemError::LongEchoes { place, waves: together, rates, n, terms })
+            }
+            None => Ok(()),
+        }
+    }
+
     /// The network, where waves return at times without a common measure.
     fn lattice(&self) -> Option<&Network> {
         self.network().ok().filter(|_| self.on_lattice())
@@ -278,21 +342,9 @@ fn observable<'a>(recurrence: &'a Recurrence, name: &str) -> Result<&'a Observab
 }
 
 /// Refuses before work starts what would have too many terms.
-fn refuse_explosion(
-    recurrence: &Recurrence,
-    orders: Orders,
-    form: Form,
-    parts: usize,
-) -> Result<(), ProblemError> {
-    let (_, last) = orders.ends();
-    let one = match form {
-        Form::Echo => last as u128 + 1,
-        Form::Period | Form::Piecewise => terms_of_piece(recurrence, last),
-    };
-    refuse_terms(match orders {
-        Orders::Only(_) => one.saturating_mul(parts.max(1) as u128),
-        Orders::Through(..) => terms_through(one, last, parts),
-    })
+/// The waves that an observable is made of.
+fn waves_seen(observable: &Observable) -> Vec<WaveIndex> {
+    observable.observation.waves.iter().map(|seen| seen.wave).collect()
 }
 
 fn functions(
@@ -442,13 +494,7 @@ fn by_arrival(
             })?]
         }
     };
-    let periods = network.lattice().periods().len();
-    let echoes = (0..periods)
-        .fold(1_usize, |product, _| product.saturating_mul(through.saturating_add(1)))
-        .saturating_mul(waves.len());
-    if echoes > MAX_DERIVED_ECHOES {
-        return Err(ProblemError::TooManyEchoes { echoes, limit: MAX_DERIVED_ECHOES });
-    }
+    refuse_echoes(network, waves.len(), through)?;
     let found = arrivals(network, &waves, through)?;
     match found.is_empty() {
         true => Err(ProblemError::NothingArrives(through)),

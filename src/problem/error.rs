@@ -1,6 +1,6 @@
 //! Why a problem has no answer.
 
-use crate::answer::{InvalidMethod, InvalidTolerance, Tolerance, WayError};
+use crate::answer::{InvalidMethod, InvalidTolerance, WayError};
 use crate::field::FieldError;
 use crate::history::HistoryError;
 use crate::language::Diagnostic;
@@ -60,16 +60,8 @@ pub enum ProblemError {
     /// A local time, and how long the period is.
     #[error("the local time {} lies outside the period", .0[0])]
     OutsidePeriod(Box<[Rational; 2]>),
-    #[error("no digits are certified: `{0}` is a local contact, and no exact solution is known")]
-    NoDigits(String),
-    #[error(
-        "no value is proven to be within {1}: `{0}` is a local contact, and no exact solution is known"
-    )]
-    NoProof(String, Tolerance),
     #[error("accuracy not reached at t = {time}: {name} = {best}")]
     Undecided { name: String, time: Rational, best: String },
-    #[error("a recurrence has no contacts")]
-    EquationsHaveNoContacts,
     #[error("this would have about {} terms; at most {MAX_DERIVED_TERMS} are derived at once", in_powers(*.0))]
     TooManyTerms(f64),
     #[error("this would be about {echoes} echoes; at most {limit} are derived at once")]
@@ -125,6 +117,13 @@ pub enum ProblemError {
         rates.join(", ")
     )]
     Rates { place: String, waves: Vec<String>, rates: Vec<String> },
+    #[error(
+        "{place}, {} decay together at the rates {}; with names for these the echoes of order {n} have {terms} \
+         terms, and later ones many times as many",
+        waves.join(" and "),
+        rates.join(", ")
+    )]
+    LongEchoes { place: String, waves: Vec<String>, rates: Vec<String>, n: usize, terms: usize },
     #[error("the two derivations of {0}[{1}] disagree")]
     Disagreement(String, usize),
     #[error(transparent)]

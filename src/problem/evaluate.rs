@@ -7,7 +7,8 @@ use crate::answer::{self, Accuracy, Doubles, Method, Question, Remark, Tested, W
 use crate::expression::Fraction;
 use crate::field::FieldEvaluator;
 use crate::model::ModelError;
-use crate::planner::{self, Purpose, Source};
+use crate::network::{Observed, ObservedValue};
+use crate::planner::{self, Purpose};
 use crate::signal::{self, ClosedSignal, EvaluateError, Limit, Signal, Value, reaching_a_double};
 use num_traits::Signed as _;
 use wavestep_polynomial::Rational;
@@ -46,10 +47,8 @@ impl Problem {
         tick: &dyn Fn(),
     ) -> Result<Proven, ProblemError> {
         let Digits { count, max_bits, limit, count_echoes } = digits;
-        let (from, to) = match (times.iter().min(), times.iter().max(), &self.kind) {
-            (_, _, Kind::LocalContact(_)) => return Err(self.not_certified(Accuracy::Digits)),
-            (Some(from), Some(to), _) => (from, to),
-            _ => return Ok(Proven { values: Vec::new(), echoes: None }),
+        let (Some(from), Some(to)) = (times.iter().min(), times.iter().max()) else {
+            return Ok(Proven { values: Vec::new(), echoes: None });
         };
         if count_echoes && !self.has_periods() {
             return Err(ProblemError::NoPeriodsWhereContactsOpen);
@@ -78,14 +77,12 @@ impl Problem {
         Ok(Proven { values, echoes: if count_echoes { signal.echoes() } else { None } })
     }
 
-    /// Where values with proven digits come from.
-    pub fn source(&self) -> Source {
-        self.network().map_or(Source::Closed, planner::source)
-    }
-
-    /// The method for values in doubles where digits cannot be proven and none is named.
-    pub fn usual_method(&self) -> Option<Method> {
-        matches!(self.kind, Kind::LocalContact(_)).then_some(Method::Steps { tolerance: 1e-10 })
+    /// How values with proven digits are found, in words.
+    pub fn how_found(&self) -> &'static str {
+        match self.has_periods() {
+            true => "in closed form: the echoes that have arrived are added up",
+            false => "followed from cell to cell, since contacts open",
+        }
     }
 
     /// Values in doubles, by a method or within a tolerance.
@@ -96,12 +93,20 @@ impl Problem {
         limit: Limit,
         accuracy: Accuracy,
     ) -> Result<Doubles, ProblemError> {
-        if let Kind::LocalContact(_) = &self.kind {
-            return self.by_model(&self.wanted(name)?, times, limit, accuracy);
+        if let (Accuracy::Method(method, None), Some(contact)) = (accuracy, self.local_contact())
+            && method.is_model()
+        {
+            return self.by_model(&self.wanted(name)?, (method, contact), times, limit);
         }
         let first = times.iter().min().cloned().unwrap_or_default();
         let last = times.iter().max().cloned().unwrap_or_default();
-        let question = self.question(name, [first, last])?;
+        let purpose = match accuracy {
+            Accuracy::Method(method, _) if method.needs_closed_contacts() => {
+                Purpose::ClosedContacts
+            }
+            _ => Purpose::Stretches,
+        };
+        let question = self.question_for(name, [first, last], purpose)?;
         Ok(answer::doubles(&question, times, limit, accuracy)?)
     }
 
@@ -112,10 +117,21 @@ impl Problem {
         name: &str,
         window: [Rational; 2],
     ) -> Result<Question<'_>, ProblemError> {
+        self.question_for(name, window, Purpose::Stretches)
+    }
+
+    fn question_for(
+        &self,
+        name: &str,
+        window: [Rational; 2],
+        purpose: Purpose,
+    ) -> Result<Question<'_>, ProblemError> {
         let wanted = self.wanted(name)?;
         let window = reaching_a_double(window);
-        let signal = self.signal_on(&wanted, window.each_ref(), Purpose::Stretches)?;
-        Ok(Question { signal, scene: self.network().ok().zip(wanted.place) })
+        let signal = self.signal_on(&wanted, window.each_ref(), purpose)?;
+        let scene = self.network().ok().zip(wanted.place);
+        let contacts_open = !self.has_periods() && purpose != Purpose::ClosedContacts;
+        Ok(Question { signal, scene, contacts_open })
     }
 
     /// A wave or an observable as a function of time on a window.
@@ -125,6 +141,12 @@ impl Problem {
         window: [&Rational; 2],
         purpose: Purpose,
     ) -> Result<Box<dyn Signal + '_>, ProblemError> {
+        let is_energy = |observed: &Observed| matches!(observed.value, ObservedValue::Energy(_));
+        if self.local_contact().is_some()
+            && (purpose == Purpose::Search || wanted.observed.as_ref().is_some_and(is_energy))
+        {
+            return Err(ProblemError::local_contact(self.scaled()?));
+        }
         match (&self.kind, &wanted.observed) {
             (Kind::Line { network, .. }, Some(observed)) => {
                 Ok(planner::of_scene(network, observed, window, purpose)?)
@@ -133,7 +155,7 @@ impl Problem {
                 let observation = wanted.observation().expect("it is linear");
                 Ok(Box::new(ClosedSignal::of_recurrence(solution, observation, window)?))
             }
-            _ => Err(ProblemError::local_contact(self.scaled()?)),
+            _ => Err(self.unknown(&wanted.name)),
         }
     }
 
@@ -150,8 +172,8 @@ impl Problem {
         local: &Rational,
         limit: Limit,
     ) -> Result<Rational, ProblemError> {
-        if let Kind::LocalContact(_) = &self.kind {
-            return Err(ProblemError::NoPeriodsWithLocalContact(self.local_contact()));
+        if let Some(contact) = self.local_contact() {
+            return Err(ProblemError::NoPeriodsWithLocalContact(contact));
         }
         if !self.has_periods() {
             return Err(ProblemError::NoPeriodsWhereContactsOpen);
@@ -174,17 +196,14 @@ impl Problem {
         Ok(offset + period * Rational::from_integer(n.into()) + local)
     }
 
-    /// Values by a model of a scene that has no exact solution.
+    /// Values by a model of a scene with a local contact.
     fn by_model(
         &self,
         wanted: &Wanted,
+        (method, contact): (Method, String),
         times: &[Rational],
         limit: Limit,
-        accuracy: Accuracy,
     ) -> Result<Doubles, ProblemError> {
-        let Accuracy::Method(method, None) = accuracy else {
-            return Err(self.not_certified(accuracy));
-        };
         let scaled = self.scaled()?;
         let place = wanted.place.expect("an observable of the scene");
         let way = Way::of_model(method, scaled, place).map_err(|error| match error {
@@ -195,31 +214,11 @@ impl Problem {
         })?;
         let values = way.exact_values(times, limit)?;
         let tested = match method {
-            Method::Steps { tolerance } => {
-                Some(Remark::Tested(Tested { contact: self.local_contact(), tolerance }))
-            }
+            Method::Steps { tolerance } => Some(Remark::Tested(Tested { contact, tolerance })),
             _ => None,
         };
         let spring = equivalent_spring(scaled).map(Remark::NearSpring);
         let remarks = tested.into_iter().chain([Remark::Law]).chain(spring).collect();
         Ok(Doubles { method, law: way.law(), bound: way.bound(), values, remarks })
-    }
-
-    /// The name of the local contact.
-    pub(super) fn local_contact(&self) -> String {
-        match self.network() {
-            Err(ProblemError::LocalContact { contact, .. }) => contact,
-            _ => String::new(),
-        }
-    }
-
-    fn not_certified(&self, accuracy: Accuracy) -> ProblemError {
-        let contact = self.local_contact();
-        match accuracy {
-            Accuracy::Within(tolerance) | Accuracy::Method(_, Some(tolerance)) => {
-                ProblemError::NoProof(contact, tolerance)
-            }
-            Accuracy::Digits | Accuracy::Method(_, None) => ProblemError::NoDigits(contact),
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! Locks of a problem: pieces and values, or events where contacts open.
 
-use super::bounds::refuse_pieces;
-use super::{Kind, LockRefusal, Missing, Problem, ProblemError};
+use super::bounds::{refuse_echoes, refuse_pieces};
+use super::{Kind, LockRefusal, Problem, ProblemError};
 use crate::lock::{Derivable, Difference, Extent, Lock, Request};
 use wavestep_polynomial::Rational;
 
@@ -57,10 +57,10 @@ impl Problem {
     ) -> Result<Lock, ProblemError> {
         let network = self.network().ok();
         if let (Some(network), true) = (network, self.on_lattice()) {
-            if through.is_some() {
-                return Err(ProblemError::NoCommonMeasure(Missing::Pieces));
+            if let Some(through) = through {
+                refuse_echoes(network, network.waves().len(), through)?;
             }
-            return Ok(Lock::of_pieces(Derivable::Scene(network, None), None, request)?);
+            return Ok(Lock::of_pieces(Derivable::Scene(network, None), through, request)?);
         }
         let solution = self.solution()?;
         if let Some(through) = through {
@@ -81,6 +81,9 @@ impl Problem {
         let Kind::Line { network, .. } = &self.kind else {
             return Err(LockRefusal::EventsLocked.into());
         };
+        if !request.times.is_empty() && self.local_contact().is_some() {
+            return Err(ProblemError::local_contact(self.scaled()?));
+        }
         Ok(Lock::of_events(network, until, request)?)
     }
 }

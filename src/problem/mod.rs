@@ -62,10 +62,8 @@ pub struct Problem {
 enum Kind {
     /// Equations between the waves of successive periods.
     Equations(Box<Solution>),
-    /// Bars and elements whose laws are linear, as long as contacts stay closed.
+    /// Bars and elements. There is a solution in periods where laws are linear, as long as contacts stay closed.
     Line { network: Box<Network>, solution: OnceCell<Result<Box<Solution>, NetworkError>> },
-    /// Bars with a local contact, which has no recurrence.
-    LocalContact(Box<ScaledScene>),
 }
 
 impl Problem {
@@ -79,7 +77,6 @@ impl Problem {
         match &self.kind {
             Kind::Equations(solution) => Err(solution.recurrence().statement()),
             Kind::Line { network, .. } => Ok(network.scene()),
-            Kind::LocalContact(scaled) => Ok(scaled.scene()),
         }
     }
 
@@ -90,7 +87,6 @@ impl Problem {
                 solution.recurrence().symbols().map(Symbol::name).collect()
             }
             Kind::Line { network, .. } => names_of_symbols(network.scene()),
-            Kind::LocalContact(scaled) => names_of_symbols(scaled.scene()),
         }
     }
 }
@@ -137,14 +133,8 @@ impl Problem {
         let kind = match language::read(&source, &values)? {
             Stated::Recurrence(recurrence) => Kind::Equations(Box::new(Solution::new(*recurrence))),
             Stated::Scene(scene) => {
-                let scaled = ScaledScene::of(&scene)?;
-                match scaled.local_contact() {
-                    Some(_) => Kind::LocalContact(Box::new(scaled)),
-                    None => {
-                        let network = Box::new(scaled.network()?);
-                        Kind::Line { network, solution: OnceCell::new() }
-                    }
-                }
+                let network = Box::new(Network::new(&scene)?);
+                Kind::Line { network, solution: OnceCell::new() }
             }
         };
         Ok(Problem { source, values, kind })
@@ -160,7 +150,6 @@ impl Problem {
         match &self.kind {
             Kind::Equations(_) => Err(ProblemError::Equations(self.title().to_owned())),
             Kind::Line { network, .. } => Ok((**network).as_ref()),
-            Kind::LocalContact(scaled) => Ok(scaled),
         }
     }
 
@@ -168,7 +157,6 @@ impl Problem {
     pub fn network(&self) -> Result<&Network, ProblemError> {
         match &self.kind {
             Kind::Line { network, .. } => Ok(network),
-            Kind::LocalContact(scaled) => Err(ProblemError::local_contact(scaled)),
             Kind::Equations(_) => Err(ProblemError::Equations(self.title().to_owned())),
         }
     }
@@ -177,18 +165,26 @@ impl Problem {
     pub fn solution(&self) -> Result<&Solution, ProblemError> {
         match &self.kind {
             Kind::Equations(solution) => Ok(solution),
+            Kind::Line { network, .. } if network.local_contact().is_some() => {
+                Err(ProblemError::local_contact((**network).as_ref()))
+            }
             Kind::Line { network, solution } => {
                 let derived = || Ok(Box::new(Solution::new(network.recurrence()?)));
                 let solution = solution.get_or_init(derived).as_ref();
                 solution.map(Box::as_ref).map_err(|error| error.clone().into())
             }
-            Kind::LocalContact(scaled) => Err(ProblemError::local_contact(scaled)),
         }
     }
 
     /// The recurrence, stated or derived.
     pub fn recurrence(&self) -> Result<&Recurrence, ProblemError> {
         Ok(self.solution()?.recurrence())
+    }
+
+    /// The name of the first local contact.
+    pub fn local_contact(&self) -> Option<String> {
+        let scaled = self.scaled().ok()?;
+        scaled.local_contact().map(|contact| scaled.scene().elements[contact].name.clone())
     }
 
     /// Whether there are periods and echoes, not events.

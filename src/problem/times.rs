@@ -58,11 +58,11 @@ impl Problem {
     pub fn shortest_period(&self) -> Option<Rational> {
         match &self.kind {
             Kind::Equations(solution) => solution.recurrence().statement().period.as_constant(),
+            Kind::Line { network, .. } if network.local_contact().is_some() => None,
             Kind::Line { network, .. } => {
                 let period = network.lattice().periods().first()?.as_constant()?;
                 Some(period / network.model().slowness.as_constant()?)
             }
-            Kind::LocalContact(_) => None,
         }
     }
 }
@@ -104,8 +104,10 @@ impl Problem {
             Kind::Equations(_) => {
                 return Ok(self.shortest_period().ok_or(ProblemError::NoEnd)? * periods);
             }
+            Kind::Line { network, .. } if network.local_contact().is_some() => {
+                return Err(ProblemError::NoEnd);
+            }
             Kind::Line { network, .. } => network,
-            Kind::LocalContact(_) => return Err(ProblemError::NoEnd),
         };
         if self.on_lattice() {
             let passages = travel_time(network)? * PASSAGES as f64;

@@ -44,13 +44,12 @@ impl Problem {
         until: Option<&Rational>,
         digits: usize,
     ) -> Result<History, ProblemError> {
-        if let Kind::Equations(_) = &self.kind {
-            return Err(ProblemError::EquationsHaveNoContacts);
-        }
-        let network = self.network()?;
-        match self.with_contacts() {
-            Some(_) => Ok(History::of(network, until, digits)?),
-            None => Ok(History::without_contacts()),
+        match (&self.kind, self.with_contacts()) {
+            (Kind::Line { network, .. }, _) if network.local_contact().is_some() => {
+                Ok(History::of(network, until, digits)?)
+            }
+            (_, Some(network)) => Ok(History::of(network, until, digits)?),
+            (_, None) => Ok(History::without_contacts()),
         }
     }
 

@@ -5,7 +5,7 @@ use crate::expression::{Expression, Fraction, Root};
 use crate::language;
 use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::{Observation, ObservedWave};
-use crate::scene::{Dimension, Measure, Scene};
+use crate::scene::{Dimension, Measure};
 
 /// A wave or an observable of a problem.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -42,7 +42,7 @@ impl Wanted {
         let value = ObservedValue::Linear(observation);
         let (name, readings, unit) = (name.to_owned(), Vec::new(), Root::from(Fraction::one()));
         let (balance, dimension) = (None, Dimension::NONE);
-        let observed = Observed { name, value, readings, balance, unit, dimension };
+        let observed = Observed { name, value, readings, balance, acts: None, unit, dimension };
         Wanted::of_observed(observed, None)
     }
 }
@@ -62,10 +62,10 @@ impl Problem {
             Kind::Equations(solution) => {
                 solution.recurrence().statement().waves.iter().map(String::as_str).collect()
             }
+            Kind::Line { network, .. } if network.local_contact().is_some() => Vec::new(),
             Kind::Line { network, .. } => {
                 network.waves().iter().map(|wave| wave.name.as_str()).collect()
             }
-            Kind::LocalContact(_) => Vec::new(),
         }
     }
 }
@@ -88,7 +88,6 @@ impl Problem {
                 }
                 found
             }
-            Kind::LocalContact(scaled) => of_model(scaled.scene(), &known),
         };
         found.ok_or_else(|| self.unknown(name))
     }
@@ -132,14 +131,4 @@ fn of_network(network: &Network, name: &str) -> Option<Wanted> {
     let seen = ObservedWave::new(wave, Fraction::zero(), &Fraction::one());
     let observation = Observation { waves: vec![seen], forcing: Expression::zero() };
     Some(Wanted::linear(name, observation))
-}
-
-/// An observable of a scene that has values by models only.
-fn of_model(scene: &Scene, name: &str) -> Option<Wanted> {
-    let place = scene.observables.iter().position(|observable| observable.name == name)?;
-    let dimension = match scene.dimensional {
-        true => scene.observables[place].terms.first()?.measure.dimension(),
-        false => Dimension::NONE,
-    };
-    Some(Wanted { name: name.to_owned(), dimension, observed: None, place: Some(place) })
 }

@@ -16,6 +16,7 @@ pub mod method;
 mod operations;
 #[expect(clippy::module_inception, reason = "the module is named after the trait it is built on")]
 mod signal;
+mod silence;
 mod taps;
 pub mod taylor;
 pub mod transforms;
@@ -35,5 +36,6 @@ pub use method::{
 pub(crate) use operations::{Balanced, Combination, Constant, Integral, Operation, Product, Scale};
 pub use signal::{At, Effort, Instant, Limit, Point, Signal};
 pub(crate) use signal::{Enclosure, Known, MAX_FLATNESS, has_begun, last_begun};
+pub(crate) use silence::Silence;
 pub use taps::{NoTaps, Taps};
 pub use taylor::Taylor;

@@ -56,8 +56,8 @@ impl Known {
 pub struct Instant {
     /// The scene, by its address.
     pub(crate) scene: usize,
-    /// The event that it is counted from: the precision in bits with which the scene was followed, and the
-    /// number of the event, which are the same whenever it is followed again; `None` for the start.
+    /// The event that it is counted from: its number, which is the same at every precision, and the precision
+    /// in bits where ties were decided on the way, 0 elsewhere; `None` for the start.
     pub(crate) event: Option<(u64, usize)>,
     /// The delay since then, in the scale of the scene.
     pub(crate) delay: Fraction,
@@ -230,6 +230,19 @@ pub trait Signal {
         terms: usize,
         bits: u64,
     ) -> Result<Taylor, EvaluateError>;
+
+    /// As [`Signal::taylor`], of the same function times one that is positive on the cell and 1 in its middle: what
+    /// decays has a sign where its values tell nothing.
+    fn taylor_of_sign(
+        &self,
+        stretch: usize,
+        order: usize,
+        place: (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Result<Taylor, EvaluateError> {
+        self.taylor(stretch, order, place, terms, bits)
+    }
 
     /// The size of the largest of those functions whose sum is the derivative of an order, at a time,
     /// and of what is unknown of it.

@@ -11,13 +11,14 @@
 //! - of the polynomial, with `N = j + m` and any `0 < θ ≤ 1`,
 //!   `Σ_{m≥M} |h|^m/m! Σ_j |c_{j+m}| |x₀|^j/j! = Σ_N |c_N|/N! Σ_{m≥M} C(N,m) |h|^m |x₀|^{N−m}
 //!   ≤ θ^M Σ_{N≥M} |c_N|/N! (|x₀| + |h|/θ)^N`;
-//! - of the exponential, with `η = |λh| ≤ (M+1)/2`, `Σ_{m≥M} η^m/m! ≤ 2 η^M/M!`;
+//! - of the exponential, with `η = |λh| ≤ (M+1)/2`, `Σ_{m≥M} η^m/m! ≤ 2 η^M/M!`; where η is larger no term is kept,
+//!   and all of it is at most `e^η`;
 //! - of the product, what either leaves out times a bound of the other, and the terms of too high a
 //!   degree.
 
 use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::{EnclosureError, Numbers, real_part};
-use crate::expression::{Field as _, Fraction, Transform};
+use crate::expression::{Field as _, Transform};
 use crate::signal::error::EvaluateError;
 use crate::signal::transforms::{divided_powers, dot, exponential};
 use wavestep_polynomial::Rational;
@@ -62,17 +63,40 @@ impl Taylor<ComplexBall> {
         numbers: &Numbers,
         bits: u64,
     ) -> Result<Self, EvaluateError> {
+        Taylor::weighted(function, (x, h, &Ball::zero()), terms, numbers, bits)
+    }
+
+    /// `e^(−wu) f(x₀ + hu)` with a weight `w`.
+    pub fn weighted(
+        function: &Transform<ComplexBall>,
+        (x, h, weight): (&ComplexBall, &ComplexBall, &Ball),
+        terms: usize,
+        numbers: &Numbers,
+        bits: u64,
+    ) -> Result<Self, EvaluateError> {
         let mut sum = Taylor::zero(terms);
         let scales = divided_powers(h, terms, bits);
+        let weight = ComplexBall::from(weight.clone().negate());
+        let field = numbers.field(bits);
         for (pole, coefficients) in function.poles() {
             let part = polynomial(coefficients, x, &scales, h, bits);
-            let part = match pole.is_zero() {
+            let rate = field.embed(&pole.clone().into())?.multiply(h, bits).add(&weight, bits);
+            let part = match pole.is_zero() && rate.magnitude().is_zero() {
                 true => part,
-                false => part.times_exponential(pole, x, h, numbers, bits)?,
+                false => match exponential(pole, x, numbers, bits) {
+                    Ok(factor) => part.times_exponential(&rate, &factor, bits),
+                    // Beyond what balls hold.
+                    Err(_) => part.unknown(),
+                },
             };
             sum.add_scaled(&part, &ComplexBall::one(), bits);
         }
         Ok(sum)
+    }
+
+    /// With a remainder that tells nothing.
+    fn unknown(self) -> Self {
+        Taylor { remainder: Magnitude::power_of_two(WIDE), ..self }
     }
 
     /// Adds `factor · other`.
@@ -83,33 +107,32 @@ impl Taylor<ComplexBall> {
         self.remainder = self.remainder.add(&other.remainder.multiply(&factor.magnitude()));
     }
 
-    /// Times `e^{λ(x₀ + hu)}`.
-    fn times_exponential(
-        &self,
-        pole: &Fraction,
-        x: &ComplexBall,
-        h: &ComplexBall,
-        numbers: &Numbers,
-        bits: u64,
-    ) -> Result<Self, EvaluateError> {
+    /// Times a factor and `e^(ru)`.
+    fn times_exponential(self, rate: &ComplexBall, factor: &ComplexBall, bits: u64) -> Self {
         let terms = self.coefficients.len();
-        let rate = numbers.field(bits).embed(&pole.clone().into())?.multiply(h, bits);
-        let series = divided_powers(&rate, terms, bits);
         let eta = rate.magnitude();
         if eta.scale(1) > Magnitude::from_u64(terms as u64 + 1) {
-            // Too few terms for this width: nothing is known.
-            return Ok(Taylor { remainder: Magnitude::power_of_two(WIDE), ..self.clone() });
+            // Too few terms for this width.
+            return match of_exponential(&eta) {
+                None => self.unknown(),
+                Some(most) => {
+                    let sizes = self.coefficients.iter().map(ComplexBall::magnitude);
+                    let whole = sizes.fold(self.remainder, |sum, size| sum.add(&size));
+                    let remainder = whole.multiply(&most).multiply(&factor.magnitude());
+                    Taylor { remainder, ..Taylor::zero(terms) }
+                }
+            };
         }
+        let series = divided_powers(rate, terms, bits);
         let rest = (1..=terms as u64)
             .fold(Magnitude::power_of_two(1), |rest, m| rest.multiply(&eta).divide(m));
-        let factor = exponential(pole, x, numbers, bits)?;
         let mut coefficients = Vec::with_capacity(terms);
         for k in 0..terms {
             let mut sum = ComplexBall::zero();
             for i in 0..=k {
                 sum = sum.add(&self.coefficients[i].multiply(&series[k - i], bits), bits);
             }
-            coefficients.push(sum.multiply(&factor, bits));
+            coefficients.push(sum.multiply(factor, bits));
         }
         // above[i]: the sum of |e_j| from j = terms − i on, the rest included.
         let mut above = vec![rest];
@@ -120,7 +143,7 @@ impl Taylor<ComplexBall> {
         let products = products.fold(Magnitude::ZERO, |sum, product| sum.add(&product));
         let whole = &above[terms];
         let remainder = products.add(&self.remainder.multiply(whole)).multiply(&factor.magnitude());
-        Ok(Taylor { coefficients, remainder })
+        Taylor { coefficients, remainder }
     }
 
     /// The real part of a real function.
@@ -128,6 +151,14 @@ impl Taylor<ComplexBall> {
         let real: Result<_, _> = self.coefficients.into_iter().map(real_part).collect();
         Ok(Taylor { coefficients: real?, remainder: self.remainder })
     }
+}
+
+/// A power of two above `e^η`; none where its exponent is too long.
+fn of_exponential(eta: &Magnitude) -> Option<Magnitude> {
+    // 1/ln 2 = 1.44269…
+    let exponent = (Rational::from(eta) * Rational::new(1443.into(), 1000.into())).ceil();
+    let exponent = i32::try_from(exponent.to_integer()).ok()?;
+    Some(Magnitude::power_of_two(exponent.into()))
 }
 
 /// `P(x₀ + hu)` with `P = Σ_j c_j x^j/j!`; `scales` are `h^m/m!`.

@@ -469,3 +469,31 @@ fn empty_windows_are_refused() {
     let error = ClosedSignal::of_recurrence(&symbolic, &f, [&one, &two]).err();
     assert!(matches!(error, Some(EvaluateError::MissingValue(_))));
 }
+
+/// A mass that stops at once between long bars: its velocity falls by `e^(−100002 t)` for a million times longer than
+/// it takes to stop, and is above zero for all of that.
+#[test]
+fn what_has_died_out_falls_still() {
+    let text = "scene \"Stopped\"\nbar west { impedance = 1e5 }\nmass ram { mass = 1, velocity = 1 }\n\
+        bar east { impedance = 2 }\nline endless - west - ram - east - endless\nobserve v = velocity(ram)";
+    let problem = wavestep::Problem::read("stopped.wave", text).unwrap();
+    let least = problem.signal("v").unwrap();
+    let least = least.extremum(wavestep::Goal::Smallest, 0..=10, 9).unwrap();
+    // exp(−1000020), at the end.
+    assert_eq!((least.value.to_string().as_str(), least.places.len()), ("6.79527614e-434304", 1));
+}
+
+/// Two masses on a stiff damper: their rates of 10^11, of 10^−9 and of one have values with few bits too.
+#[test]
+fn rates_of_very_different_sizes_have_values() {
+    let text = "scene \"Stiff\"\nmass one { mass = 1 }\nmass two { mass = 3, velocity = -1 }\n\
+        spring soft { stiffness = 1 }\nspring stiff { stiffness = 100, damping = 1e11 }\n\
+        line fixed - soft - one - stiff - two - free\nobserve F = force(stiff)";
+    let scene = read_scene(&Source::new("stiff.wave", text).unwrap(), &BTreeMap::new()).unwrap();
+    let recurrence = Network::new(&scene).unwrap().recurrence().unwrap();
+    let numbers = wavestep::enclosure::Numbers::new(recurrence.constants());
+    assert!(recurrence.constants().len() > 2);
+    for constant in recurrence.constants() {
+        assert!(numbers.value(&constant.symbol, 64).is_some(), "{constant:?}");
+    }
+}

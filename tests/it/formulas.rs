@@ -153,7 +153,7 @@ fn scenes_in_general() {
 fn listed(text: &str) -> Vec<(String, usize, Expression)> {
     let source = Source::new("listing", text).unwrap_or_else(|error| panic!("{error}"));
     let formulas = read_listing(&source).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    formulas.into_iter().map(|f| (f.wave, f.n, f.expression)).collect()
+    formulas.into_iter().map(|f| (f.wave, f.counts[0], f.expression)).collect()
 }
 
 /// Recurrences whose solutions hold what those of the scenes do not: several exponentials, powers

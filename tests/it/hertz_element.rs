@@ -436,7 +436,7 @@ fn the_equivalent_spring_gives_about_the_same_pulse() {
 #[test]
 fn a_contact_has_no_recurrence_and_one_model() {
     let scene = two_bars("3/2", "free");
-    let refused = Network::new(scene.scene());
+    let refused = Network::new(scene.scene()).unwrap().recurrence();
     assert_eq!(refused.err(), Some(NetworkError::NotLinear("tip".to_owned())));
     let refusals = [
         RigidBody::new(&scene).err(),

@@ -201,10 +201,14 @@ fn listings_are_read_and_printed() {
 f[3](s) = exp(-s)*(-4/3*s^3 + 2*s
     - 1)   # three periods
 g[0](s) = 0
+phi_f[2, 1](s) = s
 ";
     let listing = parse_listing(&source(text)).unwrap_or_else(|error| panic!("{error}"));
     let printed = print::listing(&listing);
-    assert_eq!(printed, "f[3](s) = exp(-s)*(-4/3*s^3 + 2*s - 1)\ng[0](s) = 0\n");
+    assert_eq!(
+        printed,
+        "f[3](s) = exp(-s)*(-4/3*s^3 + 2*s - 1)\ng[0](s) = 0\nphi_f[2, 1](s) = s\n"
+    );
     assert_eq!(parse_listing(&source(&printed)).unwrap().formulas, listing.formulas);
 }
 

@@ -22,7 +22,7 @@ const LAYERS: [(&str, &[&str]); 21] = [
     ("solution", &["expression", "recurrence"]),
     ("signal", &["ball", "enclosure", "expression", "network", "recurrence", "scene", "solution"]),
     ("history", &["ball", "enclosure", "expression", "network", "scene", "signal", "solution"]),
-    ("planner", &["ball", "enclosure", "expression", "history", "network", "signal"]),
+    ("planner", &["ball", "enclosure", "expression", "history", "network", "recurrence", "signal"]),
     ("field", &["ball", "enclosure", "expression", "network", "planner", "scene", "signal"]),
     ("answer", &["ball", "model", "network", "signal"]),
     ("export", &["expression", "network", "recurrence", "scene", "signal", "solution"]),
@@ -31,6 +31,7 @@ const LAYERS: [(&str, &[&str]); 21] = [
         "lock",
         &[
             "ball",
+            "enclosure",
             "export",
             "expression",
             "history",

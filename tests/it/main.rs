@@ -20,6 +20,7 @@ mod hertz_element;
 mod history;
 mod language;
 mod layering;
+mod local_contacts;
 mod lock;
 mod measures;
 mod methods;

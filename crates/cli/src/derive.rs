@@ -69,14 +69,20 @@ fn derived(problem: &Problem, options: &Derive) -> Result<(String, Option<String
         let formulas = problem.general_formulas(what, symbols)?;
         return Ok((written_general(problem, &formulas, options)?, None));
     }
-    let orders = options.orders();
+    let progress = progress::spinner("deriving");
+    let orders = options.orders().unwrap_or_else(|| {
+        let (orders, stopped) = problem.first_orders(what, options.from);
+        if let Some(reason) = stopped {
+            progress.suspend(|| eprintln!("note: {reason}; --through N derives more"));
+        }
+        orders
+    });
     if let Orders::Through(first, last) = orders
         && first > last
     {
         let message = format!("no period lies from {first} through {last}");
         return Err(Failure::usage(message, "give --through N with N at least --from"));
     }
-    let _progress = progress::spinner("deriving");
     if symbols == Symbols::Source {
         let formulas = problem.source_form(what, orders)?;
         return match options.format {

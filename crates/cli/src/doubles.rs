@@ -65,7 +65,7 @@ pub fn tell(found: &Doubles, points: usize, tolerance: Option<Tolerance>, explai
 }
 
 /// Says on standard error how sure values with a local contact are.
-pub fn note_tested(Tested { contact, tolerance }: &Tested) {
+fn note_tested(Tested { contact, tolerance }: &Tested) {
     eprintln!(
         "note: `{contact}` is a local contact; these values are tested, not certified: computed to \
          {tolerance:e} of the largest"

@@ -13,9 +13,6 @@ use std::time::Instant;
 use wavestep::answer::Accuracy;
 use wavestep::problem::{Digits, Problem};
 
-/// The digits that are asked for where nothing is said.
-const USUAL_DIGITS: usize = 15;
-
 /// Says where a contact that stays closed would pull before the last of some times.
 fn note_pulling(problem: &Problem, times: &[BigRational]) {
     if let Some(last) = times.iter().max() {
@@ -28,9 +25,6 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;
     let tolerance = options.tol.as_deref().map(doubles::tolerance).transpose()?;
     let method = options.method.as_deref().map(doubles::method).transpose()?;
-    let unsaid = tolerance.is_none() && options.digits == USUAL_DIGITS;
-    let unsaid = unsaid && !options.stats && options.piece.is_none();
-    let method = method.or_else(|| problem.usual_method().filter(|_| unsaid));
     let accuracy = match (method, tolerance) {
         (Some(method), tolerance) => Accuracy::Method(method, tolerance),
         (None, Some(tolerance)) => Accuracy::Within(tolerance),
@@ -39,7 +33,9 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
     let (name, limit) = (&options.quantity, options.side);
     if accuracy != Accuracy::Digits {
         let times = times(&problem, options)?;
+        let progress = progress::spinner("evaluating");
         let found = problem.doubles(name, &times, limit, accuracy);
+        drop(progress);
         let found = found.map_err(|error| doubles::refused(error, times.len(), options.explain))?;
         doubles::tell(&found, times.len(), tolerance, options.explain);
         note_pulling(&problem, &times);
@@ -54,10 +50,10 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
     let found = problem.proven(&wanted, &times, digits, &|| progress.inc(1))?;
     drop(progress);
     if options.explain {
-        let (source, took) = (problem.source(), begin.elapsed().as_secs_f64());
+        let (how, took) = (problem.how_found(), begin.elapsed().as_secs_f64());
         let several = plural(times.len(), "value");
         eprintln!(
-            "{several} with {count} proven digits, {took:.1} s\n  {source}\n  bound: enclosed more and \
+            "{several} with {count} proven digits, {took:.1} s\n  {how}\n  bound: enclosed more and \
              more narrowly, until the last digit is rounded correctly"
         );
     }

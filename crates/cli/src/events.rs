@@ -45,8 +45,8 @@ fn explain(history: &History, took: Duration, digits: usize) {
     }
     let History { cells, bits, .. } = history;
     eprintln!(
-        "followed from cell to cell: {cells} cells with {bits} bits, {:.1} s\n         bound: on every cell it is proven that nothing else happens; numbers are correctly rounded to \
-         {digits} digits",
+        "followed from cell to cell: {cells} cells with {bits} bits, {:.1} s\n  bound: on every cell \
+         it is proven that nothing else happens; numbers are correctly rounded to {digits} digits",
         took.as_secs_f64()
     );
 }
@@ -143,7 +143,7 @@ impl Told<'_> {
                 let end = self.value(end, Dimension::TIME);
                 format!("Followed until t = {end}; what comes later is not known.")
             }
-            Ending::NoContact => "Nothing can open: the line has no contact.".to_owned(),
+            Ending::NoContact => "Nothing can open: there is no contact.".to_owned(),
         }
     }
 

@@ -183,10 +183,6 @@ fn usual(cause: &ProblemError) -> Option<&'static str> {
             _ => "see `wavestep field --help`",
         },
         ProblemError::ModelOfLocalContact(_) => STEPS,
-        ProblemError::NoProof(..) => "ask for tested values, as in `--method steps:1e-10`",
-        ProblemError::NoDigits(_) => {
-            "leave out --digits; finer values are had by `--method steps:1e-13`"
-        }
         ProblemError::NoCommonPeriods(_) => "evaluate it with `wavestep eval`, or derive its waves",
         ProblemError::UnknownOrder(_) => {
             "give values with --set, or evaluate it with `wavestep eval`"

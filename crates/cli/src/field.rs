@@ -5,6 +5,7 @@ use super::failure::Failure;
 use super::input;
 use super::json::SCHEMA_VERSION;
 use super::output::written;
+use super::progress;
 use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
 use wavestep::field::{BarFields, Bounded, Fields, Mesh, Quantity, Sampling};
@@ -27,7 +28,9 @@ pub fn run(options: &Field) -> Result<String, Failure> {
         let reach = problem.quantity("--to", reach.as_str(), Dimension::LENGTH)?;
         mesh = mesh.reaching(&reach)?;
     }
+    let progress = progress::spinner("evaluating");
     let fields = problem.field_evaluator(&time)?.at(&time, &mesh)?;
+    drop(progress);
     let text = match options.format {
         Format::Json => json_document(&fields, &problem, options),
         _ => csv(&fields),

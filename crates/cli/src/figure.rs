@@ -2,7 +2,7 @@
 
 use super::arguments::Figure;
 use super::failure::Failure;
-use super::{picture, progress};
+use super::picture;
 use wavestep_studies::figures::{FIGURES, Listed, find};
 
 pub fn run(options: &Figure) -> Result<String, Failure> {
@@ -11,8 +11,5 @@ pub fn run(options: &Figure) -> Result<String, Failure> {
         return Ok(FIGURES.iter().map(line).collect());
     };
     let figure = find(number)?;
-    picture::draw(output, options.width, || {
-        let _progress = progress::spinner("computing");
-        Ok(figure.draw()?)
-    })
+    picture::draw(output, options.width, || Ok(figure.draw()?))
 }

@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use super::output::write_whole;
+use super::progress;
 use std::path::Path;
 use wavestep_draw::{Chart, png};
 
@@ -26,7 +27,9 @@ pub fn draw(
                 return Err(Failure::usage(message, remedy));
             }
         };
+    let progress = progress::spinner("drawing");
     let bytes = write(&*chart()?, width)?;
+    drop(progress);
     write_whole(path, &bytes)?;
     Ok(format!("{file}: {} bytes\n", bytes.len()))
 }

@@ -1,7 +1,6 @@
 //! `plot`: observables against time, diagrams of place and time, fields along the line.
 
 use super::arguments::Plot;
-use super::doubles;
 use super::failure::Failure;
 use super::input;
 use super::picture;
@@ -29,21 +28,19 @@ fn chart(options: &Plot) -> Result<Box<dyn Chart>, Failure> {
     let [from, to] = window(from, to)?;
     let caption = Caption::default();
     if let Some(quantity) = options.diagram {
-        let evaluator = problem.field_evaluator(&to).map_err(no_fields)?;
+        if problem.local_contact().is_some() {
+            problem.solution()?;
+        }
+        let evaluator = problem.field_evaluator(&to)?;
         let diagram = lagrange(&evaluator, quantity, [&from, &to], caption)?;
         return Ok(Box::new(match &options.title {
             Some(title) => diagram.titled(title),
             None => diagram,
         }));
     }
-    let (courses, tested) = courses(&problem, &options.quantity, [&from, &to])?;
+    let courses = courses(&problem, &options.quantity, [&from, &to])?;
     let title = options.title.as_deref().unwrap_or(problem.title());
     let ends = [from, to].map(|end| end.to_f64().unwrap_or(f64::NAN));
-    let remark = tested.map(|tested| {
-        doubles::note_tested(&tested);
-        "Tested, not certified: a local contact has no exact solution.".to_owned()
-    });
-    let caption = Caption { remarks: remark.into_iter().collect(), ..caption };
     Ok(Box::new(against_time(title, &courses, problem.has_units(), (ends[0], ends[1]), caption)?))
 }
 
@@ -51,18 +48,15 @@ fn fields_at(problem: &Problem, options: &Plot) -> Result<Box<dyn Chart>, Failur
     let times = options.at_time.iter().map(|time| problem.time("--at-time", time.as_str()));
     let times = times.collect::<Result<Vec<BigRational>, ProblemError>>()?;
     let Some(last) = times.iter().max() else { unreachable!("there are times") };
-    let evaluator = problem.field_evaluator(last).map_err(no_fields)?;
+    if problem.local_contact().is_some() {
+        problem.solution()?;
+    }
+    let evaluator = problem.field_evaluator(last)?;
     let figure = along_the_line(&evaluator, &fields(options)?, &times, Caption::default())?;
     Ok(Box::new(match &options.title {
         Some(title) => figure.titled(title),
         None => figure,
     }))
-}
-
-fn no_fields(error: ProblemError) -> Failure {
-    let ProblemError::LocalContact { .. } = error else { return error.into() };
-    let message = "diagrams and fields need waves in closed form, and a local contact has none";
-    Failure::usage(message, "draw observables against time, or use a spring")
 }
 
 fn fields(options: &Plot) -> Result<Vec<Quantity>, Failure> {

@@ -7,6 +7,8 @@ mod decimal;
 mod division;
 mod factor;
 mod integer;
+#[doc(hidden)]
+pub mod limbs;
 mod ordinary;
 mod polynomial;
 mod product;

@@ -144,7 +144,7 @@ pub(super) fn formula(mut input: Input<'_>) -> Outcome<Spanned<Formula>> {
     input.context.form = Some(FORMULA);
     let wave = input.name("the name of a wave")?;
     input.demand("[")?;
-    let index = demand_index(&mut input)?;
+    let counts = listed(&mut input, demand_index)?;
     input.demand("]")?;
     input.demand("(")?;
     let argument = input.name("the name of the argument")?;
@@ -152,6 +152,6 @@ pub(super) fn formula(mut input: Input<'_>) -> Outcome<Spanned<Formula>> {
     input.demand("=")?;
     let value = expression(&mut input)?;
     end(input)?;
-    let formula = Formula { wave, index, argument, value };
+    let formula = Formula { wave, counts, argument, value };
     Ok(Spanned::new(formula, Span::new(start, input.offset)))
 }

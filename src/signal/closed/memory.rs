@@ -3,7 +3,7 @@
 //! Counts of coefficients grow as a power of the number of echoes. That power is read off from one doubling
 //! of the number to the next, which tells what all of them will take when little of the work is done.
 
-use crate::ball::ComplexBall;
+use crate::ball::{Ball, ComplexBall};
 use crate::limits;
 use crate::signal::error::EvaluateError;
 
@@ -22,7 +22,7 @@ pub struct Memory {
 impl Memory {
     /// Of coefficients with so many bits.
     pub fn of_balls(bits: u64) -> Memory {
-        Memory::of(size_of::<ComplexBall>() as u64 + bits / 8)
+        Memory::of(size_of::<ComplexBall>() as u64 + Ball::further_bytes(bits))
     }
 
     /// Of coefficients of so many bytes.

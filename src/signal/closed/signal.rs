@@ -13,6 +13,7 @@ use crate::signal::error::EvaluateError;
 use crate::signal::signal::{
     At, Effort, Instant, Known, Limit, MAX_FLATNESS, Point, Signal, last_begun,
 };
+use crate::signal::silence::Silence;
 use crate::signal::taylor::Taylor;
 use crate::solution::Solution;
 use std::borrow::Cow;
@@ -43,6 +44,7 @@ const SCALE_BITS: u64 = 64;
 pub struct ClosedSignal<'a> {
     source: Source<'a>,
     window: [Rational; 2],
+    silence: Option<Silence>,
     form: OnceCell<ClosedForm>,
     stretches: OnceCell<Vec<Stretch>>,
 }
@@ -95,7 +97,9 @@ impl<'a> ClosedSignal<'a> {
         };
         let (value, unit) = (Box::new(value.clone()), observed.unit.clone());
         let (exact, echoes) = (OnceCell::new(), Rc::default());
-        ClosedSignal::new(Source::Scene { network, value, unit, exact, echoes }, window)
+        let source = Source::Scene { network, value, unit, exact, echoes };
+        let silence = Silence::of(network, observed);
+        Ok(ClosedSignal { silence, ..ClosedSignal::new(source, window)? })
     }
 
     /// Several observations of a scene in its own scale, on windows with one end: waves are solved and
@@ -126,7 +130,8 @@ impl<'a> ClosedSignal<'a> {
             return Err(EvaluateError::EmptyWindow);
         }
         let window = [from.clone(), to.clone()];
-        Ok(ClosedSignal { source, window, form: OnceCell::new(), stretches: OnceCell::new() })
+        let (form, stretches) = (OnceCell::new(), OnceCell::new());
+        Ok(ClosedSignal { source, window, silence: None, form, stretches })
     }
 
     /// The same, with exact values from single echoes alone, of which [`Signal::echoes`] tells.
@@ -285,6 +290,10 @@ impl Signal for ClosedSignal<'_> {
     }
 
     fn point(&self, at: &Rational, side: Limit) -> Result<Point<'_>, EvaluateError> {
+        let now = self.scaled_time(at);
+        if self.silence.as_ref().is_some_and(|silence| silence.holds([(&now, side); 2])) {
+            return Ok(Point::exact(Rational::default()));
+        }
         match &self.source {
             Source::Recurrence { echoes, value } => match echoes.point(value, at, side) {
                 // Pieces in balls may go further.
@@ -304,7 +313,7 @@ impl Signal for ClosedSignal<'_> {
                     Some(echoes) => echoes.point(value, at, side),
                     None => {
                         let echoes = self.scene_echoes(network, echoes)?;
-                        echoes.point(value, unit, &network.scaled_time(at), side)
+                        echoes.point(value, unit, &now, side)
                     }
                 }
             }
@@ -371,6 +380,10 @@ impl Signal for ClosedSignal<'_> {
 
     fn is_zero(&self, stretch: usize) -> bool {
         let stretch = self.stretch(stretch);
+        let ends = [(&stretch.from, Limit::Right), (&stretch.to, Limit::Left)];
+        if self.silence.as_ref().is_some_and(|silence| silence.holds(ends)) {
+            return true;
+        }
         stretch.is_silent() || (stretch.has_no_waves() && self.has_no_forcing())
     }
 
@@ -411,6 +424,17 @@ impl Signal for ClosedSignal<'_> {
         self.known_form().taylor(self.stretch(stretch), order, place, terms, bits)
     }
 
+    fn taylor_of_sign(
+        &self,
+        stretch: usize,
+        order: usize,
+        place: (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Result<Taylor, EvaluateError> {
+        self.known_form().taylor_of_sign(self.stretch(stretch), order, place, terms, bits)
+    }
+
     fn size(
         &self,
         stretch: usize,
@@ -428,6 +452,9 @@ impl Signal for ClosedSignal<'_> {
     }
 
     fn exact(&self, stretch: usize, at: At<'_>) -> Result<Option<Rational>, EvaluateError> {
+        if self.is_zero(stretch) {
+            return Ok(Some(Rational::default()));
+        }
         let side = match at {
             At::Time(_) | At::Scaled(_) => Limit::Right,
             At::End(side) => side,

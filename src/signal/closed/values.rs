@@ -131,13 +131,53 @@ impl ClosedForm {
         terms: usize,
         bits: u64,
     ) -> Result<Taylor, EvaluateError> {
+        self.weighted_taylor(stretch, derivative, ((centre, half), &Ball::zero()), terms, bits)
+    }
+
+    /// The same times `e^(−wu)`, where `w` makes the slowest decay of it about constant.
+    pub(super) fn taylor_of_sign(
+        &self,
+        stretch: &Stretch,
+        derivative: usize,
+        (centre, half): (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Result<Taylor, EvaluateError> {
+        let field = self.numbers.field(bits);
+        let mut slowest: Option<Ball> = None;
+        self.for_each_function(stretch, derivative, bits, |function, _, _| {
+            for (pole, _) in function.poles() {
+                let rate = field.embed(&pole.clone().into())?;
+                let rate = Ball::new(rate.real().midpoint().clone(), Magnitude::ZERO);
+                let is_slower = |known: &Ball| *known.midpoint() < *rate.midpoint();
+                if slowest.as_ref().is_none_or(is_slower) {
+                    slowest = Some(rate);
+                }
+            }
+            Ok(())
+        })?;
+        let h = self.numbers.enclose(&self.slowness.scale(half), bits)?;
+        // Any weight will do.
+        let weight = slowest.map_or_else(Ball::zero, |rate| rate.multiply(&h, bits));
+        let weight = Ball::new(weight.midpoint().clone(), Magnitude::ZERO);
+        self.weighted_taylor(stretch, derivative, ((centre, half), &weight), terms, bits)
+    }
+
+    fn weighted_taylor(
+        &self,
+        stretch: &Stretch,
+        derivative: usize,
+        ((centre, half), weight): ((&Rational, &Rational), &Ball),
+        terms: usize,
+        bits: u64,
+    ) -> Result<Taylor, EvaluateError> {
         let field = self.numbers.field(bits);
         let h = field.embed(&self.slowness.scale(half).into())?;
         let at = self.slowness.scale(centre);
         let mut sum = Taylor::<ComplexBall>::zero(terms);
         self.for_each_function(stretch, derivative, bits, |function, origin, coefficient| {
             let x = field.embed(&(&at - origin).into())?;
-            let part = Taylor::of(function, &x, &h, terms, &self.numbers, bits)?;
+            let part = Taylor::weighted(function, (&x, &h, weight), terms, &self.numbers, bits)?;
             sum.add_scaled(&part, coefficient, bits);
             Ok(())
         })?;

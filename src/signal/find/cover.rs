@@ -97,7 +97,7 @@ struct Expansion {
     middle: Rational,
     half: Rational,
     depth: usize,
-    /// The function, its derivative, and for extrema the observable.
+    /// The function and its derivative, each perhaps times a positive function, and for extrema the observable.
     polynomials: Vec<Taylor>,
     bits: u64,
 }
@@ -270,15 +270,23 @@ impl Cover<'_, '_, '_> {
         let search = self.search;
         let attempt = |bits| {
             search.bits.set(bits);
+            let place = (middle, half);
             let of = |order: usize| {
                 let target = Target { order, ..self.target };
-                search.expand(self.stretch, target, (middle, half), TERMS, bits)
+                match order == 0 && *target.level != Rational::default() {
+                    true => search.expand(self.stretch, target, place, TERMS, bits),
+                    false => {
+                        search.function.taylor_of_sign(self.stretch, order, place, TERMS, bits)
+                    }
+                }
             };
             let order = self.target.order;
             let mut polynomials = vec![of(order)?, of(order + 1)?];
             if let Some(record) = &self.record {
                 let one = Ball::from_integer(&if record.negative { -1 } else { 1 }.into());
-                polynomials.push(of(0)?.scaled(&one, bits));
+                let observable = Target { order: 0, ..self.target };
+                let observable = search.expand(self.stretch, observable, place, TERMS, bits)?;
+                polynomials.push(observable.scaled(&one, bits));
             }
             let own = &polynomials[0];
             for coefficient in &own.coefficients {

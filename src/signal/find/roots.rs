@@ -172,6 +172,9 @@ impl Search<'_> {
     /// Whether the observable is constant on a stretch: coefficient by coefficient, its derivative
     /// having none but exact zeros; or since waves cancel each other, as exact values prove.
     pub(crate) fn is_constant(&self, stretch: usize) -> Result<bool, EvaluateError> {
+        if self.function.is_zero(stretch) {
+            return Ok(true);
+        }
         let bounds = self.bounds(stretch)?;
         let (middle, half) = middle_and_half(&bounds[0], &bounds[1]);
         let bits = self.bits.get();

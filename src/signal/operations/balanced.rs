@@ -2,8 +2,8 @@
 //!
 //! It is continuous, and as smooth as the flow between the breaks of that, where its own may have more.
 
-use super::{Mark, Outcome, Rule, Scale, locate, value_at};
-use crate::ball::Ball;
+use super::{Mark, Outcome, Rule, Scale, locate, taylor_by_rate, value_at};
+use crate::ball::{Ball, Magnitude};
 use crate::expression::{Expression, Fraction};
 use crate::signal::{At, Effort, Enclosure, Known, Limit, Signal, Taylor};
 use num_traits::{One as _, Zero as _};
@@ -47,6 +47,30 @@ impl<'a> Balanced<'a> {
             (Limit::Left, Some(next)) => next - 1,
             _ => kept[place],
         }
+    }
+
+    /// A time on a stretch that is told from its ends, near one that is known within a radius, and within
+    /// which radius of it that one is.
+    fn within(
+        &self,
+        place: usize,
+        (time, radius): (Rational, Rational),
+        bits: u64,
+    ) -> Outcome<(Rational, Rational)> {
+        let end = |end| -> Outcome<Rational> {
+            let time = self.flow.time(self.stretch(place, end), end, bits)?;
+            Ok(time.midpoint().into())
+        };
+        let (from, to) = (end(Limit::Right)?, end(Limit::Left)?);
+        let two = Rational::from_integer(2.into());
+        let away =
+            Magnitude::power_of_two(-(bits as i64)).max(Magnitude::from_rational(&radius).scale(1));
+        let away = Rational::from(&away).min((&to - &from) / &two);
+        let about = match &time * &two < &from + &to {
+            true => &time + &away,
+            false => &time - &away,
+        };
+        Ok((about, radius + away))
     }
 
     /// Whether nothing flows on a stretch: the polynomial has no coefficient.
@@ -119,11 +143,12 @@ impl Rule for Balanced<'_> {
             return Ok(vec![slope.multiply(&self.slowness(bits)?, bits)]);
         }
         let time = at.ball(bits)?;
-        let (about, half) = (Rational::from(time.midpoint()), Rational::from(time.radius()));
-        let about = at.exact.clone().unwrap_or(about);
+        let (time, half) = (Rational::from(time.midpoint()), Rational::from(time.radius()));
         if at.exact.is_some() || half.is_zero() {
-            return Ok(vec![(self.of.point(&about, Limit::Right)?.enclose)(bits)?]);
+            let time = at.exact.as_ref().unwrap_or(&time);
+            return Ok(vec![(self.of.point(time, Limit::Right)?.enclose)(bits)?]);
         }
+        let (about, half) = self.within(places[0], (time, half), bits)?;
         let near = self.taylor(places, 0, (&about, &half), 2, bits)?;
         Ok(vec![near.coefficients[0].widened(&near.tail(1))])
     }
@@ -132,22 +157,17 @@ impl Rule for Balanced<'_> {
         &self,
         places: &[usize],
         order: usize,
-        (middle, half): (&Rational, &Rational),
+        place @ (middle, half): (&Rational, &Rational),
         terms: usize,
         bits: u64,
     ) -> Outcome<Taylor> {
-        let (slope, kept) =
-            (order.saturating_sub(1), terms - usize::from(order == 0).min(terms - 1));
         let stretch = self.stretch(places[0], Limit::Right);
-        let flow = self.flow.taylor(stretch, slope, (middle, half), kept, bits)?;
-        let flow = flow.scaled(&self.slowness(bits)?, bits);
-        if order > 0 {
-            return Ok(flow);
-        }
-        let mut sum = flow.antiderivative(bits).scaled(&Ball::from_rational(half, bits), bits);
-        let value = (self.of.point(middle, Limit::Right)?.enclose)(bits)?;
-        sum.coefficients[0] = sum.coefficients[0].add(&value, bits);
-        Ok(sum)
+        let rate = |order, kept| {
+            let flow = self.flow.taylor(stretch, order, place, kept, bits)?;
+            Ok(flow.scaled(&self.slowness(bits)?, bits))
+        };
+        let value = || (self.of.point(middle, Limit::Right)?.enclose)(bits);
+        taylor_by_rate(rate, value, (order, half, terms), bits)
     }
 
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {

@@ -7,7 +7,7 @@
 //! of the last one; whole stretches that are zero add an exact zero. Where the integrand is an exact
 //! expression, so is the integral. Its derivative is the integrand now, less that at the other end.
 
-use super::{Mark, Outcome, Rule, Scale, locate, value_at, working};
+use super::{Mark, Outcome, Rule, Scale, locate, taylor_by_rate, value_at, working};
 use crate::ball::{Ball, Magnitude};
 use crate::expression::{Expression, Fraction};
 use crate::signal::{Effort, Enclosure, Instant, Known, Limit, Signal, Taylor, has_begun};
@@ -339,26 +339,22 @@ impl Rule for Integral<'_> {
         &self,
         places: &[usize],
         order: usize,
-        (middle, half): (&Rational, &Rational),
+        place @ (middle, half): (&Rational, &Rational),
         terms: usize,
         bits: u64,
     ) -> Outcome<Taylor> {
-        let (slope, kept) =
-            (order.saturating_sub(1), terms - usize::from(order == 0).min(terms - 1));
-        let minus = Ball::from_integer(&(-1).into());
-        let mut taylor = self.of.taylor(places[UPPER], slope, (middle, half), kept, bits)?;
-        let below = self.taylor_below(places[LOWER], slope, (middle, half), kept, bits)?;
-        taylor.add(below.scaled(&minus, bits), bits);
-        let taylor = taylor.scaled(&self.slowness(bits)?, bits);
-        if order > 0 {
-            return Ok(taylor);
-        }
-        let half = Ball::from_rational(half, bits);
-        let mut integral = taylor.antiderivative(bits).scaled(&half, bits);
-        for term in self.integral(places, &self.scale.mark(middle), bits)? {
-            integral.coefficients[0] = integral.coefficients[0].add(&term, bits);
-        }
-        Ok(integral)
+        let rate = |order, kept| {
+            let minus = Ball::from_integer(&(-1).into());
+            let mut taylor = self.of.taylor(places[UPPER], order, place, kept, bits)?;
+            let below = self.taylor_below(places[LOWER], order, place, kept, bits)?;
+            taylor.add(below.scaled(&minus, bits), bits);
+            Ok(taylor.scaled(&self.slowness(bits)?, bits))
+        };
+        let value = || {
+            let parts = self.integral(places, &self.scale.mark(middle), bits)?;
+            Ok(parts.iter().fold(Ball::zero(), |sum, part| sum.add(part, bits)))
+        };
+        taylor_by_rate(rate, value, (order, half, terms), bits)
     }
 
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {

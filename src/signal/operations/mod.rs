@@ -228,6 +228,23 @@ pub(crate) trait Rule {
     fn echoes(&self) -> Option<(usize, usize)>;
 }
 
+/// The polynomial of a derivative of what changes at a rate: of the rate, by its order and with so many terms, or
+/// of its integral since the middle beside the value there.
+fn taylor_by_rate(
+    rate: impl FnOnce(usize, usize) -> Outcome<Taylor>,
+    value: impl FnOnce() -> Outcome<Ball>,
+    (order, half, terms): (usize, &Rational, usize),
+    bits: u64,
+) -> Outcome<Taylor> {
+    if let Some(order) = order.checked_sub(1) {
+        return rate(order, terms);
+    }
+    let rate = rate(0, terms.saturating_sub(1).max(1))?;
+    let mut sum = rate.antiderivative(bits).scaled(&Ball::from_rational(half, bits), bits);
+    sum.coefficients[0] = sum.coefficients[0].add(&value()?, bits);
+    Ok(sum)
+}
+
 /// A stretch of an operation: which operand comes to a new place where it begins, and all places.
 struct Step {
     begins: usize,

@@ -12,6 +12,7 @@ mod page;
 mod passivity;
 mod phases;
 mod positive;
+mod random;
 mod refusals;
 mod series;
 mod springs;
@@ -326,4 +327,14 @@ fn mirrored_scenes_have_mirrored_histories() {
             }
         }
     }
+}
+
+/// Nothing presses and nothing parts where all move alike, and no precision is needed to say so: 2/3 stays exact.
+#[test]
+fn bodies_that_move_alike_do_not_press() {
+    let text = "scene \"Alike\"\nbar a { impedance = 3, travel = 2, velocity = 2/3 }\n\
+        mass m { mass = 2, velocity = 2/3 }\nbar b { impedance = 2/3, travel = 1/2, velocity = 2/3 }\n\
+        line free - a | m - b - free\ncontacts open\nobserve v = velocity(m)";
+    let history = History::of(&network_of(text, &[]), Some(&rational(10, 1)), 12).unwrap();
+    assert!(history.events.is_empty() && history.assumptions.is_empty(), "{:?}", history.events);
 }

@@ -9,13 +9,16 @@ use wavestep_polynomial::{Rational, Symbol};
 
 const BITS: u64 = 200;
 
+fn rational(n: i64, d: i64) -> Rational {
+    Rational::new(n.into(), d.into())
+}
+
 /// However few the terms, what they leave out is within the remainder, and the remainder is not
 /// much more than that.
 #[test]
 fn what_is_left_out_is_within_the_remainder() {
     let numbers = Numbers::new(&[]);
     let field = numbers.field(BITS);
-    let rational = |n: i64, d: i64| Rational::new(n.into(), d.into());
     let ball = |value: &Rational| field.embed(&Fraction::constant(value).into()).unwrap();
     let symbol = Symbol::new("x").unwrap();
     let mut compared = 0;
@@ -42,6 +45,7 @@ fn what_is_left_out_is_within_the_remainder() {
                 let (x, h) = (ball(&centre), ball(&half));
                 let taylor = Taylor::of(&function, &x, &h, terms, &numbers, BITS).unwrap();
                 let taylor = taylor.real().unwrap();
+                weighted(&function, (&centre, &half), &taylor, (terms, &numbers));
                 let known = Taylor { remainder: Magnitude::ZERO, ..taylor.clone() };
                 let mut worst = Magnitude::ZERO;
                 for u in [-4, -3, -1, 0, 2, 4].map(|u| rational(u, 4)) {
@@ -62,4 +66,46 @@ fn what_is_left_out_is_within_the_remainder() {
         }
     }
     assert_eq!(compared, 432);
+}
+
+/// Times `e^(−wu)` the same function has another polynomial, and a bound as good as its own.
+fn weighted(
+    function: &Transform<ComplexBall>,
+    (centre, half): (&Rational, &Rational),
+    plain: &Taylor,
+    (terms, numbers): (usize, &Numbers),
+) {
+    for weight in [rational(-2, 1), rational(1, 3)] {
+        let weight = Ball::from_rational(&(half * weight), BITS);
+        let place = [centre, half].map(|value| ComplexBall::from(Ball::from_rational(value, BITS)));
+        let place = (&place[0], &place[1], &weight);
+        let taylor = Taylor::weighted(function, place, terms, numbers, BITS).unwrap();
+        let taylor = taylor.real().unwrap();
+        for u in [-1, 0, 1].map(|u| rational(u, 1)) {
+            let u = Ball::from_rational(&u, BITS);
+            let factor = weight.clone().negate().multiply(&u, BITS).exp(BITS).unwrap();
+            let value = plain.value(&u, BITS).multiply(&factor, BITS);
+            let off = taylor.value(&u, BITS).subtract(&value, BITS);
+            assert!(off.contains_zero(), "{terms} terms about {centre}: {off}");
+        }
+    }
+}
+
+/// What decays a million times on a cell is bounded by what it is at the beginning of that, and has a sign.
+#[test]
+fn a_fast_decay_is_small_and_has_a_sign() {
+    let (symbol, numbers) = (Symbol::new("x").unwrap(), Numbers::new(&[]));
+    let rate = Fraction::symbol(&symbol).scale(&rational(-1_000_000, 1));
+    let decay = Expression::from(Fraction::one()).times_exponential(&rate);
+    let exact = Transform::of(&decay, &symbol);
+    let function = Transform::<ComplexBall>::embedded(&exact, &numbers.field(BITS)).unwrap();
+    let [x, h] = [3, 1].map(|value| ComplexBall::from(Ball::from_integer(&value.into())));
+    let taylor = Taylor::of(&function, &x, &h, 20, &numbers, BITS).unwrap();
+    // e^(−2·10⁶) = 2^(−2.885·10⁶).
+    let size = taylor.real().unwrap().value(&Ball::zero(), BITS).magnitude();
+    assert!(size < Magnitude::power_of_two(-2_880_000), "{size:?}");
+    let weight = Ball::from_integer(&(-1_000_000).into());
+    let signed = Taylor::weighted(&function, (&x, &h, &weight), 20, &numbers, BITS).unwrap();
+    let value = signed.real().unwrap().value(&Ball::symmetric(&rational(1, 1)), BITS);
+    assert_eq!(value.sign(), Some(std::cmp::Ordering::Greater));
 }

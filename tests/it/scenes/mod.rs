@@ -47,10 +47,14 @@ fn built_in(name: &str) -> &'static str {
     scenes::find(name).expect("a scene of the library").text
 }
 
-/// The built-in scenes that are described by their parts, and have a recurrence.
+/// The built-in scenes that are described by their parts and are linear.
 fn shipped() -> impl Iterator<Item = &'static scenes::Scene> {
-    let has_network = |name| Problem::builtin(name).is_ok_and(|problem| problem.network().is_ok());
-    SCENES.iter().filter(move |scene| has_network(scene.name))
+    let is_linear = |name| {
+        let problem = Problem::builtin(name).ok()?;
+        let elements = &problem.network().ok()?.scene().elements;
+        Some(!elements.iter().any(|own| matches!(own.kind, wavestep::scene::Kind::Hertz(_))))
+    };
+    SCENES.iter().filter(move |scene| is_linear(scene.name) == Some(true))
 }
 
 /// Values for the symbols of a built-in scene.

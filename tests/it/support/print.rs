@@ -18,8 +18,9 @@ pub fn scene(tree: &Scene) -> String {
 
 pub fn listing(tree: &Listing) -> String {
     let line = |formula: &Spanned<_>| {
-        let wavestep::language::syntax::Formula { wave, index, argument, value } = &formula.value;
-        format!("{wave}[{index}]({argument}) = {value}\n")
+        let wavestep::language::syntax::Formula { wave, counts, argument, value } = &formula.value;
+        let counts = listed(counts, ToString::to_string);
+        format!("{wave}[{counts}]({argument}) = {value}\n")
     };
     tree.formulas.iter().map(line).collect()
 }

@@ -24,7 +24,8 @@ pub struct Derive {
     /// Derive this observable instead of the waves
     #[arg(long, value_name = "NAME", conflicts_with_all = ["wave", "general"])]
     pub observable: Option<String>,
-    /// Derive the periods 0 … N [default: 3, or three after --from]
+    /// Derive the periods 0 … N [default: 3, or three after --from; fewer where rates
+    /// have names and formulas get long]
     #[arg(long, value_name = "N", conflicts_with_all = ["piece", "general"])]
     pub through: Option<usize>,
     /// Begin with period N, before --through
@@ -65,12 +66,12 @@ pub struct Derive {
 }
 
 impl Derive {
-    /// The orders asked for.
-    pub fn orders(&self) -> Orders {
+    /// The orders asked for, where any are.
+    pub fn orders(&self) -> Option<Orders> {
         match (self.piece, self.through) {
-            (Some(n), _) => Orders::Only(n),
-            (None, Some(through)) => Orders::Through(self.from, through),
-            (None, None) => Orders::Through(self.from, self.from.saturating_add(3)),
+            (Some(n), _) => Some(Orders::Only(n)),
+            (None, Some(through)) => Some(Orders::Through(self.from, through)),
+            (None, None) => None,
         }
     }
 

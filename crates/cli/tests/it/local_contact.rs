@@ -8,15 +8,17 @@ fn the_command_tells_tested_values_from_certified_ones() {
     let run = |line: &str| run(anywhere(), &words(line));
     let (code, values, told) = run("eval hertz-striker --quantity force --at 0 --at 60us");
     assert!(code == 0 && values.starts_with("force(0 s) = 0 N\nforce(0.00006 s) = 63433."));
+    assert!(!told.contains("tested"), "{told}");
+    let steps = "eval hertz-striker --quantity force --at 60us --method steps:1e-10 --format json";
+    let (_, json, told) = run(steps);
     assert!(told.contains("tested, not certified: computed to 1e-10"), "{told}");
-    let json = run("eval hertz-striker --quantity force --at 60us --format json").1;
     assert!(json.contains("\"bound\":null") && json.contains("\"method\":\"steps:1e-10\""));
     let (code, checked, _) = run("check local-contact");
     assert!(code == 0 && checked.contains("`tip` is a local contact"), "{checked}");
     let file = anywhere().join("hertz-striker.csv");
     let (code, _, told) =
         run(&format!("plot hertz-striker --quantity force -o {}", file.display()));
-    assert!(code == 0 && told.contains("tested, not certified"), "{told}");
+    assert!(code == 0, "{told}");
     // The picture's values are those of `eval`: 63.4 kN at 60 µs.
     let drawn = std::fs::read_to_string(&file).unwrap();
     let near = drawn.lines().filter_map(|line| {
@@ -26,12 +28,10 @@ fn the_command_tells_tested_values_from_certified_ones() {
     let near: Vec<f64> = near.collect();
     assert!(!near.is_empty() && near.iter().all(|force| (force - 63.43).abs() < 0.02), "{near:?}");
     for (line, expected, reason) in [
-        ("plot hertz-striker --diagram force -o x.svg", 2, "waves in closed form"),
+        ("plot hertz-striker --diagram force -o x.svg", 1, "no recurrence"),
         ("derive hertz-striker", 1, "no recurrence"),
         ("derive local-contact", 1, "stiffness = 335423000 N/m"),
         ("find hertz-striker --max force --from 0 --to 1ms", 1, "no recurrence"),
-        ("eval hertz-striker --quantity force --at 0 --tol 1e-9", 3, "no value is proven"),
-        ("eval hertz-striker --quantity force --at 0 --digits 20", 3, "no digits are certified"),
         ("eval hertz-striker --quantity force --at 0 --method modes", 1, "linear laws"),
         ("eval hertz-striker --quantity force --at 0 --method plain", 1, "exact solution"),
         ("eval hertz-striker --quantity other --at 0", 2, "neither a wave nor"),

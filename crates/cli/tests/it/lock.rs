@@ -48,6 +48,32 @@ fn the_command_locks_and_checks() {
     assert_eq!(files, 2, "no partial file is left");
 }
 
+/// Without a common measure echoes are locked, and the periods of their lattice.
+#[test]
+fn echoes_of_a_lattice_are_locked() {
+    let folder = folder("lock-lattice");
+    let text = include_str!("../questions/no-common-measure.wave");
+    fs::write(folder.join("my.wave"), text).expect("a file");
+    let (code, out, err) = run(&folder, &["lock", "my.wave", "--through", "2", "-o", "my.lock"]);
+    assert_eq!((code, &*out, &*err), (0, "my.lock: locked 11 pieces\n", ""));
+    for (old, new, told) in [
+        (
+            "impedance = 1/2",
+            "impedance = 1/3",
+            "phi_g_rod[1,0] differs\n  exp(-s): locked 1/3, now 1/2\n",
+        ),
+        (
+            "sqrt(2)",
+            "sqrt(3)",
+            "period 2 differs\n  locked 2.8284271247461900976\n  now    3.4641016151377545871\n",
+        ),
+    ] {
+        fs::write(folder.join("my.wave"), text.replace(old, new)).expect("a file");
+        let (code, out, _) = run(&folder, &["check", "my.wave", "--locked", "my.lock"]);
+        assert!(code == 1 && out.contains(told), "{out}");
+    }
+}
+
 #[test]
 fn bad_requests_are_refused() {
     let folder = folder("lock-refused");

@@ -248,3 +248,23 @@ fn closed_forms_end_before_anything_else_arrives() {
     let load = "load p { force = 1 }\nline endless - a - h - b - p - free";
     assert_eq!(until(load), "3");
 }
+
+/// The first contact, followed from cell to cell, is that of the closed form in twenty digits: while the force rises, and
+/// when it is as good as at its largest.
+#[test]
+fn what_is_followed_is_the_closed_form() {
+    use wavestep_studies::hertz::ContactOfScene;
+    for (scene, times) in
+        [("local-contact", ["1us", "20us", "150us"]), ("hertz-striker", ["2us", "40us", "115us"])]
+    {
+        let problem = wavestep::Problem::builtin(scene).unwrap();
+        let contact = ContactOfScene::new(problem.scaled().unwrap(), 120).unwrap();
+        let signal = problem.signal("force").unwrap();
+        for time in times {
+            let exact = problem.time("time", time).unwrap();
+            let closed = contact.bars.force(&Ball::from_rational(&exact, 200)).unwrap();
+            let followed = signal.at(time, 20).unwrap().to_text(20);
+            assert_eq!(followed, closed.to_decimal(20).midpoint().to_string(), "{scene} at {time}");
+        }
+    }
+}

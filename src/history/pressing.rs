@@ -1,0 +1,672 @@
+//! Local contacts with proof: `X = F (α/α₁)^m` while they are compressed.
+//!
+//! On a cell the motion of a node beside a pressed local contact has Taylor coefficients from
+//! `α X' = m α' X`. A box that the integral operator of the equations maps into itself (Picard) holds the motion
+//! on a disc of complex times, so that what the coefficients leave out is a geometric series (Cauchy).
+//!
+//! Errors. Near the beginning and the end of a contact the force is no power series in time. While it is below
+//! the precision the contact is *light*: its force is taken to be zero, and what it may be pushes as an error does.
+//! Else an error `e` of the compression changes the force by `S e`, with a secant stiffness `0 ≤ S ≤ max X'`. With a
+//! spring `K` in place of the contact errors do not grow in the norm of the energy; the difference pushes with
+//! `|S − K| |e|`, so that they grow as `e^(λt)`, `λ = max(K, S − K) |B|/√K` (Gronwall). Where nothing but the contact
+//! acts on the compression, as between two bars, more compression means more resistance, and errors do not grow at all.
+
+use crate::ball::{BallError, Magnitude, Number};
+use crate::history::motion::{Added, Course, Given, Motion};
+use crate::history::passivity::{Block, Passivity, StateError};
+use crate::history::series::{CellNorm, Roughness, Series, Truncation};
+use crate::network::{ElementLaw, Node, System, dot};
+use num_traits::ToPrimitive as _;
+use std::cmp::Ordering;
+use wavestep_polynomial::Rational;
+
+/// The precision of bounds.
+const BITS: u64 = 64;
+
+/// The radius of the disc of times is this power of two times the length of the cell.
+const REACH: i64 = 2;
+
+/// So often a disc is made smaller in search of one that the motion stays in.
+const MOST_DISCS: usize = 4096;
+
+/// So often a box is made larger before its disc is taken to be too large.
+const MOST_BOXES: usize = 24;
+
+/// A contact is light at the start of a cell whose compression is this power of two times the largest light one.
+const LIGHT_AT_START: i64 = -4;
+
+/// A law `X = F (α/α₁)^m`.
+#[derive(Clone, Debug)]
+pub struct PowerLaw {
+    force: Number,
+    compression: Number,
+    exponent: Rational,
+}
+
+impl PowerLaw {
+    /// The same law by its force at another compression.
+    ///
+    /// # Errors
+    /// [`BallError`] for numbers that may be zero.
+    pub fn at(&self, compression: &Rational, bits: u64) -> Result<PowerLaw, BallError> {
+        let compression = Number::Exact(compression.clone());
+        Ok(PowerLaw { force: self.value(&compression, bits)?, compression, ..self.clone() })
+    }
+
+    /// The force at a positive compression.
+    fn value(&self, compression: &Number, bits: u64) -> Result<Number, BallError> {
+        let ratio = compression.multiply(&self.compression.reciprocal(bits)?, bits);
+        let power = ratio.ball(bits).power(&self.exponent, bits)?;
+        Ok(self.force.multiply(&Number::Enclosed(power), bits))
+    }
+
+    /// A bound of the force up to a compression.
+    fn bound(&self, compression: &Magnitude) -> Result<Magnitude, BallError> {
+        match compression.is_zero() {
+            true => Ok(Magnitude::ZERO),
+            false => Ok(self.value(&Number::Exact(Rational::from(compression)), BITS)?.magnitude()),
+        }
+    }
+
+    /// A bound of `|X'|` between two positive compressions: it is a power, and largest at one end.
+    fn stiffest(&self, ends: [&Magnitude; 2]) -> Result<Magnitude, BallError> {
+        let mut largest = Magnitude::ZERO;
+        for end in ends {
+            let inverse = Number::Exact(Rational::from(end)).reciprocal(BITS)?.magnitude();
+            largest = largest.max(self.bound(end)?.multiply(&inverse));
+        }
+        Ok(largest.multiply(&Magnitude::from_rational(&self.exponent)))
+    }
+
+    /// The compression at which the force is a `2^(−bits)` of `F`, or a little less; but none that is not told from zero
+    /// with so many bits.
+    fn light(&self, bits: u64) -> Magnitude {
+        let least = Rational::new(4.into(), 3.into());
+        let octaves = Rational::from_integer(bits.into()) / least.max(self.exponent.clone());
+        let octaves = octaves.ceil().to_integer().to_i64().unwrap_or(i64::MAX >> 2);
+        self.compression.magnitude().scale(-octaves)
+    }
+}
+
+/// A local contact that is pressed, in the system of its node.
+#[derive(Clone, Debug)]
+pub struct Pressed {
+    pub law: PowerLaw,
+    /// Where its compression stands in the state, and its force in the input.
+    pub state: usize,
+    pub input: usize,
+    /// `K`, the stiffness that it is compared with.
+    pub stiffness: Number,
+}
+
+impl Pressed {
+    /// All of a node.
+    ///
+    /// # Errors
+    /// As [`PowerLaw::at`].
+    pub fn all(node: &Node<Number>, system: &System<Number>) -> Result<Vec<Pressed>, BallError> {
+        let mut all = Vec::new();
+        for ((own, kept), driven) in node.elements.iter().zip(&system.kept).zip(&system.driven) {
+            let ElementLaw::LocalContact { force, compression, exponent } = &own.law else {
+                continue;
+            };
+            let (Some(state), Some(input)) = (*kept, *driven) else { continue };
+            let (force, compression) = (force.clone(), compression.clone());
+            let stiffness = force.multiply(&compression.reciprocal(BITS)?, BITS);
+            let law = PowerLaw { force, compression, exponent: exponent.clone() };
+            all.push(Pressed { law, state, input, stiffness });
+        }
+        Ok(all)
+    }
+}
+
+impl Node<Number> {
+    /// The same node, its local contacts given by the force at a compression that is about the largest they come to
+    /// where they stop what moves with this velocity: of a mass `α F = ½ (m+1) M v²`, of a bar `F = Z v`.
+    ///
+    /// # Errors
+    /// As [`PowerLaw::at`].
+    pub fn with_typical_compressions(
+        mut self,
+        velocity: f64,
+        bits: u64,
+    ) -> Result<Node<Number>, BallError> {
+        let double = |number: &Number| number.ball(BITS).to_double().0;
+        let least = |sizes: Vec<f64>| {
+            sizes.into_iter().filter(|size| *size > 0.0).fold(f64::INFINITY, f64::min)
+        };
+        let impedance = least(self.impedance.iter().map(double).collect());
+        let masses = (0..self.runs()).map(|run| double(&self.mass_of(run, BITS)));
+        let mass = least(masses.collect());
+        for own in &mut self.elements {
+            let ElementLaw::LocalContact { force, compression, exponent } = &mut own.law else {
+                continue;
+            };
+            let (at, m) = (double(compression), exponent.to_f64().unwrap_or(1.0));
+            let softness = at.powf(m) / double(force);
+            let of_bar = (softness * impedance * velocity).powf(1.0 / m);
+            let energy = 0.5 * mass * velocity * velocity;
+            let of_mass = ((m + 1.0) * softness * energy).powf(1.0 / (m + 1.0));
+            let typical = Rational::from_float(of_bar.min(of_mass).log2().round().exp2());
+            let Some(typical) = typical.filter(|typical| *typical > Rational::default()) else {
+                continue;
+            };
+            let law = PowerLaw {
+                force: force.clone(),
+                compression: compression.clone(),
+                exponent: exponent.clone(),
+            };
+            let law = law.at(&typical, bits)?;
+            (*force, *compression) = (law.force, law.compression);
+        }
+        Ok(self)
+    }
+}
+
+/// A cell is longer than the motion beside a local contact can be followed at once: it may be as long as this.
+#[derive(Clone, PartialEq, Debug)]
+pub struct TooLong(pub Rational);
+
+impl TooLong {
+    /// A length of few bits, no longer than this part of a magnitude.
+    fn than(length: &Magnitude) -> TooLong {
+        let (mantissa, exponent) = length.parts();
+        let few =
+            Magnitude::power_of_two(exponent + 28).multiply(&Magnitude::from_u64(mantissa >> 28));
+        TooLong(Rational::from(&few))
+    }
+}
+
+/// What a contact is on a cell.
+#[derive(Clone, Debug)]
+struct Compressed {
+    /// Its place among the members of its block.
+    place: usize,
+    /// The compression at the start, without its error.
+    start: Magnitude,
+    is_light: bool,
+    /// How far the compression may go from where it starts.
+    most: Magnitude,
+    /// Bounds of the force and of `|X'|` then; zero for a light one.
+    force: Magnitude,
+    stiffest: Magnitude,
+}
+
+/// A box on a disc of times.
+struct Picard {
+    radius: Magnitude,
+    /// How far each member may go from where it starts.
+    sizes: Vec<Magnitude>,
+}
+
+impl System<Number> {
+    /// The same with springs in place of local contacts.
+    pub fn stiffened(&self, pressed: &[Pressed], bits: u64) -> System<Number> {
+        let mut system = self.clone();
+        for own in pressed {
+            for row in system.change.iter_mut().chain(&mut system.output) {
+                let pushed = row[self.states() + own.input].multiply(&own.stiffness, bits);
+                row[own.state] = row[own.state].add(&pushed, bits);
+            }
+        }
+        system
+    }
+
+    /// Solves the equations on a cell beside pressed local contacts, whose forces are added to the input.
+    ///
+    /// # Errors
+    /// [`TooLong`].
+    ///
+    /// # Cost
+    /// `N²` products for each pressed contact, beside those of [`System::solve`].
+    pub fn press(
+        &self,
+        passivity: &Passivity,
+        (state, errors): (&[Number], &[StateError]),
+        input: &mut [Series],
+        (norm, cut): (&CellNorm, &Truncation),
+    ) -> Result<Motion, TooLong> {
+        let given = Given::new(input, norm, cut);
+        let (mut courses, mut forces) = (Vec::new(), Vec::new());
+        for (block, error) in passivity.blocks.iter().zip(errors) {
+            if block.pressed.is_empty() {
+                courses.push(self.course(block, state, error, &given));
+                continue;
+            }
+            let pressing = Pressing { system: self, block, given: &given };
+            let own: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
+            if let Some(columns) = pressing.untouched(&own) {
+                courses.push(Course::exact(columns));
+                continue;
+            }
+            let (course, own) = pressing.course(&own, error)?;
+            courses.push(course);
+            forces.extend(block.pressed.iter().map(|pressed| pressed.input).zip(own));
+        }
+        for (place, force) in forces {
+            input[place] = force;
+        }
+        Ok(self.motion(passivity, courses, input, cut))
+    }
+}
+
+/// A block of a node with local contacts, on a cell.
+struct Pressing<'a> {
+    system: &'a System<Number>,
+    block: &'a Block,
+    given: &'a Given<'a>,
+}
+
+/// What is known of the errors on a cell.
+struct Bounds {
+    /// Of the state, in the norm of its energy and of this roughness.
+    rest: Magnitude,
+    roughness: Option<Roughness>,
+    /// Of light contacts, the largest force.
+    light: Vec<Magnitude>,
+    /// The share of the bounds of the motion that its coefficients leave out.
+    left_out: Magnitude,
+    added: Added,
+}
+
+/// The coefficients of the members and of the forces.
+type Columns = (Vec<Vec<Number>>, Vec<Vec<Number>>);
+
+impl Pressing<'_> {
+    /// The courses of the block and of the forces of its contacts.
+    fn course(&self, own: &[Number], error: &StateError) -> Result<(Course, Vec<Series>), TooLong> {
+        let (norm, bits) = (self.given.norm, self.given.cut.bits);
+        let (mut start, mut radii) = (Vec::new(), Vec::new());
+        for value in own {
+            let (middle, radius) = value.split(bits);
+            // The radius of an enclosure is within the error of the block.
+            radii.push(if value.exact().is_some() { radius } else { Magnitude::ZERO });
+            start.push(middle);
+        }
+        let rounding = self.block.size(radii.into_iter());
+        let at_start = error.size().add(&rounding);
+        let mut light: Vec<usize> = Vec::new();
+        loop {
+            let contacts = self.compressed(&start, &at_start, &light)?;
+            let radius = norm.length.scale(REACH);
+            let Some(picard) = self.picard(&start, &contacts, &radius) else {
+                return Err(self.shorter(&start, &contacts, radius));
+            };
+            let distance = self.distance(&contacts, &picard);
+            let (columns, forces) = self.coefficients(&start, &contacts, &picard, &distance)?;
+            let left_out = picard.left_out(&norm.length.add(&distance), columns.len());
+            let bounds =
+                self.bounds(&contacts, &picard, (&at_start, &rounding), &distance, left_out)?;
+            // A compression that is not known to be positive presses as a light one may.
+            let is_doubtful =
+                |own: &&Compressed| self.block.entry(own.place, &bounds.rest).scale(5) > own.start;
+            let heavy = contacts.iter().filter(|own| !own.is_light);
+            let doubtful: Vec<usize> = heavy.filter(is_doubtful).map(|own| own.place).collect();
+            if doubtful.is_empty() {
+                let forces = self.forces(&contacts, forces, &bounds, &at_start);
+                let Bounds { rest, added, roughness, .. } = bounds;
+                return Ok((Course { columns, rest, at_start, added, roughness }, forces));
+            }
+            light.extend(doubtful);
+        }
+    }
+
+    /// The exact motion where no contact is compressed all the while.
+    fn untouched(&self, own: &[Number]) -> Option<Vec<Vec<Number>>> {
+        let columns = self.system.exact_columns(self.block, own, self.given)?;
+        let places: Vec<usize> =
+            self.block.pressed.iter().map(|pressed| self.place_of(pressed)).collect();
+        let is_untouched =
+            |column: &Vec<Number>| places.iter().all(|place| column[*place].is_zero());
+        columns.iter().all(is_untouched).then_some(columns)
+    }
+
+    /// A shorter cell may do where a bound is not found.
+    fn unknown(&self) -> TooLong {
+        TooLong::than(&self.given.norm.length.scale(-1))
+    }
+
+    /// What the contacts are on the cell; those in these places are light.
+    fn compressed(
+        &self,
+        start: &[Number],
+        error: &Magnitude,
+        light: &[usize],
+    ) -> Result<Vec<Compressed>, TooLong> {
+        let mut all = Vec::new();
+        for own in &self.block.pressed {
+            let place = self.place_of(own);
+            let (from, off) = (start[place].magnitude(), self.block.entry(place, error));
+            let largest = own.law.light(self.given.cut.bits);
+            let is_light = light.contains(&place)
+                || start[place].sign() != Some(Ordering::Greater)
+                || from < largest.scale(LIGHT_AT_START)
+                || off.scale(6) > from;
+            all.push(if is_light {
+                let (most, none) = (largest.max(from.scale(2)).max(off.scale(2)), Magnitude::ZERO);
+                Compressed { place, start: from, is_light, most, force: none, stiffest: none }
+            } else {
+                let most = from.multiply(&Magnitude::from_u64(7)).scale(-3);
+                let ends = [&from.scale(-4), &from.scale(1)];
+                let force = own.law.bound(ends[1]).map_err(|_| self.unknown())?;
+                let stiffest = own.law.stiffest(ends).map_err(|_| self.unknown())?;
+                Compressed { place, start: from, is_light, most, force, stiffest }
+            });
+        }
+        Ok(all)
+    }
+
+    fn place_of(&self, pressed: &Pressed) -> usize {
+        let place = self.block.members.iter().position(|member| *member == pressed.state);
+        place.expect("a contact of the block")
+    }
+
+    /// What the contacts are, each with its law.
+    fn each<'b>(
+        &'b self,
+        contacts: &'b [Compressed],
+    ) -> impl Iterator<Item = (&'b Compressed, &'b Pressed)> {
+        contacts.iter().zip(&self.block.pressed)
+    }
+
+    /// A box in which the motion for the polynomials of the inputs stays on a disc of times, where it is found: one
+    /// with `radius · |y'| ≤ size` for each member.
+    fn picard(
+        &self,
+        start: &[Number],
+        contacts: &[Compressed],
+        radius: &Magnitude,
+    ) -> Option<Picard> {
+        let states = self.system.states();
+        let mut inputs: Vec<Magnitude> =
+            self.given.settled.iter().map(|series| series.size_from(0, radius)).collect();
+        for (own, law) in self.each(contacts) {
+            inputs[law.input] = own.force;
+        }
+        let product = |row: &[Number], column: &[Magnitude]| {
+            let terms = row.iter().zip(column).map(|(a, x)| a.magnitude().multiply(x));
+            terms.fold(Magnitude::ZERO, |sum, term| sum.add(&term))
+        };
+        let rows: Vec<&Vec<Number>> =
+            self.block.members.iter().map(|member| &self.system.change[*member]).collect();
+        let pushed: Vec<Magnitude> =
+            rows.iter().map(|row| product(&row[states..], &inputs)).collect();
+        let mut sizes = vec![Magnitude::ZERO; start.len()];
+        for _ in 0..MOST_BOXES {
+            let mut reached = vec![Magnitude::ZERO; states];
+            for ((member, from), size) in self.block.members.iter().zip(start).zip(&sizes) {
+                reached[*member] = from.magnitude().add(size);
+            }
+            let changes: Vec<Magnitude> = (rows.iter().zip(&pushed))
+                .map(|(row, pushed)| product(&row[..states], &reached).add(pushed).multiply(radius))
+                .collect();
+            if contacts.iter().any(|own| changes[own.place] > own.most) {
+                return None;
+            }
+            if changes.iter().zip(&sizes).all(|(change, size)| change <= size) {
+                return Some(Picard { radius: *radius, sizes: changes });
+            }
+            sizes = changes.iter().map(|change| change.add(&change.scale(-5))).collect();
+        }
+        None
+    }
+
+    /// A length of which a disc is small enough.
+    fn shorter(&self, start: &[Number], contacts: &[Compressed], radius: Magnitude) -> TooLong {
+        let is_kept = |radius: &Magnitude| self.picard(start, contacts, radius).is_some();
+        let mut radius = radius;
+        for _ in 0..MOST_DISCS {
+            radius = radius.scale(-1);
+            if is_kept(&radius) {
+                break;
+            }
+        }
+        // Between this disc and the last one there may be a larger one.
+        let larger = [15_u64, 13, 11, 9];
+        let mut larger = larger.map(|part| radius.multiply(&Magnitude::from_u64(part)).scale(-3));
+        larger.sort_unstable_by(|a, b| b.cmp(a));
+        let radius = larger.into_iter().find(is_kept).unwrap_or(radius);
+        TooLong::than(&radius.scale(-REACH))
+    }
+
+    /// Within which distance of the cell errors are bounded: half of that of the inputs, half of a cell, and less than
+    /// they grow to `e` times in.
+    fn distance(&self, contacts: &[Compressed], picard: &Picard) -> Magnitude {
+        let is_pushed = |own: &Compressed| own.is_light && !picard.reached(own).is_zero();
+        let norm = self.given.norm;
+        if contacts.iter().any(is_pushed) {
+            return Roughness::VALUES.distance();
+        }
+        let mut rate = self.block.rate;
+        for (own, law) in self.each(contacts) {
+            let stiffness = law.stiffness.magnitude().add(&own.stiffest);
+            rate = rate.add(&self.pushed_back(law, &stiffness));
+        }
+        let mut distance = norm.length.scale(-1);
+        if let Some(roughness) = norm.roughness {
+            distance = distance.min(roughness.distance().scale(-1));
+        }
+        let one = Magnitude::power_of_two(0);
+        while rate.multiply(&distance) > one {
+            distance = distance.scale(-1);
+        }
+        Roughness::within(&distance, self.given.cut).distance()
+    }
+
+    /// `S |B|/√K`: how fast an error of the compression changes the state, where it changes the force by `S`.
+    fn pushed_back(&self, pressed: &Pressed, stiffness: &Magnitude) -> Magnitude {
+        let push = self.block.pushed_by(pressed.input).multiply(stiffness);
+        self.block.entry(self.place_of(pressed), &push)
+    }
+
+    /// The coefficients of the members and of the forces, until what they leave out is nothing to speak of.
+    fn coefficients(
+        &self,
+        start: &[Number],
+        contacts: &[Compressed],
+        picard: &Picard,
+        distance: &Magnitude,
+    ) -> Result<Columns, TooLong> {
+        let (bits, states) = (self.given.cut.bits, self.system.states());
+        let mut powers = Vec::new();
+        for (own, law) in self.each(contacts) {
+            let power = || PowerSeries::new(&law.law, &start[own.place], bits);
+            let power = (!own.is_light).then(power).transpose();
+            powers.push(power.map_err(|_| self.unknown())?);
+        }
+        let reach = self.given.norm.length.add(distance);
+        let mut columns: Vec<Vec<Number>> = Vec::new();
+        let mut column = start.to_vec();
+        while columns.is_empty() || !self.is_enough(contacts, picard, &reach, columns.len()) {
+            let k = columns.len();
+            let mut both = vec![Number::zero(); states];
+            for (member, value) in self.block.members.iter().zip(&column) {
+                both[*member] = value.clone();
+            }
+            both.extend(self.given.coefficients(k));
+            for ((own, law), power) in self.each(contacts).zip(&mut powers) {
+                if let Some(power) = power {
+                    both[states + law.input] = power.next(&column[own.place], bits);
+                }
+            }
+            let rows = self.block.members.iter().map(|i| &self.system.change[*i]);
+            let next = rows.map(|row| dot(row, &both, bits).over(k as u64 + 1, bits)).collect();
+            columns.push(std::mem::replace(&mut column, next));
+        }
+        let forces = powers.into_iter().map(|power| power.map_or(Vec::new(), |own| own.values));
+        Ok((columns, forces.collect()))
+    }
+
+    /// Whether the first coefficients leave out less than the precision tells of a typical force.
+    fn is_enough(
+        &self,
+        contacts: &[Compressed],
+        picard: &Picard,
+        reach: &Magnitude,
+        terms: usize,
+    ) -> bool {
+        let share = picard.left_out(reach, terms);
+        let tail = self.block.size(picard.sizes.iter().copied()).multiply(&share);
+        self.each(contacts).all(|(own, law)| {
+            let least = law.law.force.magnitude().scale(-(self.given.cut.bits as i64));
+            let of_force = own.stiffest.multiply(&picard.sizes[own.place]).add(&own.force);
+            tail.multiply(&law.stiffness.magnitude().square_root()) <= least
+                && of_force.multiply(&share) <= least
+        })
+    }
+
+    /// The bounds of errors, by that of the state at the start and what of it comes from rounding now.
+    fn bounds(
+        &self,
+        contacts: &[Compressed],
+        picard: &Picard,
+        (at_start, rounding): (&Magnitude, &Magnitude),
+        distance: &Magnitude,
+        left_out: Magnitude,
+    ) -> Result<Bounds, TooLong> {
+        let (norm, cut) = (self.given.norm, self.given.cut);
+        let mut rate = Magnitude::ZERO;
+        // Between two bars a contact takes errors up.
+        if self.block.members.len() > 1 {
+            for (own, law) in self.each(contacts) {
+                let stiffness = law.stiffness.magnitude().max(own.stiffest);
+                rate = rate.add(&self.pushed_back(law, &stiffness));
+            }
+        }
+        // e^z ≤ 1 + z + z² for z ≤ 1.
+        let z = rate.multiply(&norm.length);
+        if z > Magnitude::power_of_two(0) {
+            return Err(self.unknown());
+        }
+        let factor = Magnitude::power_of_two(0).add(&z).add(&z.multiply(&z));
+        let arriving = self.block.push(&self.given.errors);
+        let early = at_start.add(&arriving.multiply(&norm.length)).multiply(&factor);
+        let mut per_time = arriving;
+        let mut light = Vec::new();
+        for (own, law) in self.each(contacts) {
+            let mut largest = Magnitude::ZERO;
+            if own.is_light {
+                let compression = picard.reached(own).add(&self.block.entry(own.place, &early));
+                // The force itself moves it by as much again at most; that is proven below.
+                largest = law.law.bound(&compression.scale(1)).map_err(|_| self.unknown())?;
+                per_time = per_time.add(&self.block.pushed_by(law.input).multiply(&largest));
+            }
+            light.push(largest);
+        }
+        let error = at_start.add(&per_time.multiply(&norm.length)).multiply(&factor);
+        let is_within = |own: &Compressed| {
+            let room = picard.reached(own).add(&self.block.entry(own.place, &early)).scale(1);
+            picard.reached(own).add(&self.block.entry(own.place, &error)) <= room
+        };
+        if !contacts.iter().filter(|own| own.is_light).all(is_within) {
+            return Err(self.unknown());
+        }
+        let tail = self.block.size(picard.sizes.iter().copied()).multiply(&left_out);
+        // Within the distance errors of the state grow to e times, and those of the inputs are four times as large.
+        let is_smooth = light.iter().all(Magnitude::is_zero);
+        let around = match is_smooth {
+            true => {
+                let arrived = arriving.multiply(distance).scale(2);
+                error.add(&arrived).multiply(&Magnitude::from_u64(3))
+            }
+            false => error,
+        };
+        Ok(Bounds {
+            rest: around.add(&tail),
+            roughness: Some(Roughness::within(distance, cut)),
+            light,
+            left_out,
+            added: Added::Growing { at_once: rounding.add(&tail), per_time, factor },
+        })
+    }
+
+    /// The forces of the contacts.
+    fn forces(
+        &self,
+        contacts: &[Compressed],
+        forces: Vec<Vec<Number>>,
+        bounds: &Bounds,
+        at_start: &Magnitude,
+    ) -> Vec<Series> {
+        let each = self.each(contacts).zip(forces).zip(&bounds.light);
+        let force =
+            |(((own, law), force), light): (((&Compressed, &Pressed), Vec<Number>), &Magnitude)| {
+                let off = self.block.entry(own.place, at_start);
+                if own.is_light {
+                    let first = law.law.bound(&own.start.add(&off)).unwrap_or(*light).min(*light);
+                    let roughness = (!light.is_zero()).then_some(Roughness::VALUES);
+                    return Series::new(Vec::new(), *light)
+                        .with_rest_at_start(first)
+                        .of_roughness(roughness);
+                }
+                let rest = own.stiffest.multiply(&self.block.entry(own.place, &bounds.rest));
+                Series::new(force, rest.add(&own.force.multiply(&bounds.left_out)))
+                    .with_rest_at_start(own.stiffest.multiply(&off))
+                    .of_roughness(bounds.roughness)
+            };
+        each.map(force).collect()
+    }
+}
+
+impl Picard {
+    /// How large a compression may become.
+    fn reached(&self, own: &Compressed) -> Magnitude {
+        own.start.add(&self.sizes[own.place])
+    }
+
+    /// The share of its bounds that all terms from this one on are at most: with `q = reach/radius`, at most 3/4, the
+    /// sum `Σ_{k≥N} q^k` is no more than `4 q^N`.
+    fn left_out(&self, reach: &Magnitude, terms: usize) -> Magnitude {
+        let inverse = Magnitude::from_rational(&Rational::from(&self.radius).recip());
+        let ratio = reach.multiply(&inverse);
+        (0..terms).fold(Magnitude::power_of_two(2), |power, _| power.multiply(&ratio))
+    }
+}
+
+/// The coefficients of a power, one after another.
+///
+/// From `α X' = m α' X`: `k α_0 X_k = Σ_{i=1..k} (m i − (k − i)) α_i X_(k−i)`, that is `(m + 1) Σ i α_i X_(k−i) −
+/// k Σ α_i X_(k−i)`.
+struct PowerSeries {
+    inverse: Number,
+    /// `m + 1`
+    exponent: Number,
+    /// `α_i` and `(m + 1) i α_i`.
+    compressions: Vec<[Number; 2]>,
+    values: Vec<Number>,
+    first: Number,
+}
+
+impl PowerSeries {
+    fn new(law: &PowerLaw, start: &Number, bits: u64) -> Result<PowerSeries, BallError> {
+        let exponent = Number::Exact(&law.exponent + Rational::from_integer(1.into()));
+        Ok(PowerSeries {
+            inverse: start.reciprocal(bits)?,
+            exponent,
+            compressions: Vec::new(),
+            values: Vec::new(),
+            first: law.value(start, bits)?,
+        })
+    }
+
+    /// The next coefficient, for that of the compression.
+    fn next(&mut self, compression: &Number, bits: u64) -> Number {
+        let k = self.values.len();
+        let raised = compression.multiply(&Number::integer(k as i64), bits);
+        self.compressions.push([compression.clone(), raised.multiply(&self.exponent, bits)]);
+        let (mut rising, mut sum) = (Number::zero(), Number::zero());
+        for (i, [own, raised]) in self.compressions.iter().enumerate().skip(1) {
+            sum = sum.add(&own.multiply(&self.values[k - i], bits), bits);
+            rising = rising.add(&raised.multiply(&self.values[k - i], bits), bits);
+        }
+        let value = match k {
+            0 => self.first.clone(),
+            _ => {
+                let falling = sum.multiply(&Number::integer(k as i64), bits);
+                rising.subtract(&falling, bits).multiply(&self.inverse, bits).over(k as u64, bits)
+            }
+        };
+        self.values.push(value.clone());
+        value
+    }
+}
