@@ -536,8 +536,12 @@ impl Engine {
     }
 
     /// The precision that is of use for the next cell of a node: errors that have come together since the start hide
-    /// what is far below them.
+    /// what is far below them. A local contact begins below any of them.
     fn bits_of(&self, node: usize) -> u64 {
+        let is_local = |law: &ElementLaw<Number>| matches!(law, ElementLaw::LocalContact { .. });
+        if self.nodes[node].elements.iter().any(|own| is_local(&own.law)) {
+            return self.cut.bits;
+        }
         let state = &self.states[node];
         let own = state.errors.iter().map(|error| (error.size(), self.cut.largest));
         let arrives = state.arriving.iter().map(|own| (own.rest(&self.waves), self.loudest));
