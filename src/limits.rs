@@ -127,6 +127,10 @@ pub const MAX_MARCHED_PERIODS: u64 = 10_000_000;
 /// Polynomials that follow a function on a window.
 pub const MAX_POLYNOMIALS: usize = 400_000;
 
+/// Times that polynomials are worked out for one stretch of a search: each shows several roots, so that a function
+/// which needs more has more roots than are told, or a rate with which its cells cannot keep up.
+pub const MAX_EXPANSIONS: usize = 20_000;
+
 /// Roots, or places of extrema, in a window.
 pub const MAX_ROOTS: usize = 10_000;
 

@@ -203,21 +203,20 @@ impl Engine {
         (!acted).then(|| Part { source, ..part.clone() })
     }
 
-    /// When a part may change its series.
-    pub fn breaks_of(&self, part: &Part) -> Vec<Moment> {
+    /// When a part may change its series: lists, each in order.
+    pub fn breaks_of(&self, part: &Part) -> Vec<Vec<Moment>> {
         let Source::Wave { bar, direction, delay } = &part.source else {
             let Source::Node { node, .. } = part.source else { return Vec::new() };
-            return self.cells[node].iter().map(|(start, _)| start.clone()).collect();
+            return vec![self.cells[node].iter().map(|(start, _)| start.clone()).collect()];
         };
         let Some(delay) = delay else { return Vec::new() };
         let cells = &self.waves[*bar][*direction].cells;
         let after = |delay: &Fraction| -> Vec<Moment> {
             cells.iter().map(|own| own.0.after(delay)).collect()
         };
-        let mut breaks = after(delay);
-        if let Window::Last(length) = &part.over {
-            breaks.extend(after(&(delay + length)));
+        match &part.over {
+            Window::Last(length) => vec![after(delay), after(&(delay + length))],
+            Window::Now | Window::Always => vec![after(delay)],
         }
-        breaks
     }
 }

@@ -411,26 +411,37 @@ impl Engine {
         [from, to]: &[Moment; 2],
     ) -> Result<Vec<Moment>, HistoryError> {
         let mut breaks: Vec<Moment> = Vec::new();
-        for moment in parts.iter().flat_map(|part| self.breaks_of(part)) {
-            let before = self.clock.compare(&moment, from)? != Ordering::Greater;
-            if before || self.clock.compare(&moment, to)? == Ordering::Greater {
-                continue;
-            }
-            // Few are out of order: the parts are.
-            let mut place = breaks.len();
-            let mut known = false;
-            while place > 0 && !known {
-                match self.clock.compare(&breaks[place - 1], &moment)? {
-                    Ordering::Less => break,
-                    Ordering::Equal => known = true,
-                    Ordering::Greater => place -= 1,
+        for list in parts.iter().flat_map(|part| self.breaks_of(part)) {
+            let mut own = Vec::new();
+            for moment in list {
+                let after = self.clock.compare(&moment, from)? == Ordering::Greater;
+                if after && self.clock.compare(&moment, to)? != Ordering::Greater {
+                    own.push(moment);
                 }
             }
-            if !known {
-                breaks.insert(place, moment);
-            }
+            breaks = self.merged(breaks, own)?;
         }
         Ok(breaks)
+    }
+
+    /// Two lists of instants in order as one, each instant once.
+    fn merged(&self, one: Vec<Moment>, other: Vec<Moment>) -> Result<Vec<Moment>, HistoryError> {
+        let mut merged = Vec::with_capacity(one.len() + other.len());
+        let mut one = one.into_iter().peekable();
+        for moment in other {
+            let mut order = Ordering::Less;
+            while let (Ordering::Less, Some(next)) = (order, one.peek()) {
+                order = self.clock.compare(next, &moment)?;
+                if order != Ordering::Greater {
+                    merged.extend(one.next());
+                }
+            }
+            if order != Ordering::Equal {
+                merged.push(moment);
+            }
+        }
+        merged.extend(one);
+        Ok(merged)
     }
 }
 

@@ -3,13 +3,13 @@
 //! Until then a scene whose contacts open and one whose contacts stay closed move alike, so the first
 //! opening of the one is the end of the other. It is found without following anything beyond it.
 
-use crate::ball::{Attempt, Value};
+use crate::ball::{Attempt, Ball, Value};
 use crate::history::contacts::Happening;
 use crate::history::engine::Engine;
-use crate::history::error::HistoryError;
+use crate::history::error::{HistoryError, When};
 use crate::history::history::{PATIENCE, longest, precisions, undecided};
 use crate::history::moment::{Moment, TOLD_DIGITS};
-use crate::limits::{MAX_HISTORY_BITS, MAX_HISTORY_CELLS};
+use crate::limits::MAX_HISTORY_BITS;
 use crate::network::Network;
 use crate::scene::Dimension;
 use std::cmp::Ordering;
@@ -77,13 +77,29 @@ impl Validity {
     }
 }
 
+/// How many cells are followed to see that contacts stay closed.
+const MOST_CELLS: usize = 5_000;
+
 /// That contacts stay closed until a time in the user's units.
 ///
 /// # Errors
-/// [`HistoryError::Opens`]; else as [`Validity::of`].
+/// [`HistoryError::Opens`]; [`HistoryError::TooManyCells`] where that is not known after [`MOST_CELLS`]; else as
+/// [`Validity::of`].
 pub fn stays_closed(network: &Network, until: &Rational) -> Result<(), HistoryError> {
-    match Validity::of(network, Some(until), TOLD_DIGITS, MAX_HISTORY_CELLS)? {
-        Validity::Followed(_) => Ok(()),
+    match Validity::of(network, Some(until), TOLD_DIGITS, MOST_CELLS)? {
+        Validity::Followed(time) => {
+            let time = time.ball(MAX_HISTORY_BITS);
+            let until = Ball::from_rational(until, MAX_HISTORY_BITS);
+            let left = until.subtract(&time, MAX_HISTORY_BITS);
+            match left.sign() {
+                Some(Ordering::Greater) => {
+                    let unit = if network.scene().dimensional { " s" } else { "" };
+                    let when = When { time: Box::new(time), unit };
+                    Err(HistoryError::TooManyCells { limit: MOST_CELLS, when })
+                }
+                _ => Ok(()),
+            }
+        }
         Validity::Until { time, between } => {
             let unit = if network.scene().dimensional { " s" } else { "" };
             let at = time.to_text(TOLD_DIGITS) + unit;

@@ -98,6 +98,9 @@ impl<'a> Window<'a> {
                 let (echoes, limit) = (order as u128, MAX_PIECES);
                 return Err(EvaluateError::TooManyEchoes { echoes, limit });
             }
+            if self.marched.is_none() {
+                form.foresee(self.signal.window()[1])?;
+            }
         }
         let firsts = first_doubles(self.signal)?;
         Ok(self.firsts.get_or_init(|| firsts))

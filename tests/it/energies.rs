@@ -343,3 +343,26 @@ fn masses_that_may_strike_each_other_are_not_taken_for_conserved() {
         assert_same(&now, &Ball::from_rational(&rational(3, 2), BITS), 1.0, middle);
     }
 }
+
+/// A mass between endless bars comes to rest at the rate `λ = (Z₁ + Z₂)/m`, and what has gone into a bar is
+/// `Z₂ ∫ e^(−2λt) dt = Z₂ (1 − e^(−2λt))/(2λ)`: the same number of cells does for all rates, since nothing is left of
+/// the motion on nearly all of a window.
+#[test]
+fn energies_that_come_in_fast_are_enclosed() {
+    for first in [1_i64, 100_000, 100_000_000] {
+        let network = network(&format!(
+            "scene \"Lost\"\nbar west {{ impedance = {first} }}\nmass ram {{ mass = 1, velocity = 1 }}\n\
+             bar east {{ impedance = 2 }}\nline endless - west - ram - east - endless\n\
+             observe lost = energy(east)"
+        ));
+        let [at, rate] = [rational(7, 3), rational(2 * (first + 2), 1)];
+        let lost = signal(&network, "lost", &at);
+        let known = derivative(&*lost, 0, &at);
+        let gone = Ball::from_rational(&(-&rate * &at), BITS).exp(BITS).unwrap();
+        let rest = Ball::from_integer(&1.into()).subtract(&gone, BITS);
+        let exact = rest.multiply_rational(&(rational(2, 1) / &rate), BITS);
+        let off = known.subtract(&exact, BITS);
+        assert!(off.contains_zero(), "{known} {exact}");
+        assert!(*off.radius() <= exact.magnitude().scale(-120), "{first}: {known}");
+    }
+}

@@ -19,7 +19,7 @@
 //! ([`Finding::Low`]).
 
 use crate::ball::{Attempt, Ball, Binary, Magnitude, Precisions};
-use crate::limits::MAX_POLYNOMIALS;
+use crate::limits::{MAX_EXPANSIONS, MAX_POLYNOMIALS};
 use crate::signal::error::EvaluateError;
 use crate::signal::find::search::{Search, Target};
 use crate::signal::signal::Limit;
@@ -113,6 +113,8 @@ struct Cover<'a, 's, 'b> {
     flatness: [OnceCell<usize>; 2],
     /// The largest coefficient seen.
     scale: Magnitude,
+    /// How many times polynomials were worked out.
+    expansions: usize,
     cells: Vec<Cell>,
 }
 
@@ -135,8 +137,18 @@ impl Search<'_> {
         let size = self.precisions(target).raise(attempt)?.best();
         let (scale, cells) = (size.scale(-CANCELLED_BITS), Vec::new());
         let (bounds, flatness) = ([from.clone(), to.clone()], Default::default());
-        let mut cover =
-            Cover { search: self, stretch, target, record, bounds, flatness, scale, cells };
+        let search = self;
+        let mut cover = Cover {
+            search,
+            stretch,
+            target,
+            record,
+            bounds,
+            flatness,
+            scale,
+            expansions: 0,
+            cells,
+        };
         cover.descend(from, to, 0, None)?;
         Ok(cover.cells)
     }
@@ -203,6 +215,10 @@ impl Cover<'_, '_, '_> {
                 self.descend(from, middle.clone(), depth + 1, Some(known))?;
                 return self.descend(middle, to, depth + 1, Some(known));
             }
+        }
+        self.expansions += 1;
+        if self.expansions > MAX_EXPANSIONS {
+            return Err(EvaluateError::TooManyCells { limit: MAX_EXPANSIONS });
         }
         let expansion = self.expanded(&middle, &half, depth)?;
         if let Some(finding) = self.decided(&expansion.polynomials) {

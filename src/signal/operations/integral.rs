@@ -6,9 +6,12 @@
 //! from one time to another is that of the part of the first stretch, of whole stretches, and of the part
 //! of the last one; whole stretches that are zero add an exact zero. Where the integrand is an exact
 //! expression, so is the integral. Its derivative is the integrand now, less that at the other end.
+//!
+//! A cell is short enough, too, where all that its polynomial leaves out is smaller than the last bit of the integral
+//! so far: what has decayed needs no cells as short as what has not.
 
 use super::{Mark, Outcome, Rule, Scale, locate, taylor_by_rate, value_at, working};
-use crate::ball::{Ball, Magnitude};
+use crate::ball::{Ball, Binary, Magnitude};
 use crate::expression::{Expression, Fraction};
 use crate::signal::{Effort, Enclosure, Instant, Known, Limit, Signal, Taylor, has_begun};
 use num_traits::Zero as _;
@@ -41,14 +44,20 @@ pub(crate) struct Integral<'a> {
     before: Fraction,
     window: [Rational; 2],
     primitives: RefCell<BTreeMap<(u64, usize), Rc<Primitive>>>,
+    /// The integrals of whole stretches, in the time of the scene.
+    wholes: RefCell<BTreeMap<(u64, usize), Ball>>,
 }
 
 /// A part of a stretch with the antiderivative of its polynomial.
 struct Cell {
     from: Rational,
     to: Rational,
-    middle: Rational,
-    half: Rational,
+    /// About `to`: cells reach a little further.
+    until: Binary,
+    middle: Ball,
+    half: Ball,
+    /// One over `half`.
+    per_half: Ball,
     antiderivative: Taylor,
     /// The integral from the start of the first cell to that of this one, less the antiderivative there.
     offset: Ball,
@@ -83,7 +92,8 @@ impl<'a> Integral<'a> {
         window: [&Rational; 2],
     ) -> Integral<'a> {
         let (scale, window) = (Rc::clone(scale), window.map(Clone::clone));
-        Integral { scale, of, last, before, window, primitives: RefCell::default() }
+        let (primitives, wholes) = Default::default();
+        Integral { scale, of, last, before, window, primitives, wholes }
     }
 
     /// The places of both ends at a time: the stretch of the upper one, and one more than that of the lower
@@ -149,15 +159,21 @@ impl<'a> Integral<'a> {
         let rounding =
             taylor.coefficients.iter().map(|c| *c.radius()).max().unwrap_or(Magnitude::ZERO);
         let size = taylor.coefficients.iter().map(Ball::magnitude).max().unwrap_or(Magnitude::ZERO);
+        let start = Ball::from_rational(&from, bits);
+        let so_far = cells.last().map_or_else(Ball::zero, |cell| cell.until(&start, bits));
+        let left_out = taylor.remainder.multiply(&Magnitude::from_rational(&half)).scale(1);
         let small = rounding.max(size.scale(-(bits as i64)));
-        if taylor.remainder > small && depth > 0 {
+        let matters = left_out > so_far.magnitude().scale(-(bits as i64));
+        if taylor.remainder > small && matters && depth > 0 {
             self.add_cells(cells, stretch, (from, middle.clone()), depth - 1, bits)?;
             return self.add_cells(cells, stretch, (middle, to), depth - 1, bits);
         }
         let antiderivative = taylor.antiderivative(bits);
-        let start = Ball::from_rational(&from, bits);
-        let so_far = cells.last().map_or_else(Ball::zero, |cell| cell.until(&start, bits));
-        let mut cell = Cell { from, to, middle, half, antiderivative, offset: Ball::zero() };
+        let until = Ball::from_rational(&to, bits).midpoint().clone();
+        let [middle, half, per_half] =
+            [&middle, &half, &half.recip()].map(|number| Ball::from_rational(number, bits));
+        let offset = Ball::zero();
+        let mut cell = Cell { from, to, until, middle, half, per_half, antiderivative, offset };
         cell.offset = so_far.subtract(&cell.until(&start, bits), bits);
         cells.push(cell);
         Ok(())
@@ -166,14 +182,13 @@ impl<'a> Integral<'a> {
     /// The integral from the start of a stretch to a time, which may lie beyond its ends.
     fn until(&self, stretch: usize, time: &Ball, bits: u64) -> Outcome<Ball> {
         let primitive = self.primitive(stretch, bits)?;
-        let (Some(first), Some(last)) = (primitive.cells.first(), primitive.cells.last()) else {
-            return Ok(Ball::zero());
-        };
-        let middle = Rational::from(time.midpoint());
-        let (edge, beyond) = match (middle < first.from, middle > last.to) {
-            (true, _) if !first.holds(time, bits) => (&first.from, (middle, first.from.clone())),
-            (_, true) if !last.holds(time, bits) => (&last.to, (last.to.clone(), middle)),
-            _ => return Ok(primitive.until(time, bits)),
+        let Some(cell) = primitive.cell(time) else { return Ok(Ball::zero()) };
+        let (first, last) = (&primitive.cells[0], &primitive.cells[primitive.cells.len() - 1]);
+        let middle = || Rational::from(time.midpoint());
+        let (edge, beyond) = match cell.holds(time, bits) {
+            false if middle() < first.from => (&first.from, (middle(), first.from.clone())),
+            false if middle() > last.to => (&last.to, (last.to.clone(), middle())),
+            _ => return Ok(cell.until(time, bits)),
         };
         let mut cells = Vec::new();
         self.add_cells(&mut cells, stretch, beyond, MAX_DEPTH, bits)?;
@@ -182,26 +197,45 @@ impl<'a> Integral<'a> {
         Ok(primitive.until(&edge, bits).add(&rest, bits))
     }
 
+    /// The integral of a whole stretch, not the last one, in the time of the scene.
+    fn whole(&self, stretch: usize, bits: u64) -> Outcome<Ball> {
+        if let Some(known) = self.wholes.borrow().get(&(bits, stretch)) {
+            return Ok(known.clone());
+        }
+        let [from, to] = [stretch, stretch + 1].map(|start| Mark::of(&*self.of, start).ball(bits));
+        let whole = self.between(stretch, [&from?, &to?], bits)?;
+        self.wholes.borrow_mut().insert((bits, stretch), whole.clone());
+        Ok(whole)
+    }
+
+    /// The integral between two times of a stretch, in the time of the scene.
+    fn between(&self, stretch: usize, ends: [&Ball; 2], bits: u64) -> Outcome<Ball> {
+        let [from, to] = ends.map(|time| self.until(stretch, time, bits));
+        Ok(to?.subtract(&from?, bits).multiply(&self.slowness(bits)?, bits))
+    }
+
     /// The integral from the lower end to the upper one, in terms.
     fn integral(&self, places: &[usize], at: &Mark<'_>, bits: u64) -> Outcome<Vec<Ball>> {
         let bits = working(bits);
         let mut terms = Vec::new();
         let upper = at.ball(bits)?;
-        let (first, mut from) = match (places[LOWER], self.lower(at)) {
-            (place @ 1.., Some(lower)) => (place - 1, lower.ball(bits)?),
-            _ => (0, Mark::of(&*self.of, 0).ball(bits)?),
-        };
-        for stretch in first..=places[UPPER] {
-            let to = match stretch == places[UPPER] {
+        let (first, last) = (places[LOWER].saturating_sub(1), places[UPPER]);
+        for stretch in (first..=last).filter(|stretch| !self.of.is_zero(*stretch)) {
+            if first < stretch && stretch < last {
+                terms.push(self.whole(stretch, bits)?);
+                continue;
+            }
+            let from = match self.lower(at).filter(|_| stretch == first && places[LOWER] > 0) {
+                Some(lower) => lower.ball(bits)?,
+                None => Mark::of(&*self.of, stretch).ball(bits)?,
+            };
+            let to = match stretch == last {
                 true => upper.clone(),
                 false => Mark::of(&*self.of, stretch + 1).ball(bits)?,
             };
-            let is_instant = from.is_exact() && from == to;
-            if !is_instant && !self.of.is_zero(stretch) {
-                let [from, to] = [&from, &to].map(|time| self.until(stretch, time, bits));
-                terms.push(to?.subtract(&from?, bits).multiply(&self.slowness(bits)?, bits));
+            if !from.is_exact() || from != to {
+                terms.push(self.between(stretch, [&from, &to], bits)?);
             }
-            from = to;
         }
         if let (0, Some(last)) = (places[LOWER], &self.last)
             && !self.before.is_zero()
@@ -253,8 +287,7 @@ impl<'a> Integral<'a> {
 impl Cell {
     /// `u` of a time.
     fn place(&self, time: &Ball, bits: u64) -> Ball {
-        let from_middle = time.subtract(&Ball::from_rational(&self.middle, bits), bits);
-        from_middle.multiply_rational(&self.half.recip(), bits)
+        time.subtract(&self.middle, bits).multiply(&self.per_half, bits)
     }
 
     /// Whether the polynomial holds at a time.
@@ -269,20 +302,21 @@ impl Cell {
             return Ball::zero().widened(&Magnitude::power_of_two(WIDE));
         }
         let u = self.place(time, bits);
-        let value = self.antiderivative.value(&u, bits).multiply_rational(&self.half, bits);
+        let value = self.antiderivative.value(&u, bits).multiply(&self.half, bits);
         value.add(&self.offset, bits)
     }
 }
 
 impl Primitive {
+    /// The cell whose polynomial is taken for a time.
+    fn cell(&self, time: &Ball) -> Option<&Cell> {
+        let cell = self.cells.partition_point(|cell| cell.until < *time.midpoint());
+        self.cells.get(cell).or(self.cells.last())
+    }
+
     /// The integral from the start of the first cell to a time.
     fn until(&self, time: &Ball, bits: u64) -> Ball {
-        let middle = Rational::from(time.midpoint());
-        let cell = self.cells.partition_point(|cell| cell.to < middle);
-        match self.cells.get(cell).or(self.cells.last()) {
-            Some(cell) => cell.until(time, bits),
-            None => Ball::zero(),
-        }
+        self.cell(time).map_or_else(Ball::zero, |cell| cell.until(time, bits))
     }
 }
 

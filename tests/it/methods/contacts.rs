@@ -176,6 +176,21 @@ fn a_tolerance_is_met_without_a_closed_form() {
     }
 }
 
+/// What is not known to stay closed is not answered as if it did: a bar that is held between walls presses on them for
+/// ever, but is not followed for ever.
+#[test]
+fn contacts_are_followed_before_they_count_as_closed() {
+    let text = "scene \"Held\"\nbar rod { impedance = 1, travel = 1, velocity = 1/10, strain = -1 }\n\
+        line fixed | rod - fixed\ncontacts open\nobserve v = velocity(rod.at(1/2))";
+    let problem = Problem::read("held.wave", text).unwrap();
+    let three = Accuracy::Method("modes:3".parse().unwrap(), None);
+    let at = |time| problem.doubles("v", &[number(time)], Limit::Right, three);
+    let (early, late) = (at("20").unwrap().values[0], at("200").unwrap().values[0]);
+    assert!((early - late).abs() < 1e-12, "{early} {late}: a period later all is the same");
+    let refused = at("20001/2").unwrap_err().to_string();
+    assert!(refused.starts_with("more than 5000 cells"), "{refused}");
+}
+
 /// A single time, also one before which and after which all is zero.
 #[test]
 fn single_times_have_values() {
