@@ -150,6 +150,7 @@ fn kind(error: &ProblemError) -> Kind {
         },
         ProblemError::Undecided { .. } => Kind::AccuracyNotReached,
         ProblemError::LocalContact { .. }
+        | ProblemError::NoClosedForm { .. }
         | ProblemError::ModelOfLocalContact(_)
         | ProblemError::EnergyHasNoPieces(_)
         | ProblemError::NoCommonPeriods(_)
@@ -292,6 +293,9 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
             "ask for an observable, or leave out `contacts open`"
         }
         ProblemError::Equations(_) => DESCRIBE,
+        ProblemError::NoClosedForm { .. } => {
+            "ask for values of its observables, which any line has"
+        }
         ProblemError::ModelOfLocalContact(_) => "ask for tested values, by the method of steps",
         ProblemError::NoPeriods(_)
         | ProblemError::NoPeriodsWhereContactsOpen

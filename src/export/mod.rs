@@ -10,6 +10,7 @@ mod explain;
 mod forms;
 mod formula;
 mod general;
+mod impact;
 pub mod lines;
 mod names;
 mod notation;
@@ -27,6 +28,7 @@ pub use formula::{
     Formula, Head, LATEX_WIDTH, TEXT_WIDTH, expression_text, latex, latex_cases, text,
 };
 pub use general::{assumed_factors, general_form, operator_names, operator_of};
+pub use impact::first_contact;
 pub use names::latex_name;
 pub use notation::Notation;
 pub use prose::{capitalised, wrapped};

@@ -59,6 +59,8 @@ pub(crate) enum Tree {
     Exponential(Sign, Box<Tree>),
     /// `cos(…)` or `sin(…)`.
     Oscillation(Circular, Box<Tree>),
+    /// Another function, by its name.
+    Function(&'static str, Box<Tree>),
     /// The square root of a positive integer; times the imaginary unit if true.
     Root(Integer, bool),
     /// `L_k(x)`, a Laguerre polynomial: index and argument.
@@ -156,7 +158,7 @@ impl Tree {
             Tree::Sum(terms) | Tree::Bracket(terms) => terms.iter().any(|term| term.1.is_tall()),
             Tree::Product(factors) => factors.iter().any(Tree::is_tall),
             Tree::Power(base, _) => base.is_tall(),
-            Tree::Oscillation(_, angle) => angle.is_tall(),
+            Tree::Oscillation(_, argument) | Tree::Function(_, argument) => argument.is_tall(),
             Tree::Symbol(_)
             | Tree::Root(..)
             | Tree::Exponential(..)

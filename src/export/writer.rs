@@ -163,6 +163,7 @@ impl<'a> Writer<'a> {
             Tree::Symbol(symbol) => self.symbol(symbol),
             Tree::Root(radicand, imaginary) => n.root(radicand, *imaginary),
             Tree::Oscillation(wave, angle) => n.function(wave.name(), &self.flat(angle)),
+            Tree::Function(name, argument) => n.function(name, &self.flat(argument)),
             Tree::Sum(terms) | Tree::Bracket(terms) => self.inner(terms),
             Tree::Monomial(_) | Tree::Product(_) => {
                 let mut writer = Writer::new(self.notation, self.names);

@@ -22,7 +22,7 @@ pub enum NetworkError {
     Unobservable { name: String, reason: Mistake },
     #[error(
         "the local contact `{0}` only pushes, with a power of its compression, so this scene has no \
-         recurrence and no exact solution"
+         recurrence, and no exact solution behind its first contact"
     )]
     NotLinear(String),
 }

@@ -20,8 +20,12 @@ impl Problem {
     pub fn constants(&self, text: Option<&str>) -> Result<Vec<String>, ProblemError> {
         let Ok(network) = self.network() else { return Ok(Vec::new()) };
         let (model, scene) = (network.model(), network.scene());
-        let unfolded = network.unfold(&vec![0; network.lattice().periods().len()])?;
-        let constants = unfolded.recurrence().constants();
+        let unfolded = match network.local_contact() {
+            Some(_) => None,
+            None => Some(network.unfold(&vec![0; network.lattice().periods().len()])?),
+        };
+        let constants =
+            unfolded.as_ref().map_or(&*model.constants, |own| own.recurrence().constants());
         let mut lines = Vec::new();
         if scene.dimensional {
             let unit = |value: &Root, unit: &str| {

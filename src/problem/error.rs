@@ -1,5 +1,6 @@
 //! Why a problem has no answer.
 
+use super::NoClosedForm;
 use crate::answer::{InvalidMethod, InvalidTolerance, WayError};
 use crate::field::FieldError;
 use crate::history::HistoryError;
@@ -51,6 +52,8 @@ pub enum ProblemError {
         /// The spring to put in its place, as the remedy tells it: the equivalent one where it is known.
         spring: String,
     },
+    #[error("the first contact at `{contact}` has no closed form: {why}")]
+    NoClosedForm { contact: String, why: NoClosedForm },
     #[error("where contacts open there are no periods and no counted echoes")]
     NoPeriodsWhereContactsOpen,
     #[error("with the local contact `{0}` there are no echoes and periods")]

@@ -26,6 +26,7 @@ mod measures;
 mod methods;
 mod models;
 mod phases_fields;
+mod rise;
 mod root_formulas;
 mod roots;
 mod scene_language;

@@ -2,6 +2,7 @@
 
 use super::arguments::{Derive, Format};
 use super::failure::Failure;
+use super::first_contact;
 use super::input;
 use super::json;
 use super::progress;
@@ -16,6 +17,9 @@ use wavestep::solution::ObservedStretch;
 
 pub fn run(options: &Derive) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;
+    if let Some(derived) = first_contact::derive(&problem, options)? {
+        return Ok(derived);
+    }
     let derived = match options.explain {
         true => explanation(&problem, options)?,
         false => {

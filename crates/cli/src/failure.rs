@@ -183,6 +183,7 @@ fn usual(cause: &ProblemError) -> Option<&'static str> {
             _ => "see `wavestep field --help`",
         },
         ProblemError::ModelOfLocalContact(_) => STEPS,
+        ProblemError::NoClosedForm { .. } => "ask for values, with `eval`, which follows any line",
         ProblemError::NoCommonPeriods(_) => "evaluate it with `wavestep eval`, or derive its waves",
         ProblemError::UnknownOrder(_) => {
             "give values with --set, or evaluate it with `wavestep eval`"

@@ -20,6 +20,7 @@ mod field;
 mod figure;
 mod find;
 mod find_equal;
+mod first_contact;
 mod found;
 mod generate;
 mod hertz;

@@ -12,6 +12,7 @@ mod page;
 mod passivity;
 mod phases;
 mod positive;
+mod pressing;
 mod random;
 mod refusals;
 mod series;

@@ -9,6 +9,7 @@ mod documents;
 mod events;
 mod extremes;
 mod find;
+mod first_contact;
 mod json;
 mod local_contact;
 mod lock;

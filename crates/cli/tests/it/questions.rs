@@ -141,14 +141,20 @@ fn kinds() -> Vec<Kind> {
             charted: ["hopkinson-with-release", "500us"],
             ..kind("open, with units", "open-units", text!("contacts-open-with-units"), "s", metric)
         },
-        kind("local contact, long bars", "long", text!("local-contact-long-bars"), "s", short),
-        kind(
-            "local contact, finite bars",
-            "finite",
-            text!("local-contact-finite-bars"),
-            "s",
-            short,
-        ),
+        Kind {
+            derived: "0 <= p < 1; nothing returns",
+            ..kind("local contact, long bars", "long", text!("local-contact-long-bars"), "s", short)
+        },
+        Kind {
+            derived: "0 <= p < 1, as long as t <= 2: then a wave may return through striker",
+            ..kind(
+                "local contact, finite bars",
+                "finite",
+                text!("local-contact-finite-bars"),
+                "s",
+                short,
+            )
+        },
     ]
 }
 

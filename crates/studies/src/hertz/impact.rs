@@ -30,28 +30,30 @@ pub struct LongBars {
 }
 
 impl LongBars {
-    /// Of the law, a force with the compression it belongs to, the impedances, and the velocity at which
-    /// the bars approach each other.
+    /// Of the law, a force with the compression it belongs to, the impedances of the bars, one before a wall, and the
+    /// velocity at which they approach each other.
     /// All have to be certainly positive.
     pub fn new(
         law: PowerLaw,
         (force, compression): (Ball, Ball),
-        [first, second]: [Ball; 2],
+        impedances: &[Ball],
         velocity: Ball,
         precision: u64,
     ) -> Result<LongBars, HertzError> {
-        let given = [
+        let mut given = vec![
             ("the force of the contact", &force),
             ("the compression of the contact", &compression),
-            ("the impedance of the first bar", &first),
-            ("the impedance of the second bar", &second),
             ("the velocity at which the bars meet", &velocity),
         ];
+        given.extend(impedances.iter().map(|own| ("the impedance of a bar", own)));
         let zero = Ball::zero();
         if let Some((name, value)) = given.iter().find(|(_, value)| !zero.is_below(value)) {
             return Err(HertzError::NotPositive(name, value.to_string()));
         }
-        let yielding = first.reciprocal(precision)?.add(&second.reciprocal(precision)?, precision);
+        let mut yielding = Ball::zero();
+        for own in impedances {
+            yielding = yielding.add(&own.reciprocal(precision)?, precision);
+        }
         let largest_force = velocity.multiply(&yielding.reciprocal(precision)?, precision);
         let share = largest_force.multiply(&force.reciprocal(precision)?, precision);
         let share = share.power(&law.exponent().recip(), precision)?;

@@ -13,8 +13,8 @@
 //! t̄(φ) = ∫₀^{φ^{1/m}} dβ/(1 − β^m) = (1/m) ∫₀^φ s^{1/m−1}/(1 − s) ds,
 //! ```
 //!
-//! `−ln(1 − φ)` for m = 1, and an expression in logarithm and arctangent for Hertz's m = 3/2 (6.51).
-//! For other m there are two series. Up to the middle, `φ ≤ 1/2`,
+//! logarithms and arctangents for rational m ([`Rise`]; 6.51 for Hertz's m = 3/2). For any m there are two series. Up to
+//! the middle, `φ ≤ 1/2`,
 //!
 //! ```text
 //! t̄ = β Σ_j φ^j/(1 + jm),                       what is left out ≤ β φ^J/(1 − φ);
@@ -33,6 +33,7 @@ use super::error::HertzError;
 use crate::ratio;
 use num_traits::{One, Signed, ToPrimitive};
 use wavestep::ball::{Ball, Magnitude, Precisions};
+use wavestep::solution::Rise;
 use wavestep_polynomial::Rational;
 
 /// The exponent of a contact.
@@ -94,7 +95,7 @@ impl PowerLaw {
     }
 
     /// The time `t̄ = t h^{1/m} V^{1−1/m}` at which the force has a share of its largest value.
-    /// A few logarithms, or for exponents other than 1 and 3/2 as many products as bits.
+    /// As many logarithms as [`Rise`] has poles, or where that is no use as many products as bits.
     pub fn time(&self, share: &Rational, precision: u64) -> Result<Ball, HertzError> {
         if share.is_negative() || *share >= Rational::one() {
             return Err(HertzError::Share(share.to_string()));
@@ -105,20 +106,21 @@ impl PowerLaw {
         let deficit = Rational::one() - share;
         // How far the deficit, or the share, is below 1: closed forms take it from the deficit.
         let below_one = |x: &Rational| x.denom().bits().saturating_sub(x.numer().bits());
-        let working = precision + below_one(&deficit) + below_one(share) + 16;
+        // For small shares `t̄ ≈ φ^{1/m}`.
+        let steep = self.exponent.recip().ceil().to_integer().to_u64().unwrap_or(1);
+        let working = precision + below_one(&deficit) + steep * below_one(share) + 16;
         let force = exact(share, working);
         let deficit = exact(&deficit, working);
-        if self.exponent.is_one() {
-            return Ok(deficit.ln(working)?.negate());
+        match Rise::new(&self.exponent) {
+            Some(rise) => {
+                let p = force.power(&ratio(1, rise.exponents[0].into()), working)?;
+                closed_time(&rise, &p, &deficit, working)
+            }
+            None => self.time_by_series(&force, &deficit, working),
         }
-        if self.exponent == ratio(3, 2) {
-            return hertz_time(&force.power(&ratio(1, 3), working)?, &deficit, working);
-        }
-        self.time_by_series(&force, &deficit, working)
     }
 
-    /// The same for every m by the two series: the second derivation for m = 1 and 3/2, where tests
-    /// hold it against the closed forms.
+    /// The same for every m by the two series: a second derivation, which tests hold against the closed forms.
     pub fn time_by_series(
         &self,
         force: &Ball,
@@ -309,24 +311,43 @@ fn rational(value: f64) -> Rational {
     Rational::from(&ball)
 }
 
-/// 6.51 with `p = φ^{1/3}` and `1 − φ = 1 − p³`:
-/// `t̄ = (2/3) {½ ln[(p² + p + 1)/(1 − p)²] − √3 arctan[(2p + 1)/√3] + √3 π/6}`.
+/// The closed form by `p = φ^{1/P}` and `1 − φ`.
 ///
-/// `(1 − p)(p² + p + 1) = 1 − p³`, so the logarithm is `½ ln[(p² + p + 1)³/(1 − φ)²]`, without a difference
-/// of near numbers. For small p the terms cancel to `t̄ ≈ p²`, so it takes more bits.
-fn hertz_time(p: &Ball, deficit: &Ball, precision: u64) -> Result<Ball, HertzError> {
-    let lost = 2 * p.magnitude().top().map_or(0, |top| (-top).max(0) as u64);
-    let bits = precision + lost + 8;
-    let third = ratio(1, 3);
-    let sum = p.multiply(p, bits).add(p, bits).add(&one(), bits);
-    let logarithm = sum.ln(bits)?.multiply_rational(&ratio(3, 2), bits);
-    let logarithm = logarithm.subtract(&deficit.ln(bits)?, bits);
-    let root = Ball::square_root(&ratio(3, 1), bits).expect("three is positive");
-    let argument = p.multiply_rational(&ratio(2, 1), bits).add(&one(), bits);
-    let argument = argument.multiply(&root, bits).multiply_rational(&third, bits);
-    let angle = Ball::pi(bits).multiply_rational(&ratio(1, 6), bits);
-    let angle = argument.arctan(bits)?.subtract(&angle, bits).multiply(&root, bits);
-    Ok(logarithm.subtract(&angle, bits).multiply_rational(&ratio(2, 3), bits))
+/// `1 − p^P` is the product of `1 − p` and what the other logarithms are of, so that `ln(1 − p)` is `ln(1 − φ)` without
+/// these, not that of a difference of near numbers. For small p the terms cancel to `t̄ ≈ p^Q`, so it takes more bits.
+fn closed_time(rise: &Rise, p: &Ball, deficit: &Ball, precision: u64) -> Result<Ball, HertzError> {
+    let small = p.magnitude().top().map_or(0, |top| (-top).max(0) as u64);
+    let bits = precision + u64::from(rise.exponents[1]) * small + 8;
+    let mut sum = deficit.ln(bits)?.negate();
+    if rise.has_second_real_pole() {
+        sum = sum.add(&one().add(p, bits).ln(bits)?.multiply_rational(&ratio(2, 1), bits), bits);
+    }
+    for angles in &rise.pairs {
+        let of = |turn: &Rational| {
+            Ball::pi(bits).multiply_rational(&(turn * ratio(2, 1)), bits).cos_sin(bits)
+        };
+        let [(cosine, sine), (share, turned)] = [of(&angles[0])?, of(&angles[1])?];
+        let along = one().subtract(&p.multiply(&cosine, bits), bits);
+        let across = p.multiply(&sine, bits);
+        // p² − 2 p cos a + 1
+        let square = along.multiply(&along, bits).add(&across.multiply(&across, bits), bits);
+        let logarithm = square.ln(bits)?.multiply(&one().subtract(&share, bits), bits);
+        let angle = across.multiply(&along.reciprocal(bits)?, bits).arctan(bits)?;
+        let angle = angle.multiply(&turned, bits).multiply_rational(&ratio(2, 1), bits);
+        sum = sum.add(&logarithm, bits).add(&angle, bits);
+    }
+    let mut time = sum.multiply_rational(&rise.factor(), bits);
+    let mut power = one();
+    let mut powers = rise.powers.iter().rev().peekable();
+    for exponent in 1.. {
+        let Some((coefficient, next)) = powers.peek() else { break };
+        power = power.multiply(p, bits);
+        if *next == exponent {
+            time = time.subtract(&power.multiply_rational(coefficient, bits), bits);
+            powers.next();
+        }
+    }
+    Ok(time)
 }
 
 /// The constant of 6.54, `[2√2/(3π (1 − ν²))]^{2/3}`: two equal bars of radius r with noses of radius R

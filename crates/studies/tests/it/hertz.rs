@@ -35,13 +35,16 @@ fn shares() -> Vec<Rational> {
 
 #[test]
 fn closed_forms_and_series_agree() {
-    for exponent in [ratio(1, 1), ratio(3, 2)] {
-        let law = PowerLaw::new(exponent).unwrap();
+    let exponents = [(1, 1), (3, 2), (2, 1), (5, 2), (4, 3), (3, 1), (7, 2), (12, 5), (24, 1)];
+    let below_one = [(1, 2), (2, 5), (1, 10), (3, 8), (23, 24)];
+    for (top, bottom) in exponents.into_iter().chain(below_one) {
+        let law = PowerLaw::new(ratio(top, bottom)).unwrap();
+        assert!(wavestep::solution::Rise::new(law.exponent()).is_some());
         for share in shares() {
             let closed = law.time(&share, 160).unwrap();
             let deficit = ratio(1, 1) - &share;
             let series = law.time_by_series(&ball(&share), &ball(&deficit), 200).unwrap();
-            assert!(agree(&closed, &series, 120), "{share}: {closed} {series}");
+            assert!(agree(&closed, &series, 120), "{top}/{bottom} {share}: {closed} {series}");
         }
     }
 }
@@ -194,7 +197,7 @@ fn the_constant_of_equal_bars_follows_from_the_general_case() {
     let bars = LongBars::new(
         PowerLaw::hertz(),
         (ball(&force), ball(&ratio(1, 2))),
-        [pi.clone(), pi],
+        &[pi.clone(), pi],
         ball(&velocity),
         200,
     );
@@ -215,7 +218,7 @@ fn bad_input_is_named() {
     assert!(matches!(law.share(&ratio(-1, 10), 60), Err(HertzError::Time(_))));
     assert!(matches!(equal_bars_constant(&ratio(3, 5), 60), Err(HertzError::Poisson(_))));
     let one = || ball(&ratio(1, 1));
-    let still = LongBars::new(law, (one(), one()), [one(), one()], ball(&ratio(0, 1)), 60);
+    let still = LongBars::new(law, (one(), one()), &[one(), one()], ball(&ratio(0, 1)), 60);
     let told = still.unwrap_err().to_string();
     assert!(told.contains("velocity") && told.contains("must be positive"), "{told}");
 }
@@ -267,4 +270,37 @@ fn what_is_followed_is_the_closed_form() {
             assert_eq!(followed, closed.to_decimal(20).midpoint().to_string(), "{scene} at {time}");
         }
     }
+}
+
+/// Two steel bars until the first reflection returns, at 2L/c = 120 µs: the largest force until then, and the instants at
+/// which shares of the limit are there, in twenty digits.
+#[test]
+fn the_closed_form_holds_until_the_first_reflection_returns() {
+    use wavestep_studies::hertz::ContactOfScene;
+    let text = "scene \"A\"\nmaterial steel { modulus = 200 GPa, density = 8000 kg/m^3 }\n\
+        bar striker { material = steel, diameter = 20 mm, length = 300 mm, velocity = 5 m/s }\n\
+        hertz nose { radius = 50 mm, material = steel, poisson = 3/10 }\n\
+        bar rod { material = steel, diameter = 25 mm, length = 400 mm }\n\
+        line free - striker - nose - rod - free\nobserve force = force(nose)";
+    let problem = wavestep::Problem::read("steel.wave", text).unwrap();
+    let contact = ContactOfScene::new(problem.scaled().unwrap(), 120).unwrap();
+    let signal = problem.signal("force").unwrap();
+    let returns = problem.time("time", "120us").unwrap();
+    assert!(contact.first_return.as_ref().unwrap().contains(&returns));
+    let told = |ball: &Ball| ball.to_decimal(20).midpoint().to_string();
+    let closed = contact.bars.force(&Ball::from_rational(&returns, 200)).unwrap();
+    assert_eq!(signal.at(returns.clone(), 20).unwrap().to_text(20), told(&closed));
+    for share in [ratio(1, 10), ratio(1, 2), ratio(99, 100)] {
+        let time = contact.bars.rise_time(&share).unwrap().to_decimal(36).midpoint().to_rational();
+        assert!(time < returns);
+        let reached = contact.bars.largest_force.multiply_rational(&share, 120);
+        assert_eq!(signal.at(time, 20).unwrap().to_text(20), told(&reached), "{share}");
+    }
+    // A little later the reflection is felt.
+    let later = problem.time("time", "130us").unwrap();
+    let closed = contact.bars.force(&Ball::from_rational(&later, 200)).unwrap();
+    assert_ne!(
+        signal.at(later, 6).unwrap().to_text(6),
+        closed.to_decimal(6).midpoint().to_string()
+    );
 }

@@ -1,0 +1,216 @@
+//! One cell beside a pressed local contact: what is told of it holds for exact motions, or the cell is too long.
+
+use wavestep::ball::{Ball, Magnitude, Number};
+use wavestep::enclosure::Numbers;
+use wavestep::history::motion::Motion;
+use wavestep::history::passivity::{Passivity, StateError};
+use wavestep::history::pressing::TooLong;
+use wavestep::history::series::{CellNorm, Series, Truncation};
+use wavestep::language::{Source, read_scene};
+use wavestep::network::{Contacts, Layout, Network, Node, System};
+use wavestep_polynomial::Rational;
+
+const BITS: u64 = 64;
+
+fn ratio(top: i64, bottom: i64) -> Rational {
+    Rational::new(top.into(), bottom.into())
+}
+
+fn power_of_two(exponent: i64) -> Rational {
+    Rational::from(&Magnitude::power_of_two(exponent))
+}
+
+fn exact(value: &Rational) -> Number {
+    Number::Exact(value.clone())
+}
+
+/// The node with the local contact of a line.
+struct Contact {
+    system: System<Number>,
+    passivity: Passivity,
+    cut: Truncation,
+}
+
+impl Contact {
+    /// The law is `X = α^m`, by its force at `2^scale`: the larger this is, the sooner series are cut off.
+    fn new(line: &str, exponent: &Rational, scale: i64) -> Contact {
+        let text = format!(
+            "scene \"A\"\nbar a {{ impedance = 2 }}\nbar b {{ impedance = 2 }}\nmass m {{ mass = 1 }}\n\
+             hertz tip {{ force = {}, compression = {}, exponent = {exponent} }}\nline {line}\n\
+             observe x = compression(tip)",
+            power_of_two((exponent * ratio(scale, 1)).to_integer().try_into().unwrap()),
+            power_of_two(scale),
+        );
+        let scene = read_scene(&Source::new("scene", text).unwrap(), &Default::default()).unwrap();
+        let network = Network::new(&scene).unwrap();
+        let layout = Layout::of(network.scene(), network.model(), Contacts::Links);
+        let is_own = |node: &&Node<_>| node.local_contact(0).is_some();
+        let numbers = Numbers::new(&[]);
+        let node = layout.nodes.iter().find(is_own).unwrap();
+        let node = node.map(|value| numbers.number(value, 2 * BITS)).unwrap();
+        let system = System::of(&node, |_| true, 2 * BITS).unwrap();
+        let passivity = Passivity::of(&node, &system).unwrap();
+        let longest = Magnitude::power_of_two(2);
+        let top = passivity.rate().top().unwrap_or(0).max(8);
+        Contact { system, passivity, cut: Truncation { longest, ..Truncation::new(BITS, top) } }
+    }
+
+    /// The motion from a state, where this wave arrives from the left, with the force in the contact.
+    fn press(
+        &self,
+        state: &[Number],
+        errors: &[StateError],
+        (wave, length): (&Rational, &Rational),
+    ) -> Result<(Motion, Series), TooLong> {
+        let norm = CellNorm::new(Magnitude::from_rational(length), &self.cut);
+        let wave = Series::constant(exact(wave));
+        let mut input = vec![wave, Series::zero(), Series::zero()];
+        let known = (state, errors);
+        let motion = self.system.press(&self.passivity, known, &mut input, (&norm, &self.cut))?;
+        Ok((motion, input.pop().unwrap()))
+    }
+}
+
+const BARS: &str = "endless - a - tip - b - endless";
+
+/// `α' = 1 − α²` from a on: `(a + tanh t)/(1 + a tanh t)`.
+fn between_bars(start: &Rational, time: &Rational) -> Ball {
+    let (bits, one) = (4 * BITS, Ball::from_integer(&1.into()));
+    let fallen = Ball::from_rational(&(time * ratio(-2, 1)), bits).exp(bits).unwrap();
+    let sum = one.add(&fallen, bits).reciprocal(bits).unwrap();
+    let tanh = one.subtract(&fallen, bits).multiply(&sum, bits);
+    let below = one.add(&tanh.multiply_rational(start, bits), bits).reciprocal(bits).unwrap();
+    Ball::from_rational(start, bits).add(&tanh, bits).multiply(&below, bits)
+}
+
+/// Whether a series may have this value at a time.
+fn encloses(told: &Series, time: &Rational, value: &Ball, cut: &Truncation) -> bool {
+    told.value(&exact(time), cut).ball(BITS).subtract(value, 4 * BITS).contains_zero()
+}
+
+/// From an exact state; where few terms do, what they leave out is seen.
+#[test]
+fn cells_hold_the_motion_of_two_bars_or_are_too_long() {
+    for (start, scale) in
+        [(ratio(1, 2), 0), (ratio(1, 2), 20), (ratio(5, 2), 20), (ratio(1, 8), 16)]
+    {
+        let contact = Contact::new(BARS, &ratio(2, 1), scale);
+        let mut told = [0, 0];
+        for length in (-10..3).map(power_of_two) {
+            let state = [exact(&start)];
+            let errors = contact.passivity.errors(&state);
+            let (motion, force) = match contact.press(&state, &errors, (&ratio(1, 2), &length)) {
+                Ok(found) => found,
+                Err(TooLong(shorter)) => {
+                    assert!(shorter < length, "{shorter} is no shorter than {length}");
+                    told[1] += 1;
+                    continue;
+                }
+            };
+            told[0] += 1;
+            for time in [&length * ratio(1, 3), length.clone()] {
+                let there = between_bars(&start, &time);
+                let square = there.multiply(&there, 4 * BITS);
+                let told = format!("{start} {scale} at {time} of {length}");
+                assert!(encloses(&motion.state[0], &time, &there, &contact.cut), "{told}");
+                assert!(encloses(&force, &time, &square, &contact.cut), "{told}: force");
+            }
+        }
+        assert!(told[0] > 2 && told[1] > 0, "{told:?}");
+    }
+}
+
+/// An error of the state is all there at the end of a short cell, in compression and force.
+#[test]
+fn errors_are_carried_through_a_cell() {
+    let (contact, start) = (Contact::new(BARS, &ratio(2, 1), 0), ratio(1, 2));
+    let off = power_of_two(-20);
+    let state = [Number::Enclosed(Ball::between(&(&start - &off), &(&start + &off), BITS))];
+    let errors = contact.passivity.errors(&state);
+    let length = power_of_two(-8);
+    let (motion, force) = contact.press(&state, &errors, (&ratio(1, 2), &length)).unwrap();
+    let at = exact(&length);
+    let (ended, _) = contact.system.ended(&contact.passivity, &motion, &errors, &at, &contact.cut);
+    for start in [&start - &off, &start + &off] {
+        let there = between_bars(&start, &length);
+        let square = there.multiply(&there, 4 * BITS);
+        assert!(encloses(&motion.state[0], &length, &there, &contact.cut));
+        assert!(encloses(&force, &length, &square, &contact.cut));
+        assert!(ended[0].ball(BITS).subtract(&there, 4 * BITS).contains_zero(), "{:?}", ended[0]);
+    }
+}
+
+/// While its force is below the precision, a contact that begins counts as light: what it pushes is an error.
+#[test]
+fn what_a_light_contact_pushes_is_an_error() {
+    let contact = Contact::new(BARS, &ratio(2, 1), 26);
+    let (state, length) = ([Number::zero()], power_of_two(-8));
+    let errors = contact.passivity.errors(&state);
+    let (motion, force) = contact.press(&state, &errors, (&ratio(1, 2), &length)).unwrap();
+    assert!(force.coefficients.is_empty(), "no light contact");
+    let there = between_bars(&Rational::default(), &length);
+    assert!(encloses(&motion.state[0], &length, &there, &contact.cut));
+    assert!(encloses(&force, &length, &there.multiply(&there, 4 * BITS), &contact.cut));
+}
+
+/// A mass that a bar pulls away from a wall, `α' = v`, `v' = 4 w − 2 v − α^m`, by small steps.
+fn beside_a_wall([mut v, mut a]: [f64; 2], wave: f64, time: f64) -> [f64; 2] {
+    let steps = 4000;
+    let h = time / f64::from(steps);
+    let slope = |[v, a]: [f64; 2]| [4.0 * wave - 2.0 * v - a * a.sqrt(), v];
+    for _ in 0..steps {
+        let after = |by: f64, [dv, da]: [f64; 2]| slope([v + by * dv, a + by * da]);
+        let k1 = slope([v, a]);
+        let k2 = after(h / 2.0, k1);
+        let k3 = after(h / 2.0, k2);
+        let k4 = after(h, k3);
+        let mean = |i: usize| h * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]) / 6.0;
+        (v, a) = (v + mean(0), a + mean(1));
+    }
+    [v, a]
+}
+
+/// The acceleration alone brings the contact near its end: a disc of times is small enough only if all of the box
+/// stays in it. And errors of such a state grow.
+#[test]
+fn cells_hold_the_motion_of_a_mass_or_are_too_long() {
+    let contact = Contact::new("endless - a - m - tip - fixed", &ratio(3, 2), 0);
+    let wave = -25.0;
+    let mut told = [0, 0];
+    for off in [0.0, 1.0 / 1024.0] {
+        for length in (-9..-2).map(power_of_two) {
+            let around = |middle: i64| match off == 0.0 {
+                true => Number::integer(middle),
+                false => Number::integer(middle).widened(&Magnitude::power_of_two(-10), BITS),
+            };
+            let state = [around(0), around(1)];
+            let errors = contact.passivity.errors(&state);
+            let moved = (&Rational::from_float(wave).unwrap(), &length);
+            let Ok((motion, _)) = contact.press(&state, &errors, moved) else {
+                told[1] += 1;
+                continue;
+            };
+            told[0] += 1;
+            let at = exact(&length);
+            let (ended, _) =
+                contact.system.ended(&contact.passivity, &motion, &errors, &at, &contact.cut);
+            for (dv, da) in [(off, off), (off, -off), (-off, off), (-off, -off)] {
+                let time = num_traits::ToPrimitive::to_f64(&length).unwrap();
+                let there = beside_a_wall([dv, 1.0 + da], wave, time);
+                for (place, value) in there.into_iter().enumerate() {
+                    // As far as small steps tell.
+                    let value = Ball::from_rational(&Rational::from_float(value).unwrap(), 128)
+                        .widened(&Magnitude::power_of_two(-36));
+                    let told = format!("{place} after {length}, off by {off}");
+                    assert!(
+                        encloses(&motion.state[place], &length, &value, &contact.cut),
+                        "{told}"
+                    );
+                    let rest = ended[place].ball(BITS).subtract(&value, 128);
+                    assert!(rest.contains_zero(), "{told}: {rest}");
+                }
+            }
+        }
+    }
+    assert!(told[0] > 4 && told[1] > 2, "{told:?}");
+}
