@@ -34,10 +34,17 @@ struct Contact {
 impl Contact {
     /// The law is `X = α^m`, by its force at `2^scale`: the larger this is, the sooner series are cut off.
     fn new(line: &str, exponent: &Rational, scale: i64) -> Contact {
+        let elements = [
+            ("a", "bar a { impedance = 2, velocity = 1 }"),
+            ("b", "bar b { impedance = 2 }"),
+            ("m", "mass m { mass = 1 }"),
+        ];
+        let used = |name: &str| line.split(' ').any(|own| own == name);
+        let used = elements.iter().filter(|(name, _)| used(name));
         let text = format!(
-            "scene \"A\"\nbar a {{ impedance = 2 }}\nbar b {{ impedance = 2 }}\nmass m {{ mass = 1 }}\n\
-             hertz tip {{ force = {}, compression = {}, exponent = {exponent} }}\nline {line}\n\
+            "scene \"A\"\n{}hertz tip {{ force = {}, compression = {}, exponent = {exponent} }}\nline {line}\n\
              observe x = compression(tip)",
+            used.map(|(_, own)| format!("{own}\n")).collect::<String>(),
             power_of_two((exponent * ratio(scale, 1)).to_integer().try_into().unwrap()),
             power_of_two(scale),
         );
