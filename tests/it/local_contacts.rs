@@ -70,65 +70,6 @@ fn values_are_those_of_collocation() {
     }
 }
 
-/// Two steel bars, the far one fixed at its end, whose reflections press again: the second contact, and when each of the two
-/// begins and ends, within 10⁻¹² of the largest force and of the time.
-#[test]
-fn the_second_contact_is_that_of_collocation() {
-    let text = "material steel { modulus = 200 GPa, density = 8000 kg/m^3 }\n\
-        bar striker { material = steel, diameter = 20 mm, length = 300 mm, velocity = 5 m/s }\n\
-        hertz nose { radius = 50 mm, material = steel, poisson = 3/10 }\n\
-        bar rod { material = steel, diameter = 20 mm, length = 400 mm }\n\
-        line free - striker - nose - rod - fixed\n\
-        observe force = force(nose)\nobserve compression = compression(nose)";
-    let problem = problem(text);
-    let solved = |name: &str, time: &Rational| {
-        let accuracy = Accuracy::Method(Method::Steps { tolerance: 1e-13 }, None);
-        problem.doubles(name, std::slice::from_ref(time), Limit::Right, accuracy).unwrap().values[0]
-    };
-    let exact = |time: f64| Rational::from_float(time).unwrap();
-    let history = problem.events_until("500us", 14).unwrap();
-    // The bars touch at the start.
-    let changes: Vec<f64> = history.events.iter().map(|event| event.time.to_f64()).collect();
-    assert!(changes.len() == 4 && changes[0] == 0.0, "{changes:?}");
-    for change in &changes[1..] {
-        let (mut at, mut before) = (*change, change - 1e-9);
-        let mut last = solved("compression", &exact(before));
-        for _ in 0..4 {
-            let here = solved("compression", &exact(at));
-            if here == last {
-                break;
-            }
-            let next = at - here * (at - before) / (here - last);
-            (before, last, at) = (at, here, next);
-        }
-        assert!((at / change - 1.0).abs() < 1e-12, "{at} and {change}");
-    }
-    let (begins, ends) = (changes[2], changes[3]);
-    for part in [0.1, 0.4, 0.8] {
-        let time = exact(begins + part * (ends - begins));
-        let proven = problem.signal("force").unwrap().at(time.clone(), 15).unwrap().to_f64();
-        let tested = solved("force", &time);
-        assert!(proven > 1e3 && (proven - tested).abs() < 1e-12 * 4e4, "{proven} and {tested}");
-    }
-}
-
-/// With the exponent 1 the first contact ends as that of a spring whose contacts open, in twenty digits.
-#[test]
-fn with_exponent_one_it_ends_as_a_spring_does() {
-    let text = "bar a { impedance = 2, travel = 3/2, velocity = 1 }\nTIP\nbar b { impedance = 1, travel = 5/4 }\n\
-                LINE\nobserve velocity = velocity(b.left)";
-    let local = text.replace("TIP", "hertz tip { stiffness = 7/3, exponent = 1 }");
-    let local = local.replace("LINE", "line free - a - tip - b - fixed");
-    let spring = text.replace("TIP", "spring tip { stiffness = 7/3 }");
-    let spring = spring.replace("LINE", "line free - a | tip - b - fixed\ncontacts open");
-    let ends = [local, spring].map(|text| {
-        let history = problem(&text).events_until("8", 20).unwrap();
-        let opening = |event: &&wavestep::Event| event.kind == wavestep::EventKind::Opening;
-        history.events.iter().find(opening).unwrap().time.to_text(20)
-    });
-    assert_eq!(ends[0], ends[1]);
-}
-
 /// Where both bars are free the momentum is what it was; what is in the contact and in the bars is told by `events`.
 #[test]
 fn nothing_is_lost_between_free_bars() {
