@@ -169,7 +169,7 @@ impl Angles {
             let stand_in = Symbol::new(&name).expect("a name");
             let pi = Fraction::symbol(&Symbol::new("pi").expect("a name"));
             let angle = of(&pi.scale(&(turn * ratio(2, 1))));
-            let written = both(|n| n.function("cos", &write_flat(&[angle.clone()], n)));
+            let written = both(|n| n.function("cos", &write_flat(std::slice::from_ref(&angle), n)));
             self.0.insert(stand_in.clone(), Name::plain(written));
             Fraction::symbol(&stand_in)
         });

@@ -56,6 +56,6 @@ impl Rise {
 
     /// Whether −1 is a pole.
     pub fn has_second_real_pole(&self) -> bool {
-        self.exponents[0] % 2 == 0
+        self.exponents[0].is_multiple_of(2)
     }
 }
