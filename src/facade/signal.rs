@@ -60,7 +60,7 @@ impl Signal<'_> {
     ///
     /// # Errors
     /// A time before the start; zero digits, or more than [`MAX_DIGITS`](crate::limits::MAX_DIGITS); a symbol
-    /// without a value; a local contact, whose values are [tested](Signal::values_by), not proven.
+    /// without a value.
     ///
     /// # Cost
     /// The waves are solved until that time: after `n` periods about `n²` operations on numbers with so

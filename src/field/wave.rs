@@ -255,7 +255,9 @@ impl<'a> Waves<'a> {
                 None => Ball::zero(),
             };
             let jump = after.subtract(&before, bits).multiply(&factor, bits);
-            if jump.magnitude() > Magnitude::power_of_two(-NO_JUMP_BITS) {
+            // Near the beginning and the end of a local contact little is known of derivatives.
+            let is_known = !jump.contains_zero();
+            if is_known && jump.magnitude() > Magnitude::power_of_two(-NO_JUMP_BITS) {
                 return Ok(true);
             }
             factor = factor.multiply(&self.time_unit(bits)?, bits);

@@ -86,6 +86,20 @@ impl Guard {
         }
     }
 
+    /// The force of a local contact.
+    pub fn force_mut(&mut self) -> Option<&mut Series> {
+        match &mut self.kept {
+            Kept::Compression(_, force) => Some(force),
+            Kept::Force | Kept::Gap(_) => None,
+        }
+    }
+
+    /// Whether a local contact has a force that may be taken for zero, since its compression is.
+    pub fn may_be_idle(&self) -> bool {
+        let is_local = matches!(self.kept, Kept::Compression(..)) && !self.is_safe();
+        is_local && beginning(&self.series, &self.starts) != Beginning::Positive
+    }
+
     /// The gap after a time, zero where the contact is closed.
     pub fn gap_after(&self, time: &Number, bits: u64) -> Number {
         match &self.kept {

@@ -641,7 +641,14 @@ impl Engine {
 
     /// Takes over what a node did until an instant.
     fn finish(&mut self, node: usize, planned: Planned) -> Outcome<()> {
-        let Planned { inputs, motion, guards, end, length, .. } = planned;
+        let Planned { mut inputs, mut motion, mut guards, end, length, first } = planned;
+        let pushes = !guards.iter().any(Guard::may_be_idle);
+        // With a tie a contact may open at the end of any cell.
+        let opens = first.is_some() || self.clock.has_ties();
+        let forces = guards.iter_mut().filter_map(Guard::force_mut);
+        for series in forces.chain(&mut inputs).chain(&mut motion.velocities) {
+            series.keep_sign(pushes, opens);
+        }
         let (cut, length) = (self.cut, &length);
         let known = inputs.iter().chain(&motion.state).filter_map(|series| series.roughness);
         let norm = CellNorm::new(length.magnitude(), &cut).of_roughness(known.max());

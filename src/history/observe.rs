@@ -9,14 +9,11 @@ use crate::history::error::HistoryError;
 use crate::history::history::unit;
 use crate::history::moment::Moment;
 use crate::history::part::{NodeQuantity, Part, Source};
-use crate::history::series::Series;
 use crate::network::{
-    ElementLaw, Elements, Energy, Field, Link, Lump, Lumped, Network, Reading, Section, Side, Term,
-    Window,
+    Elements, Energy, Field, Link, Lump, Lumped, Network, Reading, Section, Side, Term, Window,
 };
 use crate::scene::ElementIndex;
 use crate::signal::Limit;
-use wavestep_polynomial::Rational;
 
 type Outcome<T> = Result<T, HistoryError>;
 
@@ -157,49 +154,29 @@ impl Engine {
         square: Integrand,
     ) -> Outcome<Option<Number>> {
         let bits = self.cut.bits;
-        if let Some(energy) = self.energy_of_local_contact(element, (moment, limit))? {
-            return Ok(Some(energy));
-        }
         let Ok(parts) = elements.energy(element) else { return Ok(None) };
+        let read = |reading: &Reading| {
+            let parts = self.reading(elements, reading, &Number::one())?;
+            self.sum_of(&parts, (moment, limit))
+        };
         let mut energy = Number::zero();
         for part in parts {
             let value = match part {
                 Energy::Square(term) => {
-                    let parts = self.reading(elements, &term.of, &Number::one())?;
-                    let value = self.sum_of(&parts, (moment, limit))?;
+                    let value = read(&term.of)?;
                     let square = value.multiply(&value, bits);
                     square.multiply(&self.clock.number(&term.coefficient)?, bits)
+                }
+                Energy::Work(share, lump) => {
+                    let work = read(&Reading::Force(lump))?;
+                    let work = work.multiply(&read(&Reading::Compression(lump))?, bits);
+                    work.multiply(&self.clock.number(&share)?, bits)
                 }
                 Energy::InBar(bar) => self.energy_in(bar, moment, square)?,
             };
             energy = energy.add(&value, bits);
         }
         Ok(Some(energy))
-    }
-
-    /// The energy of a local contact at an instant, `∫ X dα = X α/(m+1)`; none of what is no local contact.
-    fn energy_of_local_contact(
-        &self,
-        element: ElementIndex,
-        (moment, limit): (&Moment, Limit),
-    ) -> Outcome<Option<Number>> {
-        let mut nodes = self.nodes.iter().enumerate();
-        let found = nodes.find_map(|(node, own)| Some((node, own, own.place(element)?)));
-        let Some((number, node, place)) = found else { return Ok(None) };
-        let Lumped { run, law: ElementLaw::LocalContact { exponent, .. }, .. } =
-            &node.elements[place]
-        else {
-            return Ok(None);
-        };
-        let contact = node.contact_right_of(*run).expect("a local contact parts its node");
-        let (start, cell) = self.cell(number, moment, limit)?;
-        let since = self.clock.since(start, moment)?;
-        let value = |series: &Series| series.value(&since, &self.cut);
-        let work =
-            value(&cell.forces[contact]).multiply(&value(&cell.compressions[place]), self.cut.bits);
-        let share =
-            Rational::from_integer(1.into()) / (exponent + Rational::from_integer(1.into()));
-        Ok(Some(work.multiply(&Number::Exact(share), self.cut.bits)))
     }
 
     /// The energy of a bar, of the waves that entered in the last travel time; what comes from the far side of

@@ -13,7 +13,8 @@ use crate::limits::MAX_HISTORY_BITS;
 use crate::network::{Network, Observed, Squared, Term};
 use crate::scene::Dimension;
 use crate::signal::{
-    At, Effort, EvaluateError, Instant, Known, Limit, MAX_FLATNESS, Point, Signal, Silence, Taylor,
+    At, Effort, EvaluateError, Instant, Known, Limit, MAX_FLATNESS, Point, Signal, Signed, Silence,
+    Taylor,
 };
 use num_traits::Zero as _;
 use std::borrow::Cow;
@@ -549,6 +550,10 @@ impl Signal for FollowedSignal<'_> {
         let ends = [(&from.delay, Limit::Right), (&to.delay, Limit::Left)];
         let is_silent = |silence: &Silence| since_start && silence.holds(ends);
         series.is_zero() || self.silence.as_ref().is_some_and(is_silent)
+    }
+
+    fn signed(&self, stretch: usize) -> Option<Signed> {
+        self.known.borrow().piece(stretch).series.signed
     }
 
     fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational> {

@@ -16,6 +16,7 @@ use crate::history::motion::{Added, Course, Given, Motion};
 use crate::history::passivity::{Block, Passivity, StateError};
 use crate::history::series::{CellNorm, Roughness, Series, Truncation};
 use crate::network::{ElementLaw, Node, System, dot};
+use crate::signal::Signed;
 use num_traits::ToPrimitive as _;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
@@ -184,6 +185,8 @@ struct Compressed {
     place: usize,
     /// The compression at the start, without its error.
     start: Magnitude,
+    /// Whether it is known to be compressed then.
+    is_compressed: bool,
     is_light: bool,
     /// How far the compression may go from where it starts.
     most: Magnitude,
@@ -338,20 +341,22 @@ impl Pressing<'_> {
             let place = self.place_of(own);
             let (from, off) = (start[place].magnitude(), self.block.entry(place, error));
             let largest = own.law.light(self.given.cut.bits);
+            let is_positive = start[place].sign() == Some(Ordering::Greater);
+            let is_compressed = is_positive && off < from;
             let is_light = light.contains(&place)
-                || start[place].sign() != Some(Ordering::Greater)
+                || !is_positive
                 || from < largest.scale(LIGHT_AT_START)
                 || off.scale(6) > from;
-            all.push(if is_light {
-                let (most, none) = (largest.max(from.scale(2)).max(off.scale(2)), Magnitude::ZERO);
-                Compressed { place, start: from, is_light, most, force: none, stiffest: none }
+            let (most, force, stiffest) = if is_light {
+                (largest.max(from.scale(2)).max(off.scale(2)), Magnitude::ZERO, Magnitude::ZERO)
             } else {
                 let most = from.multiply(&Magnitude::from_u64(7)).scale(-3);
                 let ends = [&from.scale(-4), &from.scale(1)];
                 let force = own.law.bound(ends[1]).map_err(|_| self.unknown())?;
-                let stiffest = own.law.stiffest(ends).map_err(|_| self.unknown())?;
-                Compressed { place, start: from, is_light, most, force, stiffest }
-            });
+                (most, force, own.law.stiffest(ends).map_err(|_| self.unknown())?)
+            };
+            let start = from;
+            all.push(Compressed { place, start, is_compressed, is_light, most, force, stiffest });
         }
         Ok(all)
     }
@@ -435,7 +440,7 @@ impl Pressing<'_> {
         let is_pushed = |own: &Compressed| own.is_light && !picard.reached(own).is_zero();
         let norm = self.given.norm;
         if contacts.iter().any(is_pushed) {
-            return Roughness::VALUES.distance();
+            return Magnitude::ZERO;
         }
         let mut rate = self.block.rate;
         for (own, law) in self.each(contacts) {
@@ -580,7 +585,8 @@ impl Pressing<'_> {
         })
     }
 
-    /// The forces of the contacts.
+    /// The forces of the contacts. A contact that stays closed pushes, which is proven of the cell before it is taken
+    /// over.
     fn forces(
         &self,
         contacts: &[Compressed],
@@ -592,17 +598,21 @@ impl Pressing<'_> {
         let force =
             |(((own, law), force), light): (((&Compressed, &Pressed), Vec<Number>), &Magnitude)| {
                 let off = self.block.entry(own.place, at_start);
+                let at_ends = [own.is_compressed, true];
+                let signed = Some(Signed { sign: Ordering::Greater, at_ends });
                 if own.is_light {
                     let first = law.law.bound(&own.start.add(&off)).unwrap_or(*light).min(*light);
-                    let roughness = (!light.is_zero()).then_some(Roughness::VALUES);
+                    let roughness = (!light.is_zero()).then_some(Roughness::Values);
                     return Series::new(Vec::new(), *light)
                         .with_rest_at_start(first)
-                        .of_roughness(roughness);
+                        .of_roughness(roughness)
+                        .of_sign(signed.filter(|_| !light.is_zero()));
                 }
                 let rest = own.stiffest.multiply(&self.block.entry(own.place, &bounds.rest));
                 Series::new(force, rest.add(&own.force.multiply(&bounds.left_out)))
                     .with_rest_at_start(own.stiffest.multiply(&off))
                     .of_roughness(bounds.roughness)
+                    .of_sign(signed)
             };
         each.map(force).collect()
     }

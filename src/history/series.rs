@@ -11,41 +11,45 @@
 //! errors are bounded in a weaker norm, that of a [`Roughness`].
 
 use crate::ball::{Magnitude, Number};
+use crate::signal::Signed;
+use std::cmp::Ordering;
 
-/// How near to its cell a function may cease to be analytic: with a roughness `r` a bound `ρ` of its error means
-/// `|e^(j)(x)| ≤ ρ j! 2^(rj)` for all `j ≥ 0`. Sums, integrals, shifts and the equations of a node keep it. Any
-/// error in the norm of the cell is one of each roughness `2^r ≥ γ`.
+/// How near to its cell a function may cease to be analytic. Sums, integrals, shifts and the equations of a node keep
+/// it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub struct Roughness(i64);
+pub enum Roughness {
+    /// With a roughness `r` a bound `ρ` of its error means `|e^(j)(x)| ≤ ρ j! 2^(rj)` for all `j ≥ 0`. Any error in
+    /// the norm of the cell is one of each roughness `2^r ≥ γ`.
+    Within(i64),
+    /// Nothing but values is bounded.
+    Values,
+}
+
+/// What stands for a bound of derivatives where there is none, as a power of two: no value of a scene comes near, so
+/// that nothing is decided by it.
+const NO_BOUND: i64 = 1 << 40;
 
 impl Roughness {
-    /// Nothing but values is bounded. As bounds of derivatives stand numbers that no value of a scene comes near, so
-    /// that nothing is decided by them.
-    pub const VALUES: Roughness = Roughness(1 << 40);
-
     /// Of a function that is bounded at all distances up to this one from its cell; no smoother than the norm of
     /// cells.
     pub fn within(distance: &Magnitude, cut: &Truncation) -> Roughness {
-        let (least, most) = (cut.rate, Roughness::VALUES.0);
-        Roughness(distance.top().map_or(most, |top| 1 - top).clamp(least, most))
+        let rate = |top: i64| Roughness::Within((1 - top).max(cut.rate));
+        distance.top().map_or(Roughness::Values, rate)
     }
 
     /// The distance within which values are bounded.
     pub fn distance(self) -> Magnitude {
-        Magnitude::power_of_two(-self.0)
+        match self {
+            Roughness::Within(rate) => Magnitude::power_of_two(-rate),
+            Roughness::Values => Magnitude::ZERO,
+        }
     }
 
     /// That of half the distance.
     pub fn halved(self) -> Roughness {
-        Roughness((self.0 + 1).min(Roughness::VALUES.0))
-    }
-
-    /// What a bound of values is to be multiplied with so much beyond the ends of a cell: `Σ (j+1) 2^(rj) by^j ≤ 4`
-    /// up to half the distance, which holds for the first derivative too.
-    fn growth(self, by: &Magnitude) -> Magnitude {
-        match *by <= Magnitude::power_of_two(-self.0 - 1) {
-            true => Magnitude::power_of_two(2),
-            false => Magnitude::power_of_two(Roughness::VALUES.0),
+        match self {
+            Roughness::Within(rate) => Roughness::Within(rate + 1),
+            Roughness::Values => Roughness::Values,
         }
     }
 }
@@ -222,6 +226,25 @@ pub struct Series {
     pub rest: Magnitude,
     rest_at_start: Magnitude,
     pub roughness: Option<Roughness>,
+    /// Its sign on the cell, where that is known otherwise.
+    pub signed: Option<Signed>,
+}
+
+/// The sign of a sum of series with factors: of those that are not zero, where all have the same.
+fn sign_of_sum(parts: [(&Series, &Number); 2]) -> Option<Signed> {
+    let mut known: Option<Signed> = None;
+    for (series, factor) in parts {
+        if series.is_zero() || factor.is_zero() {
+            continue;
+        }
+        let own = series.signed?;
+        let own = match factor.sign()? {
+            Ordering::Less => Signed { sign: own.sign.reverse(), ..own },
+            _ => own,
+        };
+        known = Some(known.map_or(Some(own), |known| known.and(own))?);
+    }
+    known
 }
 
 impl Series {
@@ -235,7 +258,7 @@ impl Series {
         while coefficients.last().is_some_and(Number::is_zero) {
             coefficients.pop();
         }
-        Series { coefficients, rest, rest_at_start: rest, roughness: None }
+        Series { coefficients, rest, rest_at_start: rest, roughness: None, signed: None }
     }
 
     /// The same function, of whose error less is known to be at the start.
@@ -246,6 +269,19 @@ impl Series {
     /// The same function, whose rest is a bound of this roughness or of its own, whichever is the larger.
     pub fn of_roughness(self, roughness: Option<Roughness>) -> Series {
         Series { roughness: self.roughness.max(roughness), ..self }
+    }
+
+    /// The same function, of which a sign is known.
+    pub fn of_sign(self, signed: Option<Signed>) -> Series {
+        Series { signed, ..self }
+    }
+
+    /// Keeps its sign where that was proven, but not at the end of a cell where a contact opens.
+    pub fn keep_sign(&mut self, is_proven: bool, opens: bool) {
+        self.signed = self.signed.filter(|_| is_proven).map(|own| {
+            let at_ends = [own.at_ends[0], own.at_ends[1] && !opens];
+            Signed { at_ends, ..own }
+        });
     }
 
     pub fn zero() -> Series {
@@ -259,21 +295,26 @@ impl Series {
         order: usize,
         cut: &Truncation,
     ) -> Magnitude {
-        let Some(Roughness(rate)) = self.roughness else {
-            return error.scale(cut.rate * order as i64);
+        let rate = match self.roughness {
+            None => return error.scale(cut.rate * order as i64),
+            Some(Roughness::Values) if order > 0 && !error.is_zero() => {
+                return Magnitude::power_of_two(NO_BOUND);
+            }
+            Some(Roughness::Values) => 0,
+            Some(Roughness::Within(rate)) => rate,
         };
         let grown = error.scale(rate * order as i64);
         (2..=order as u64).fold(grown, |bound, j| bound.multiply(&Magnitude::from_u64(j)))
     }
 
     /// The bound of its error or of the slope of it so much beyond the ends of its cell: `e^(γ by)` times that on the
-    /// cell, unless it is rough.
+    /// cell. A rough error goes on with the value that it has at the end: any function that is continuous will do
+    /// beyond the cell, since roots and values are told within it.
     pub fn bound_beyond(&self, bound: &Magnitude, by: &Magnitude, cut: &Truncation) -> Magnitude {
-        if by.is_zero() || bound.is_zero() {
-            return *bound;
+        match by.is_zero() || bound.is_zero() || self.roughness.is_some() {
+            true => *bound,
+            false => bound.multiply(&growth(&cut.per_time(by))),
         }
-        let factor = self.roughness.map(|roughness| roughness.growth(by));
-        bound.multiply(&factor.unwrap_or_else(|| growth(&cut.per_time(by))))
     }
 
     /// Whether it is known to be zero.
@@ -323,6 +364,7 @@ impl Series {
         Series::new((0..length).map(term).collect(), sum(&self.rest, &other.rest))
             .with_rest_at_start(sum(&self.rest_at_start, &other.rest_at_start))
             .of_roughness(self.roughness.max(other.roughness))
+            .of_sign(sign_of_sum([(self, a), (other, b)]))
     }
 
     pub fn add(&self, other: &Series, bits: u64) -> Series {
@@ -342,6 +384,7 @@ impl Series {
             return self.clone();
         }
         let bits = cut.bits;
+        let signed = self.signed.map(|own| Signed { at_ends: [true, own.at_ends[1]], ..own });
         let exact = a.exact().is_some() && self.is_exact() && self.coefficients.len() <= 4;
         if exact {
             let mut shifted = self.coefficients.clone();
@@ -358,7 +401,7 @@ impl Series {
                 *c = c.widened(&moved(&sizes, j, &radius), bits);
             }
         }
-        Series::new(shifted, self.rest).of_roughness(self.roughness)
+        Series::new(shifted, self.rest).of_roughness(self.roughness).of_sign(signed)
     }
 
     /// The same function, its coefficients without radii and without the last ones that tell nothing on a
@@ -397,10 +440,13 @@ impl Series {
             coefficients.push(middle);
             radii.push(radius);
         }
-        let at_start = radii.first().map_or(rest, |radius| self.rest_at_start.add(radius));
+        let dropped = sizes.first().filter(|_| radii.is_empty());
+        let off = radii.first().or(dropped).copied().unwrap_or(Magnitude::ZERO);
+        let at_start = self.rest_at_start.add(&off);
         Series::new(coefficients, rest.add(&norm.of_sizes(&radii)))
             .with_rest_at_start(at_start)
             .of_roughness(self.roughness.max(norm.roughness))
+            .of_sign(self.signed)
     }
 
     /// The same function so much beyond the ends of the cell.

@@ -204,7 +204,10 @@ pub(super) fn at_start(
         for part in parts {
             let square = match (&part.window, &part.squared) {
                 (Window::Last(travel), _) => &part.before.pow(2) * travel,
-                (Window::Now, Squared::Reading(own)) => reading_at_start(scaled, own).pow(2),
+                // A local contact is not compressed.
+                (Window::Now, Squared::Reading(own)) if part.times.is_none() => {
+                    reading_at_start(scaled, own).pow(2)
+                }
                 (Window::Now | Window::Always, _) => Fraction::zero(),
             };
             sum = &sum + &(&part.coefficient * &square);

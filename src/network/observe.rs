@@ -242,9 +242,17 @@ impl Network {
                     let of = self.reading(&term.of);
                     let coefficient = coefficient * &term.coefficient;
                     let (before, window) = (Fraction::zero(), Window::Now);
-                    let squared = Squared::Reading(term.of);
-                    terms.push(EnergyTerm { coefficient, squared, of, before, window });
+                    let (squared, times) = (Squared::Reading(term.of), None);
+                    terms.push(EnergyTerm { coefficient, squared, times, of, before, window });
                 }
+                Energy::Work(share, lump) => terms.push(EnergyTerm {
+                    coefficient: coefficient * &share,
+                    squared: Squared::Reading(Reading::Force(lump)),
+                    times: Some(Reading::Compression(lump)),
+                    of: Observation::default(),
+                    before: Fraction::zero(),
+                    window: Window::Now,
+                }),
                 Energy::InBar(bar) => terms.extend(self.energy_in(coefficient, bar)?),
             }
         }
@@ -272,7 +280,7 @@ impl Network {
             let window = data.travel.clone().map_or(Window::Always, Window::Last);
             let squared = Squared::Entering { bar, direction };
             let coefficient = coefficient * &data.impedance;
-            Some(EnergyTerm { coefficient, squared, of, before, window })
+            Some(EnergyTerm { coefficient, squared, times: None, of, before, window })
         });
         Ok(parts.collect())
     }

@@ -43,13 +43,16 @@ pub(crate) enum Squared {
     Entering { bar: usize, direction: usize },
 }
 
-/// One part of an energy: `c q²`, or `c ∫ q² dt` over the time that a wave needs to leave a bar.
+/// One part of an energy: `c q²`, of a local contact `c q p`, or `c ∫ q² dt` over the time that a wave needs to leave a
+/// bar.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct EnergyTerm {
     /// The coefficient `c`.
     pub coefficient: Fraction,
     /// The quantity `q`.
     pub(crate) squared: Squared,
+    /// The quantity `p`, where it is not squared.
+    pub(crate) times: Option<Reading>,
     /// The same in waves, zero before the start but for `before`.
     pub of: Observation,
     /// What `q` was before the start.

@@ -75,6 +75,8 @@ pub struct Term<V = Fraction> {
 pub enum Energy {
     /// A coefficient times the square of a reading.
     Square(Box<Term>),
+    /// This share of the force of a local contact times its compression.
+    Work(Fraction, Lump),
     /// The energy of a bar: `Z ∫ (w₊² + w₋²) dt`, over the same time as its momentum.
     InBar(usize),
 }
@@ -216,7 +218,7 @@ impl Elements<'_> {
         })
     }
 
-    /// The energy of an element: `m v²/2`, `k α²/2`, or that of a bar.
+    /// The energy of an element: `m v²/2`, `k α²/2`, of a local contact `∫ X dα = X α/(m+1)`, or that of a bar.
     pub fn energy(&self, element: ElementIndex) -> Result<Vec<Energy>, Mistake> {
         if let Some(bar) = self.layout.bar(element) {
             return Ok(vec![Energy::InBar(self.bar(bar)?)]);
@@ -232,7 +234,10 @@ impl Elements<'_> {
             (_, Some([stiffness, _])) if !stiffness.is_zero() => {
                 square(stiffness, Reading::Compression(lump))
             }
-            (ElementLaw::LocalContact { .. }, _) => return Err(Mistake::NotMeasurable),
+            (ElementLaw::LocalContact { exponent, .. }, _) => {
+                let share = (exponent + Rational::from_integer(1.into())).recip();
+                vec![Energy::Work(Fraction::constant(&share), lump)]
+            }
             _ => Vec::new(),
         })
     }

@@ -1,8 +1,8 @@
-//! Energies as signals: `Σ c q²` of masses and springs, `Σ c ∫ q² dt` of the waves in bars.
+//! Energies as signals: `Σ c q²` of masses and springs, `Σ c q p` of local contacts, `Σ c ∫ q² dt` of the waves in bars.
 
 use super::{SignalError, Sources};
 use crate::expression::{Fraction, Root};
-use crate::network::{EnergyTerm, Network, Window};
+use crate::network::{EnergyTerm, Network, Squared, Window};
 use crate::signal::{Combination, EvaluateError, Integral, Operation, Product, Scale, Signal};
 use num_traits::{Signed as _, Zero as _};
 use std::rc::Rc;
@@ -35,13 +35,20 @@ pub(super) fn of_sources<'a>(
     let seen = terms.iter().zip(&reaches);
     let squared =
         sources.signals(seen.map(|(term, from)| (&term.of, term.squared.clone(), [from, to])))?;
+    let others = terms.iter().filter_map(|term| Some((term, term.times.clone()?)));
+    let mut others = sources
+        .signals(others.map(|(term, other)| (&term.of, Squared::Reading(other), [from, to])))?
+        .into_iter();
     let (mut operands, mut products): (Vec<Rc<dyn Signal + 'a>>, Vec<Product>) = Default::default();
-    for (place, (term, of)) in terms.iter().zip(squared).enumerate() {
-        let coefficient = term.coefficient.clone();
+    for ((term, of), reach) in terms.iter().zip(squared).zip(&reaches) {
+        let (coefficient, place) = (term.coefficient.clone(), operands.len());
         let last = match &term.window {
             Window::Now => {
                 operands.push(of);
-                products.push(Product { coefficient, factors: vec![place, place] });
+                let other = term.times.as_ref().and_then(|_| others.next());
+                let second = if other.is_some() { place + 1 } else { place };
+                operands.extend(other);
+                products.push(Product { coefficient, factors: vec![place, second] });
                 continue;
             }
             Window::Last(travel) => Some(travel.clone()),
@@ -49,7 +56,7 @@ pub(super) fn of_sources<'a>(
         };
         let one = Product { coefficient: Fraction::one(), factors: vec![0, 0] };
         let square = combination(&scale, vec![of], vec![one]);
-        let square = Operation::new(&scale, square, one_root(), [&reaches[place], to]);
+        let square = Operation::new(&scale, square, one_root(), [reach, to]);
         let before = term.before.pow(2);
         let integral = Integral::new(&scale, Rc::new(square), last, before, [from, to]);
         operands.push(Rc::new(Operation::new(&scale, integral, one_root(), [from, to])));

@@ -7,7 +7,6 @@ use crate::answer::{self, Accuracy, Doubles, Method, Question, Remark, Tested, W
 use crate::expression::Fraction;
 use crate::field::FieldEvaluator;
 use crate::model::ModelError;
-use crate::network::{Observed, ObservedValue};
 use crate::planner::{self, Purpose};
 use crate::signal::{self, ClosedSignal, EvaluateError, Limit, Signal, Value, reaching_a_double};
 use num_traits::Signed as _;
@@ -141,12 +140,6 @@ impl Problem {
         window: [&Rational; 2],
         purpose: Purpose,
     ) -> Result<Box<dyn Signal + '_>, ProblemError> {
-        let is_energy = |observed: &Observed| matches!(observed.value, ObservedValue::Energy(_));
-        if self.local_contact().is_some()
-            && (purpose == Purpose::Search || wanted.observed.as_ref().is_some_and(is_energy))
-        {
-            return Err(ProblemError::local_contact(self.scaled()?));
-        }
         match (&self.kind, &wanted.observed) {
             (Kind::Line { network, .. }, Some(observed)) => {
                 Ok(planner::of_scene(network, observed, window, purpose)?)

@@ -81,9 +81,6 @@ impl Problem {
         let Kind::Line { network, .. } = &self.kind else {
             return Err(LockRefusal::EventsLocked.into());
         };
-        if !request.times.is_empty() && self.local_contact().is_some() {
-            return Err(ProblemError::local_contact(self.scaled()?));
-        }
         Ok(Lock::of_events(network, until, request)?)
     }
 }

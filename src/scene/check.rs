@@ -424,8 +424,9 @@ fn is_measurable(measure: Measure, kind: &Kind, place: &Place) -> bool {
         (Kind::Mass(_), Place::Element(_)) => {
             matches!(measure, Velocity | Displacement | Energy | Momentum)
         }
-        (Kind::Spring(_), Place::Element(_)) => matches!(measure, Force | Compression | Energy),
-        (Kind::Hertz(_), Place::Element(_)) => matches!(measure, Force | Compression),
+        (Kind::Spring(_) | Kind::Hertz(_), Place::Element(_)) => {
+            matches!(measure, Force | Compression | Energy)
+        }
         (Kind::Support(_), Place::Element(_)) => matches!(measure, Force | Energy),
         _ => false,
     }

@@ -34,7 +34,7 @@ pub use method::{
     instructions,
 };
 pub(crate) use operations::{Balanced, Combination, Constant, Integral, Operation, Product, Scale};
-pub use signal::{At, Effort, Instant, Limit, Point, Signal};
+pub use signal::{At, Effort, Instant, Limit, Point, Signal, Signed};
 pub(crate) use signal::{Enclosure, Known, MAX_FLATNESS, has_begun, last_begun};
 pub(crate) use silence::Silence;
 pub use taps::{NoTaps, Taps};

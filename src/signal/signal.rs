@@ -63,6 +63,28 @@ pub struct Instant {
     pub(crate) delay: Fraction,
 }
 
+/// The sign that a function has between the ends of a stretch, whatever its enclosures tell: as a contact pushes with a
+/// force that is below all precision.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Signed {
+    pub sign: Ordering,
+    /// Whether it has it at the first time and at the last one, too.
+    pub at_ends: [bool; 2],
+}
+
+impl Signed {
+    /// That of a sum of two functions, where both have the same.
+    pub(crate) fn and(self, other: Signed) -> Option<Signed> {
+        let at_ends = [0, 1].map(|end| self.at_ends[end] || other.at_ends[end]);
+        (self.sign == other.sign).then_some(Signed { at_ends, ..self })
+    }
+
+    /// Whether the function has it in the limit at an end.
+    pub(crate) fn holds_at(self, end: Limit) -> bool {
+        self.at_ends[usize::from(end == Limit::Left)]
+    }
+}
+
 /// How much work an exact form may cost.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Effort {
@@ -197,6 +219,11 @@ pub trait Signal {
 
     /// Whether the function is known to be zero on a stretch.
     fn is_zero(&self, stretch: usize) -> bool;
+
+    /// What is known of the sign of the function between the ends of a stretch, whatever enclosures tell.
+    fn signed(&self, _: usize) -> Option<Signed> {
+        None
+    }
 
     /// The time of an end, where it is known to be rational.
     fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational>;

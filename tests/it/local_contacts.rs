@@ -6,7 +6,7 @@ use wavestep::answer::Accuracy;
 use wavestep::ball::{Ball, Magnitude, Number};
 use wavestep::history::series::{CellNorm, Roughness, Series, Truncation};
 use wavestep::signal::Limit;
-use wavestep::{Method, Problem};
+use wavestep::{Goal, Method, Problem, Root, Value};
 use wavestep_polynomial::Rational;
 
 fn problem(text: &str) -> Problem {
@@ -83,6 +83,96 @@ fn nothing_is_lost_between_free_bars() {
     let momentum = sum(|body| body.momentum.as_ref().unwrap().to_f64());
     assert!((energy - 3.75 / 2.0).abs() < 1e-11, "{energy}");
     assert!((momentum - 3.75).abs() < 1e-11, "{momentum}");
+}
+
+fn close(found: f64, wanted: f64, tolerance: f64) {
+    assert!((found - wanted).abs() <= tolerance * wanted.abs(), "{found} and {wanted}");
+}
+
+/// The line holds what bars, masses and the contact do, `X α/(m+1)`, and loses nothing; what is held by the contact is
+/// largest where its force is.
+#[test]
+fn a_contact_holds_energy() {
+    let local = problem(
+        "bar a { impedance = 3, travel = 5/4, velocity = 1 }\nhertz tip { stiffness = 40 }\n\
+         bar b { impedance = 1, travel = 1/2 }\nline free - a - tip - b - free\n\
+         observe all = energy(line)\nobserve held = energy(tip)\nobserve passed = energy(b)\n\
+         observe total = energy(a) + energy(tip) + energy(b)\nobserve carried = momentum(b)\n\
+         observe force = force(tip)\nobserve compression = compression(tip)",
+    );
+    let at = |name: &str, time: &str| local.signal(name).unwrap().at(time, 15).unwrap().to_f64();
+    for time in ["1/64", "1/4", "9/10"] {
+        close(at("all", time), 15.0 / 8.0, 1e-15);
+        close(at("total", time), 15.0 / 8.0, 1e-15);
+        close(at("held", time), at("force", time) * at("compression", time) / 2.5, 1e-14);
+    }
+    let largest = |name: &str| {
+        let found = local.signal(name).unwrap().extremum(Goal::Largest, "0"..="9/10", 15).unwrap();
+        assert_eq!(found.places.len(), 1, "{name}: {:?}", found.places);
+        found.value.to_f64()
+    };
+    let all = local.signal("all").unwrap().extremum(Goal::Largest, 0..=1, 9).unwrap().value;
+    assert!(matches!(all, Value::Exact(_)) && all.to_f64() == 15.0 / 8.0, "{all:?}");
+    let force = largest("force");
+    close(largest("held"), force * (force / 40.0).powf(2.0 / 3.0) / 2.5, 1e-14);
+    // What a bar at rest is given is the work of the force, and its impulse: by Simpson's rule.
+    let times: Vec<Rational> = (0..=1_800).map(|i| Rational::new(i.into(), 2_000.into())).collect();
+    let steps = Accuracy::Method(Method::Steps { tolerance: 1e-12 }, None);
+    let forces = local.doubles("force", &times, Limit::Right, steps).unwrap().values;
+    let simpson = |power: i32| {
+        let weight = |i: usize| [2.0, 4.0][i % 2] - f64::from(u8::from(i == 0 || i == 1_800));
+        let sum: f64 = (0..=1_800).map(|i| weight(i) * forces[i].powi(power)).sum();
+        sum / 6_000.0
+    };
+    // No wave has returned, so that the velocity beside it is `X/Z`.
+    close(at("passed", "9/10"), simpson(2), 1e-5);
+    close(at("carried", "9/10"), simpson(1), 1e-5);
+}
+
+/// Two endless bars, `α' = 1 − 4 α^{3/2}`: the force `2 α^{3/2}` is 1/4 at `∫ dα/(1 − 4 α^{3/2})` up to 1/4, a series.
+/// Near the touch it is below all precision, and not zero.
+#[test]
+fn roots_and_extrema_are_those_of_the_closed_form() {
+    let local = problem(
+        "bar a { impedance = 1, velocity = 1 }\nhertz tip { stiffness = 2 }\nbar b { impedance = 1 }\n\
+         line endless - a - tip - b - endless\nobserve force = force(tip)\nobserve velocity = velocity(b.left)\n\
+         observe pulled = velocity(b.left) - 1/2*velocity(a.right)",
+    );
+    let rises: f64 = (0..60).map(|k| 0.25 * 0.5_f64.powi(k) / (1.5 * f64::from(k) + 1.0)).sum();
+    for name in ["force", "velocity"] {
+        let signal = local.signal(name).unwrap();
+        let found = signal.crossings("1/4", 0..=1, 15).unwrap().all;
+        let [Root::Simple { time, rises: true }] = &found[..] else { panic!("{name}: {found:?}") };
+        close(time.to_f64(), rises, 1e-14);
+        let zeros = signal.roots(0..=1, 15).unwrap().all;
+        let [Root::End { time }] = &zeros[..] else { panic!("{name}: {zeros:?}") };
+        assert_eq!(time.to_string(), "0");
+        let least = signal.extremum(Goal::Smallest, 0..=1, 15).unwrap();
+        assert_eq!((least.value.to_string(), least.places.len()), ("0".to_owned(), 1));
+        let largest = signal.extremum(Goal::Largest, 0..=1, 15).unwrap();
+        assert_eq!(largest.value.to_f64(), signal.at(1, 17).unwrap().to_f64());
+    }
+    let found = local.signal("pulled").unwrap().roots(0..=2, 12).unwrap().all;
+    assert!(matches!(&found[..], [Root::Simple { rises: true, .. }]), "{found:?}");
+}
+
+/// A contact that opens pushes until then, and has no force on an interval that begins with the event.
+#[test]
+fn a_force_is_zero_from_the_end_of_a_contact_on() {
+    let local = problem(
+        "bar a { impedance = 1, travel = 1/2, velocity = 1 }\nhertz tip { stiffness = 20 }\n\
+         bar b { impedance = 1 }\nline free - a - tip - b - endless\nobserve force = force(tip)\n\
+         observe velocity = velocity(b.left)\nobserve mirrored = -velocity(b.left)",
+    );
+    let parted = local.events(15).unwrap().events.last().unwrap().time.to_f64();
+    for name in ["force", "velocity", "mirrored"] {
+        let zeros = local.signal(name).unwrap().roots(0..=3, 15).unwrap().all;
+        let [Root::End { .. }, Root::Interval { from, to, .. }] = &zeros[..] else {
+            panic!("{name}: {zeros:?}")
+        };
+        close(from.to_f64(), parted, 1e-14);
+        assert_eq!(to.to_string(), "3");
+    }
 }
 
 /// A bar that moves with the other, and one that moves away, are never pressed.

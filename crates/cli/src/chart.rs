@@ -18,9 +18,6 @@ pub fn run(options: &Options) -> Result<String, Failure> {
     }
     check(&options.output)?;
     let problem = input::problem(&options.scene)?;
-    if problem.local_contact().is_some() {
-        problem.solution()?;
-    }
     let quantity = options.quantity.as_deref().or_else(|| problem.usual_quantity());
     let Some(quantity) = quantity else {
         return Err(Failure::usage("the scene observes nothing", "give --quantity NAME"));

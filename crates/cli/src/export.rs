@@ -20,9 +20,6 @@ pub fn run(options: &Export) -> Result<String, Failure> {
     let nearest = to.to_f64().and_then(BigRational::from_float);
     let to = nearest.map_or(to.clone(), |nearest| nearest.max(to));
     let spinner = progress::spinner("expanding the observable");
-    if problem.local_contact().is_some() {
-        problem.solution()?;
-    }
     let question = problem.question(&options.quantity, [from, to])?;
     let absolute = tolerance.absolute(question.scale()?);
     let compiled = Compiled::new(&*question.signal, Some(absolute)).map_err(WayError::from)?;

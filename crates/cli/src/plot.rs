@@ -28,9 +28,6 @@ fn chart(options: &Plot) -> Result<Box<dyn Chart>, Failure> {
     let [from, to] = window(from, to)?;
     let caption = Caption::default();
     if let Some(quantity) = options.diagram {
-        if problem.local_contact().is_some() {
-            problem.solution()?;
-        }
         let evaluator = problem.field_evaluator(&to)?;
         let diagram = lagrange(&evaluator, quantity, [&from, &to], caption)?;
         return Ok(Box::new(match &options.title {
@@ -48,9 +45,6 @@ fn fields_at(problem: &Problem, options: &Plot) -> Result<Box<dyn Chart>, Failur
     let times = options.at_time.iter().map(|time| problem.time("--at-time", time.as_str()));
     let times = times.collect::<Result<Vec<BigRational>, ProblemError>>()?;
     let Some(last) = times.iter().max() else { unreachable!("there are times") };
-    if problem.local_contact().is_some() {
-        problem.solution()?;
-    }
     let evaluator = problem.field_evaluator(last)?;
     let figure = along_the_line(&evaluator, &fields(options)?, &times, Caption::default())?;
     Ok(Box::new(match &options.title {

@@ -86,6 +86,12 @@ impl Record {
         }
     }
 
+    /// Whether all values of a sign are: of the observable itself, not of its negative.
+    pub(crate) fn beats_sign(&self, sign: Ordering) -> bool {
+        let below = if self.negative { Ordering::Greater } else { Ordering::Less };
+        sign == below && self.best.as_ref().is_some_and(|best| *best >= Binary::zero())
+    }
+
     /// Whether all values of a ball are below it.
     pub(crate) fn beats(&self, value: &Ball) -> bool {
         self.best.as_ref().is_some_and(|best| value.endpoints().1 < *best)
@@ -127,6 +133,9 @@ impl Search<'_> {
         record: Option<&mut Record>,
     ) -> Result<Vec<Cell>, EvaluateError> {
         let [from, to] = self.bounds(stretch)?;
+        if let Some(finding) = self.known_sign(stretch, target, record.as_deref()) {
+            return Ok(vec![Cell { from, to, finding }]);
+        }
         let (middle, _) = middle_and_half(&from, &to);
         // Far from the start the first bits may tell nothing.
         let attempt = |bits| {
@@ -151,6 +160,20 @@ impl Search<'_> {
         };
         cover.descend(from, to, 0, None)?;
         Ok(cover.cells)
+    }
+
+    /// What the sign that the function is known to have on a stretch tells of the target: that it is not zero, or below
+    /// a value that is taken.
+    fn known_sign(
+        &self,
+        stretch: usize,
+        target: Target<'_>,
+        record: Option<&Record>,
+    ) -> Option<Finding> {
+        let sign = self.function.signed(stretch)?.sign;
+        let is_zero = target.order == 0 && *target.level == Rational::default();
+        let beaten = |record: &Record| record.beats_sign(sign).then_some(Finding::Low);
+        if is_zero { Some(Finding::Clear(sign)) } else { record.and_then(beaten) }
     }
 
     /// From the precision that has done so far on.

@@ -213,6 +213,13 @@ impl<'s> Search<'s> {
         for candidate in &left {
             record.note(&contenders.value(&mut candidate.clone(), comparisons().first())?);
         }
+        left.retain(|candidate| match candidate {
+            Candidate::Limit { stretch, side } => {
+                let signed = self.function.signed(*stretch).filter(|own| own.holds_at(*side));
+                !signed.is_some_and(|own| record.beats_sign(own.sign))
+            }
+            _ => true,
+        });
         let target = Target { order: 1, level: &zero, limit_bits };
         for stretch in moving {
             self.critical_points(stretch, target, &mut record, &mut left)?;

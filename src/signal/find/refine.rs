@@ -139,7 +139,7 @@ impl Search<'_> {
 }
 
 /// `2^{-bits}`.
-fn power_of_half(bits: u64) -> Rational {
+pub(crate) fn power_of_half(bits: u64) -> Rational {
     Rational::new(1.into(), Integer::from(1) << bits)
 }
 

@@ -17,7 +17,7 @@ use crate::ball::{Ball, Value};
 use crate::limits::MAX_ROOTS;
 use crate::signal::error::EvaluateError;
 use crate::signal::find::cover::{Cell, Finding, middle_and_half};
-use crate::signal::find::refine::{Isolated, differ};
+use crate::signal::find::refine::{Isolated, differ, power_of_half};
 use crate::signal::find::search::{Search, Target, rationals};
 use crate::signal::signal::{At, Limit};
 use std::cmp::Ordering;
@@ -275,9 +275,15 @@ impl Finder<'_, '_> {
             return Ok(());
         }
         let Some(before) = before else {
-            if now.first == Some(equal) {
-                let root = Root::End { time: time()? };
-                self.all.push(root);
+            match now.first {
+                Some(sign) if sign == equal => self.all.push(Root::End { time: time()? }),
+                Some(_) => {}
+                // A limit that cannot be told from v, and cells tell of what lies behind it alone.
+                None => {
+                    let [from, to] = search.bounds(stretch)?;
+                    let beside = (&to - &from) * power_of_half(UNDECIDED_BITS);
+                    self.leave(stretch, (from.clone(), from + beside), false)?;
+                }
             }
             return Ok(());
         };

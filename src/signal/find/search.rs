@@ -115,7 +115,12 @@ impl<'a> Search<'a> {
         let attempt = |bits| {
             let sign = match (self.enclose(stretch, target, at, bits)?.sign(), target.order, at) {
                 (None, 0, _) if bits == precisions.first() => {
-                    function.exact(stretch, at)?.map(|value| value.cmp(target.level))
+                    let exact = function.exact(stretch, at)?;
+                    exact.map(|value| value.cmp(target.level)).or_else(|| {
+                        let At::End(end) = at else { return None };
+                        let signed = function.signed(stretch).filter(|own| own.holds_at(end))?;
+                        (*target.level == Rational::default()).then_some(signed.sign)
+                    })
                 }
                 (None, 1, At::End(side)) if bits == precisions.first() => {
                     self.slope_vanishes(stretch, side)?.then_some(Ordering::Equal)

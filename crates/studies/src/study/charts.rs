@@ -7,7 +7,7 @@ use super::map::{errors_by_order, order_law, order_map};
 use super::reference::{Reference, Sampling};
 use super::{at_arrivals, cost_over_order, ladder, near_confluence, near_jump, near_zeros};
 use super::{over_courant, over_order, over_time, work_precision};
-use crate::picture::PictureError;
+use crate::picture::{self, PictureError};
 use num_traits::ToPrimitive as _;
 use std::time::Duration;
 use wavestep::answer::{self, Method};
@@ -89,7 +89,10 @@ pub struct Charts {
 
 /// The end of the window where none is asked for.
 pub fn usual_end(problem: &Problem) -> Result<Rational, PictureError> {
-    Ok(problem.some_periods(PERIODS)?)
+    match problem.local_contact() {
+        Some(_) => picture::usual_end(problem, &Rational::default()),
+        None => Ok(problem.some_periods(PERIODS)?),
+    }
 }
 
 /// Draws all charts of a quantity on a window; `tick` is told what is being measured.
@@ -106,8 +109,8 @@ pub fn charts(
     let reference = Reference::new(question, &asked.sampling.times(ends[0], ends[1]))?;
     let effort = asked.effort;
     let settings = (effort.settings(), effort == Effort::Quick);
-    let asked_for = (subject, window);
-    let outcomes = ladder(asked_for, &reference, settings, |method| tick(&method.to_string()));
+    let outcomes =
+        ladder((subject, question), &reference, settings, |method| tick(&method.to_string()));
     let caption = caption(asked, asked.sampling.law());
     let (work, table) =
         work_precision("Work against precision", &outcomes, &reference, caption.clone())?;

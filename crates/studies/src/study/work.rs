@@ -2,11 +2,10 @@
 
 use crate::study::harness::{Measured, Settings, Subject, measure};
 use crate::study::reference::Reference;
-use wavestep::answer::Method;
+use wavestep::answer::{Method, Question, Way};
 use wavestep::problem::ProblemError;
 use wavestep::signal::StablePrecision;
 use wavestep_draw::{Caption, PlotError, Point, Row, Table, WorkPrecision};
-use wavestep_polynomial::Rational;
 
 /// One step of the ladder: a way, and the tolerance it is given in parts of the largest value.
 pub type Step = (Method, Option<f64>);
@@ -89,7 +88,7 @@ fn is_heavy(method: Method) -> bool {
 
 /// Measures all steps, or those that do not take long; `tick` is called before each.
 pub fn ladder(
-    asked: (Subject<'_>, [&Rational; 2]),
+    (subject, question): (Subject<'_>, &Question<'_>),
     reference: &Reference,
     (settings, quick): (Settings, bool),
     tick: impl Fn(&Method),
@@ -98,7 +97,16 @@ pub fn ladder(
         let (method, tolerance) = step;
         tick(&method);
         let absolute = tolerance.map(|tolerance| tolerance * reference.scale());
-        let result = measure(asked, (method, absolute), reference, settings);
+        // What is followed shows what needs a closed form without being followed anew.
+        let is_served = matches!(method, Method::Compiled | Method::Certified);
+        let possible = match is_served || question.signal.closed_form().is_ok() {
+            true => Ok(()),
+            false => Way::new(method, question, absolute).map(drop),
+        };
+        let asked = (subject, question.signal.window());
+        let result = possible
+            .map_err(ProblemError::from)
+            .and_then(|()| measure(asked, (method, absolute), reference, settings));
         Outcome { step, result }
     };
     LADDER.into_iter().filter(|(method, _)| !(quick && is_heavy(*method))).map(outcome).collect()

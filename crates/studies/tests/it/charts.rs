@@ -110,9 +110,7 @@ fn the_ladder_keeps_its_bounds() {
         let reference = reference(question, 8.0);
         let ticks = Cell::new(0);
         let outcomes =
-            ladder((subject, question.signal.window()), &reference, (ONCE, true), |_| {
-                ticks.set(ticks.get() + 1)
-            });
+            ladder((subject, question), &reference, (ONCE, true), |_| ticks.set(ticks.get() + 1));
         assert_eq!(ticks.get(), outcomes.len());
         // Models refuse a recurrence; every bound of the others is kept.
         assert!(outcomes[0].result.is_err());
