@@ -70,6 +70,31 @@ fn values_are_those_of_collocation() {
     }
 }
 
+/// The reflection from the far end presses again: force and instants of the second contact, within 10⁻¹².
+#[test]
+fn a_second_contact_is_that_of_collocation() {
+    let problem = problem(
+        "bar a { impedance = 1, travel = 1/2, velocity = 1 }\nhertz tip { stiffness = 40 }\n\
+         bar b { impedance = 6/5, travel = 1 }\nline free - a - tip - b - fixed\n\
+         observe force = force(tip)\nobserve compression = compression(tip)",
+    );
+    let solved = |name: &str, time: Rational| {
+        let accuracy = Accuracy::Method(Method::Steps { tolerance: 1e-13 }, None);
+        problem.doubles(name, &[time], Limit::Right, accuracy).unwrap().values[0]
+    };
+    let history = problem.events_until("9/4", 13).unwrap();
+    let [_, parted, met] = &history.events[..] else { panic!("{:?}", history.events) };
+    for event in [parted, met] {
+        let time = event.time.to_f64();
+        let [before, after] = [time - 1e-12, time + 1e-12]
+            .map(|time| solved("compression", Rational::from_float(time).unwrap()));
+        assert!(before * after < 0.0, "{time}: {before} and {after}");
+    }
+    let proven = value(&problem, "force", "9/4", 14).parse::<f64>().unwrap();
+    let tested = solved("force", Rational::new(9.into(), 4.into()));
+    assert!((proven - tested).abs() < 1e-12 * 0.5, "{proven} and {tested}");
+}
+
 /// Where both bars are free the momentum is what it was; what is in the contact and in the bars is told by `events`.
 #[test]
 fn nothing_is_lost_between_free_bars() {

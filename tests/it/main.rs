@@ -32,6 +32,7 @@ mod roots;
 mod scene_language;
 mod scenes;
 mod signal;
+mod silence;
 mod source;
 mod source_form;
 mod support;
