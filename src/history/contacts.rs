@@ -127,14 +127,17 @@ impl Guard {
             Kept::Gap(rate) | Kept::Compression(rate, _) => (rate, 1),
         };
         let low = (0..skipped.saturating_sub(lifts)).map(|k| known.coefficient(k).magnitude());
-        let error = known.rest.add(&norm.of_sizes(&low.collect::<Vec<_>>()));
+        let low = norm.of_sizes(&low.collect::<Vec<_>>());
+        let [error, rest] = [known.error, known.rest].map(|bound| bound.add(&low));
         let bound = |order: usize| match order.checked_sub(lifts) {
             None => error.multiply(&norm.length),
-            Some(order) => known.bound_of_derivative(&error, order, cut),
+            Some(0) => error,
+            Some(order) => known.bound_of_derivative(&rest, order, cut),
         };
         let errors = Errors::new(skipped, bound);
         let kept = self.series.coefficients.iter().skip(skipped).cloned().collect();
-        let kept = Series::new(kept, self.series.rest).of_roughness(self.series.roughness);
+        let kept = Series::new(kept, self.series.rest).with_error(error, Magnitude::ZERO);
+        let kept = kept.of_roughness(self.series.roughness);
         (kept, errors)
     }
 

@@ -95,7 +95,7 @@ pub enum Course {
 }
 
 /// Follows a function that begins positive, until a time `length` after the start of the cell. What is above
-/// `−tie` counts as positive.
+/// `−tie` counts as positive. No error of the series is fresh: all of them are told apart from it.
 ///
 /// # Cost
 /// Doubles decide most cells; else a shift of the series, `N²/2` products, for each part of what they leave.
@@ -135,7 +135,7 @@ pub fn follow(
         let here = errors.from(&lower);
         if let Some(rough) = &rough {
             let near = rough.shift(&Number::Exact(middle.clone()), &few);
-            let left_out = rough.rest.add(&here[0]).add(&near.size_from(1, &w).multiply(&w));
+            let left_out = rough.fresh.add(&here[0]).add(&near.size_from(1, &w).multiply(&w));
             if is_positive(&near.coefficient(0).ball(SIGN_BITS).widened(&left_out)) {
                 continue;
             }

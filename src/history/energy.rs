@@ -49,7 +49,7 @@ impl Series {
         };
         let coefficients = (0..length).map(product).collect();
         let sizes = own.iter().map(Number::magnitude).collect();
-        Energy { coefficients, sizes, rest: self.rest, bits }
+        Energy { coefficients, sizes, rest: self.error, bits }
     }
 }
 

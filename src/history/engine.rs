@@ -12,6 +12,7 @@ use crate::history::error::{HistoryError, NotFollowed, Question, When};
 use crate::history::load::Course;
 use crate::history::moment::{Clock, Moment};
 use crate::history::motion::Motion;
+use crate::history::passive::{ErrorEnergy, Passage};
 use crate::history::passivity::{Passivity, StateError};
 use crate::history::pressing::TooLong;
 use crate::history::series::{CellNorm, LONGEST_CELL, Series, Truncation};
@@ -131,8 +132,11 @@ pub(crate) struct Engine {
     count: usize,
     /// What the cells hold, about.
     bytes: u64,
-    /// The size of the largest wave so far.
+    /// The size of the largest wave so far, at the start of its cell, and of the terms that its values are the sum of.
     loudest: Magnitude,
+    steepest: Magnitude,
+    /// The energy of all errors so far; not known where there are local contacts, which are not linear.
+    errors: Option<ErrorEnergy>,
 }
 
 type Outcome<T> = Result<T, HistoryError>;
@@ -233,6 +237,8 @@ impl Engine {
             count: 0,
             bytes: 0,
             loudest: Magnitude::ZERO,
+            steepest: Magnitude::ZERO,
+            errors: network.local_contact().is_none().then_some(ErrorEnergy::NONE),
         };
         let seconds = if network.scene().dimensional { " s" } else { "" };
         engine.clock.tell_in(engine.unit(network, Dimension::TIME)?, seconds);
@@ -288,6 +294,9 @@ impl Engine {
             let state = system.state(node, velocity, &still, &self.places[number], bits)?;
             let passivity = Passivity::of(node, &system)?;
             let errors = passivity.errors(&state);
+            if let Some(all) = &mut self.errors {
+                errors.iter().for_each(|own| all.add_state(&own.size()));
+            }
             let arriving = [node.left, node.right].into_iter().zip([0, 1]);
             let arriving = arriving.map(|(side, direction)| match side {
                 Side::Bar(bar) => match &self.bars[bar].1 {
@@ -536,7 +545,7 @@ impl Engine {
     }
 
     /// The precision that is of use for the next cell of a node: errors that have come together since the start hide
-    /// what is far below them. A local contact begins below any of them.
+    /// what is far below them, but for what the terms of series lose where they cancel. A local contact begins below any of them.
     fn bits_of(&self, node: usize) -> u64 {
         let is_local = |law: &ElementLaw<Number>| matches!(law, ElementLaw::LocalContact { .. });
         if self.nodes[node].elements.iter().any(|own| is_local(&own.law)) {
@@ -544,10 +553,15 @@ impl Engine {
         }
         let state = &self.states[node];
         let own = state.errors.iter().map(|error| (error.size(), self.cut.largest));
-        let arrives = state.arriving.iter().map(|own| (own.rest(&self.waves), self.loudest));
+        let arrives = state.arriving.iter().map(|own| (own.error(&self.waves), self.loudest));
         let known = own.chain(arrives).filter_map(|(error, size)| Some(size.top()? - error.top()?));
+        let cancelled = match (self.steepest.top(), self.loudest.top()) {
+            (Some(terms), Some(wave)) => terms - wave,
+            _ => 0,
+        };
         known.min().map_or(self.cut.bits, |bits| {
-            let bits = u64::try_from(bits.saturating_add(SPARE_BITS)).unwrap_or(0);
+            let bits = bits.saturating_add(cancelled + SPARE_BITS);
+            let bits = u64::try_from(bits).unwrap_or(0);
             bits.max(LEAST_BITS).min(self.cut.bits)
         })
     }
@@ -669,13 +683,19 @@ impl Engine {
             }
         }
         let state = &mut self.states[node];
+        let mut leaving = Vec::with_capacity(2);
         for (side, run) in own.side_runs().into_iter().enumerate() {
             let bar = if side == 0 { own.left } else { own.right };
             let Side::Bar(bar) = bar else { continue };
-            let leaving = state.system.leaving(&motion, &inputs, (side, run), cut.bits);
-            let leaving = leaving.settled(&norm, &cut);
-            self.loudest = self.loudest.max(leaving.coefficient(0).magnitude());
-            self.waves[bar][1 - side].push(leaving, end.clone(), length.clone());
+            let wave = state.system.leaving(&motion, &inputs, (side, run), cut.bits);
+            let wave = wave.settled(&norm, &cut);
+            self.loudest = self.loudest.max(wave.coefficient(0).magnitude());
+            self.steepest = self.steepest.max(wave.size_from(0, &norm.length));
+            let passage = Passage::of(&self.bars[bar].0, length);
+            if let Some(errors) = &mut self.errors {
+                errors.add_wave(&wave.fresh_on(&norm.length, cut.bits), &passage);
+            }
+            leaving.push((bar, 1 - side, wave, passage));
         }
         let displacements = state.displacements.clone();
         for (velocity, start) in motion.velocities.iter().zip(&mut state.displacements) {
@@ -688,8 +708,16 @@ impl Engine {
             .iter()
             .map(|place| place.map_or_else(Series::zero, |place| motion.state[place].clone()));
         let compressions = compressions.collect();
+        let errors = (&state.errors[..], &mut self.errors);
         (state.state, state.errors) =
-            state.system.ended(&state.passivity, &motion, &state.errors, length, &cut);
+            state.system.ended(&state.passivity, &motion, errors, length, &cut);
+        for (bar, direction, wave, passage) in leaving {
+            let wave = match &self.errors {
+                Some(errors) => errors.settle(wave, &passage, &cut),
+                None => wave,
+            };
+            self.waves[bar][direction].push(wave, end.clone(), length.clone());
+        }
         for block in &state.passivity.blocks {
             let own = block.members.iter().map(|member| state.state[*member].magnitude());
             self.cut.largest = self.cut.largest.max(block.size(own));

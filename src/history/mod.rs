@@ -9,7 +9,8 @@
 //! is taken from it, `crossing` and `positive` for the proof that nothing is
 //! passed over, `observe` and `phased` for what is
 //! seen of it, `validity` for how long closed contacts are true, `closed_form` for instants in closed form,
-//! `series` for the arithmetic, `pressing` for local contacts, `passivity` for what becomes of errors, `energy` for what a wave holds, `body` for
+//! `series` for the arithmetic, `pressing` for local contacts, `passivity` and `passive` for what becomes of errors, at a node
+//! and in the line, `energy` for what a wave holds, `body` for
 //! energies and momenta of bodies and for why they never meet again.
 
 mod body;
@@ -26,6 +27,7 @@ pub mod moment;
 pub mod motion;
 mod observe;
 mod part;
+pub mod passive;
 pub mod passivity;
 mod phased;
 pub mod positive;

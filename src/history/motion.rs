@@ -2,12 +2,17 @@
 
 use crate::ball::{Magnitude, Number};
 use crate::history::error::{HistoryError, NotFollowed};
+use crate::history::passive::ErrorEnergy;
 use crate::history::passivity::{Block, Passivity, StateError};
 use crate::history::series::{CellNorm, Roughness, Series, Truncation};
 use crate::network::{Node, System, dot, inverse};
 
 /// So many derivatives at the start of a cell are enclosed one by one.
 const STARTS: usize = 16;
+
+/// So many terms more than what arrives a motion may have on a cell, where it needs them: waves that were reflected
+/// often bend ever more.
+const MOST_FURTHER: usize = 8;
 
 /// Polynomials of a higher degree do not act on a state that is kept exact.
 const MAX_EXACT_DEGREE: usize = 4;
@@ -50,17 +55,19 @@ pub struct Motion {
 pub(super) enum Added {
     /// Nothing: the block is exact, or nothing changes it.
     Nothing,
-    /// So much, and so much per unit of time.
-    Error { at_once: Magnitude, per_time: Magnitude },
+    /// So much, and so much per unit of time; of all of it so much is fresh at the end.
+    Error { at_once: Magnitude, per_time: Magnitude, fresh: Magnitude },
     /// The same, and all of it grows by this factor.
     Growing { at_once: Magnitude, per_time: Magnitude, factor: Magnitude },
 }
 
-/// A block on a cell: the coefficients of its members, the norm of what they leave out, and its size at the
-/// start.
+/// A block on a cell: the coefficients of its members, the norm of what they leave out, its size, how much of that is
+/// fresh, and its size at the start.
 pub(super) struct Course {
     pub columns: Vec<Vec<Number>>,
     pub rest: Magnitude,
+    pub error: Magnitude,
+    pub fresh: Magnitude,
     pub at_start: Magnitude,
     pub added: Added,
     pub roughness: Option<Roughness>,
@@ -71,7 +78,8 @@ impl Course {
     pub fn exact(columns: Vec<Vec<Number>>) -> Course {
         let none = Magnitude::ZERO;
         let added = Added::Nothing;
-        Course { columns, rest: none, at_start: none, added, roughness: None }
+        let (rest, error, fresh, at_start) = (none, none, none, none);
+        Course { columns, rest, error, fresh, at_start, added, roughness: None }
     }
 }
 
@@ -80,7 +88,7 @@ pub(super) struct Given<'a> {
     input: &'a [Series],
     /// The same without radii, and the norms of what was left out.
     pub settled: Vec<Series>,
-    pub errors: Vec<Magnitude>,
+    pub rests: Vec<Magnitude>,
     pub norm: &'a CellNorm,
     pub cut: &'a Truncation,
 }
@@ -88,8 +96,16 @@ pub(super) struct Given<'a> {
 impl<'a> Given<'a> {
     pub fn new(input: &'a [Series], norm: &'a CellNorm, cut: &'a Truncation) -> Given<'a> {
         let settled: Vec<Series> = input.iter().map(|own| own.bare(norm, cut)).collect();
-        let errors = settled.iter().map(|own| own.rest).collect();
-        Given { input, settled, errors, norm, cut }
+        let rests = settled.iter().map(|own| own.rest).collect();
+        Given { input, settled, rests, norm, cut }
+    }
+
+    /// How fast a block is pushed by the errors of what it is given: by those of values, and by the fresh ones.
+    fn pushes(&self, block: &Block) -> [Magnitude; 2] {
+        let push = |bound: fn(&Series) -> Magnitude| {
+            block.push(&self.settled.iter().map(bound).collect::<Vec<_>>())
+        };
+        [push(|own| own.error), push(|own| own.fresh)]
     }
 
     /// The coefficients of x^k, without radii.
@@ -140,8 +156,10 @@ impl System<Number> {
         for (block, course) in passivity.blocks.iter().zip(courses) {
             for (place, member) in block.members.iter().enumerate() {
                 let own = course.columns.iter().map(|column| column[place].clone()).collect();
-                states[*member] = Series::new(own, block.entry(place, &course.rest))
-                    .with_rest_at_start(block.entry(place, &course.at_start))
+                let entry = |size: &Magnitude| block.entry(place, size);
+                states[*member] = Series::new(own, entry(&course.rest))
+                    .with_error(entry(&course.error), entry(&course.fresh))
+                    .with_error_at_start(entry(&course.at_start))
                     .of_roughness(course.roughness);
             }
             added.push(course.added);
@@ -285,13 +303,16 @@ impl System<Number> {
             });
             residuals.push(block.size(left).multiply(&Magnitude::from_u64(k as u64 + 1)));
         }
-        let per_time = block.push(&given.errors).add(&norm.of_sizes(&residuals));
+        let residual = norm.of_sizes(&residuals);
+        let [per_time, fresh_per_time] = given.pushes(block).map(|push| push.add(&residual));
+        let memory = block.memory(&norm.length);
         let free = free_motion(block, own, &columns, cut);
         let at_start = error.size().add(&free);
-        let most = at_start.add(&per_time.multiply(&block.memory(&norm.length)));
-        let rest = cut.driven(&most, &per_time);
-        let added = Added::Error { at_once: free, per_time };
-        Course { columns, rest, at_start, added, roughness: norm.roughness }
+        let error = at_start.add(&per_time.multiply(&memory));
+        let rest = cut.driven(&error, &block.push(&given.rests).add(&residual));
+        let fresh = free.add(&fresh_per_time.multiply(&memory));
+        let added = Added::Error { at_once: free, per_time, fresh };
+        Course { columns, rest, error, fresh, at_start, added, roughness: norm.roughness }
     }
 
     /// The next coefficients of a block after those of x^k.
@@ -375,28 +396,31 @@ impl System<Number> {
             };
             largest = largest.max(size.multiply(&power));
             let enough = left_out <= largest.scale(-(cut.bits as i64));
-            if k > 0 && k >= degree && (enough || k >= cut.order) {
+            if k > 0 && k >= degree && (enough || k >= cut.order.max(degree + MOST_FURTHER)) {
                 break left_out;
             }
             power = power.multiply(&norm.length);
             let next = self.next(block, &column, (k, given.coefficients(k)), cut.bits);
             columns.push(std::mem::replace(&mut column, next));
         };
-        let per_time = block.push(&given.errors);
+        let [per_time, fresh_per_time] = given.pushes(block);
+        let memory = block.memory(&norm.length);
         let at_start = error.size().add(&rounding);
         let at_once = rounding.add(&left_out);
-        let most = error.size().add(&at_once).add(&per_time.multiply(&block.memory(&norm.length)));
-        let rest = cut.driven(&most, &per_time).add(&left_out);
-        let added = Added::Error { at_once, per_time };
-        Course { columns, rest, at_start, added, roughness: norm.roughness }
+        let error = error.size().add(&at_once).add(&per_time.multiply(&memory));
+        let rest = cut.driven(&error, &block.push(&given.rests)).add(&left_out);
+        let fresh = at_once.add(&fresh_per_time.multiply(&memory));
+        let added = Added::Error { at_once, per_time, fresh };
+        Course { columns, rest, error, fresh, at_start, added, roughness: norm.roughness }
     }
 
-    /// The state at the end of a cell, and its errors.
+    /// The state at the end of a cell, and its errors: no larger than all errors so far allow, to which the fresh
+    /// ones are added.
     pub fn ended(
         &self,
         passivity: &Passivity,
         motion: &Motion,
-        errors: &[StateError],
+        (errors, energy): (&[StateError], &mut Option<ErrorEnergy>),
         length: &Number,
         cut: &Truncation,
     ) -> (Vec<Number>, Vec<StateError>) {
@@ -406,29 +430,42 @@ impl System<Number> {
             let values: Vec<Number> = (block.members.iter())
                 .map(|member| motion.state[*member].polynomial(length, cut.bits))
                 .collect();
-            let (at_once, per_time, factor) = match added {
-                Added::Error { at_once, per_time } => (at_once, per_time, None),
-                Added::Growing { at_once, per_time, factor } => (at_once, per_time, Some(factor)),
-                Added::Nothing => {
-                    after.push(StateError::of(block, &values));
-                    for (member, value) in block.members.iter().zip(values) {
-                        state[*member] = value;
-                    }
-                    continue;
-                }
-            };
             let split: Vec<(Number, Magnitude)> =
                 values.iter().map(|value| value.split(cut.bits)).collect();
             let radius = block.size(split.iter().map(|(_, radius)| *radius));
-            let arrived = per_time.multiply(&block.memory(&length.magnitude()));
-            let added = at_once.add(&arrived).add(&radius);
-            let error = match factor {
-                None => error.clone().after(length, &added, block),
-                Some(factor) => StateError::new(error.size().add(&added).multiply(factor)),
+            let after_all = |at_once: &Magnitude, per_time: &Magnitude| {
+                let arrived = per_time.multiply(&block.memory(&length.magnitude()));
+                at_once.add(&arrived).add(&radius)
+            };
+            let (error, fresh) = match added {
+                Added::Nothing => {
+                    let after = StateError::of(block, &values);
+                    let fresh = if block.is_still() { Magnitude::ZERO } else { after.size() };
+                    (after, fresh)
+                }
+                Added::Error { at_once, per_time, fresh } => {
+                    let added = after_all(at_once, per_time);
+                    (error.clone().after(length, &added, block), fresh.add(&radius))
+                }
+                Added::Growing { at_once, per_time, factor } => {
+                    let added = after_all(at_once, per_time);
+                    let grown = error.size().add(&added).multiply(factor);
+                    (StateError::new(grown), grown)
+                }
+            };
+            let error = match energy {
+                Some(energy) => {
+                    energy.add_state(&fresh);
+                    error.at_most(&energy.of_state())
+                }
+                None => error,
             };
             let size = error.size();
-            for (place, (member, (middle, _))) in block.members.iter().zip(split).enumerate() {
-                state[*member] = middle.widened(&block.entry(place, &size), cut.bits);
+            for (place, (value, (middle, _))) in values.into_iter().zip(split).enumerate() {
+                state[block.members[place]] = match added {
+                    Added::Nothing => value,
+                    _ => middle.widened(&block.entry(place, &size), cut.bits),
+                };
             }
             after.push(error);
         }

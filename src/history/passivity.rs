@@ -307,6 +307,11 @@ impl StateError {
         StateError::new(block.size(values.iter().map(radius)))
     }
 
+    /// The same, of which it is known that it is no larger than this.
+    pub fn at_most(self, size: &Magnitude) -> StateError {
+        if self.size() > *size { StateError::new(*size) } else { self }
+    }
+
     /// Now.
     pub fn size(&self) -> Magnitude {
         self.earlier.add(&self.added)

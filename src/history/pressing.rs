@@ -308,7 +308,9 @@ impl Pressing<'_> {
             if doubtful.is_empty() {
                 let forces = self.forces(&contacts, forces, &bounds, &at_start);
                 let Bounds { rest, added, roughness, .. } = bounds;
-                return Ok((Course { columns, rest, at_start, added, roughness }, forces));
+                let (error, fresh) = (rest, rest);
+                let course = Course { columns, rest, error, fresh, at_start, added, roughness };
+                return Ok((course, forces));
             }
             light.extend(doubtful);
         }
@@ -544,7 +546,7 @@ impl Pressing<'_> {
             return Err(self.unknown());
         }
         let factor = Magnitude::power_of_two(0).add(&z).add(&z.multiply(&z));
-        let arriving = self.block.push(&self.given.errors);
+        let arriving = self.block.push(&self.given.rests);
         let early = at_start.add(&arriving.multiply(&norm.length)).multiply(&factor);
         let mut per_time = arriving;
         let mut light = Vec::new();
@@ -604,13 +606,13 @@ impl Pressing<'_> {
                     let first = law.law.bound(&own.start.add(&off)).unwrap_or(*light).min(*light);
                     let roughness = (!light.is_zero()).then_some(Roughness::Values);
                     return Series::new(Vec::new(), *light)
-                        .with_rest_at_start(first)
+                        .with_error_at_start(first)
                         .of_roughness(roughness)
                         .of_sign(signed.filter(|_| !light.is_zero()));
                 }
                 let rest = own.stiffest.multiply(&self.block.entry(own.place, &bounds.rest));
                 Series::new(force, rest.add(&own.force.multiply(&bounds.left_out)))
-                    .with_rest_at_start(own.stiffest.multiply(&off))
+                    .with_error_at_start(own.stiffest.multiply(&off))
                     .of_roughness(bounds.roughness)
                     .of_sign(signed)
             };

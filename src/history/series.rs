@@ -7,6 +7,9 @@
 //! scene this norm bounds the error of every derivative at once, and shifts within the cell leave it as it is:
 //! nothing is lost from cell to cell but what a node itself amplifies.
 //!
+//! A node that passes all energy on may still amplify this norm, by three at most where a mass reflects. So values
+//! have a bound of their own, which the energy of all errors keeps small: see `passive`.
+//!
 //! What a local contact sends out is analytic only near the cell, so that its derivatives grow as factorials. Its
 //! errors are bounded in a weaker norm, that of a [`Roughness`].
 
@@ -218,13 +221,16 @@ fn moved(sizes: &[Magnitude], j: usize, r: &Magnitude) -> Magnitude {
 ///
 /// # Invariants
 /// - `coefficients` hold `c_0, c_1, …`, the last one not zero;
-/// - `‖e‖ ≤ rest` in the norm of the cell, and so on every part of it, and `|e(0)| ≤ rest_at_start`; where it is
-///   rough, in the norm of its roughness.
+/// - `‖e‖ ≤ rest` in the norm of the cell, and so on every part of it; where it is rough, in the norm of its roughness;
+/// - `|e(x)| ≤ error` on the cell, and `|e(0)| ≤ error_at_start`;
+/// - `|e(x)| ≤ fresh` if what arrived at the node, and its state at the start of the cell, had been free of errors.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Series {
     pub coefficients: Vec<Number>,
     pub rest: Magnitude,
-    rest_at_start: Magnitude,
+    pub error: Magnitude,
+    pub fresh: Magnitude,
+    error_at_start: Magnitude,
     pub roughness: Option<Roughness>,
     /// Its sign on the cell, where that is known otherwise.
     pub signed: Option<Signed>,
@@ -253,17 +259,30 @@ impl Series {
         Series::new(vec![value], Magnitude::ZERO)
     }
 
-    /// The polynomial with these coefficients, and a bound of the rest.
+    /// The polynomial with these coefficients, and a bound of the rest, all of which is fresh.
     pub fn new(mut coefficients: Vec<Number>, rest: Magnitude) -> Series {
         while coefficients.last().is_some_and(Number::is_zero) {
             coefficients.pop();
         }
-        Series { coefficients, rest, rest_at_start: rest, roughness: None, signed: None }
+        let (error, fresh, error_at_start) = (rest, rest, rest);
+        Series { coefficients, rest, error, fresh, error_at_start, roughness: None, signed: None }
     }
 
     /// The same function, of whose error less is known to be at the start.
-    pub fn with_rest_at_start(self, rest_at_start: Magnitude) -> Series {
-        Series { rest_at_start, ..self }
+    pub fn with_error_at_start(self, error_at_start: Magnitude) -> Series {
+        Series { error_at_start, ..self }
+    }
+
+    /// The same function, whose values have an error of this size, so much of it fresh.
+    pub fn with_error(self, error: Magnitude, fresh: Magnitude) -> Series {
+        let error_at_start = self.error_at_start.min(error);
+        Series { error, fresh, error_at_start, ..self }
+    }
+
+    /// The same polynomial with other coefficients, as far as its errors go.
+    fn with_coefficients(&self, coefficients: Vec<Number>) -> Series {
+        Series { roughness: self.roughness, ..Series::new(coefficients, self.rest) }
+            .with_error(self.error, self.fresh)
     }
 
     /// The same function, whose rest is a bound of this roughness or of its own, whichever is the larger.
@@ -340,7 +359,7 @@ impl Series {
     /// An enclosure of `f^(k)(0)/k!`: of `c_k`, and a bound of that derivative of the rest over `k!`.
     pub fn start(&self, k: usize, cut: &Truncation) -> Number {
         let mut rest = match k {
-            0 => self.rest_at_start,
+            0 => self.error_at_start,
             _ => self.bound_of_derivative(&self.rest, k, cut),
         };
         (2..=k as u64).for_each(|i| rest = rest.divide(i));
@@ -362,7 +381,8 @@ impl Series {
             own.multiply(&sizes[0]).add(&other.multiply(&sizes[1]))
         };
         Series::new((0..length).map(term).collect(), sum(&self.rest, &other.rest))
-            .with_rest_at_start(sum(&self.rest_at_start, &other.rest_at_start))
+            .with_error(sum(&self.error, &other.error), sum(&self.fresh, &other.fresh))
+            .with_error_at_start(sum(&self.error_at_start, &other.error_at_start))
             .of_roughness(self.roughness.max(other.roughness))
             .of_sign(sign_of_sum([(self, a), (other, b)]))
     }
@@ -389,7 +409,7 @@ impl Series {
         if exact {
             let mut shifted = self.coefficients.clone();
             divide(&mut shifted, |c, next| c.add(&next.multiply(a, bits), bits));
-            return Series::new(shifted, self.rest).of_roughness(self.roughness);
+            return self.with_coefficients(shifted);
         }
         let (middle, radius) = a.split(bits);
         let mut shifted: Vec<Number> = self.coefficients.iter().map(|c| c.enclosed(bits)).collect();
@@ -401,7 +421,7 @@ impl Series {
                 *c = c.widened(&moved(&sizes, j, &radius), bits);
             }
         }
-        Series::new(shifted, self.rest).of_roughness(self.roughness).of_sign(signed)
+        self.with_coefficients(shifted).of_sign(signed)
     }
 
     /// The same function, its coefficients without radii and without the last ones that tell nothing on a
@@ -424,13 +444,13 @@ impl Series {
             power = power.multiply(&norm.length);
         }
         let least = largest.scale(-(cut.bits as i64));
-        let (mut kept, mut rest) = (sizes.len(), self.rest);
+        let (mut kept, mut added) = (sizes.len(), Magnitude::ZERO);
         while kept > 0 {
             let size = norm.of_term(kept - 1, &sizes[kept - 1]);
             if size > least {
                 break;
             }
-            rest = rest.add(&size);
+            added = added.add(&size);
             kept -= 1;
         }
         let mut radii = Vec::with_capacity(kept);
@@ -442,16 +462,23 @@ impl Series {
         }
         let dropped = sizes.first().filter(|_| radii.is_empty());
         let off = radii.first().or(dropped).copied().unwrap_or(Magnitude::ZERO);
-        let at_start = self.rest_at_start.add(&off);
-        Series::new(coefficients, rest.add(&norm.of_sizes(&radii)))
-            .with_rest_at_start(at_start)
+        let rounded = radii
+            .iter()
+            .rev()
+            .fold(Magnitude::ZERO, |sum, radius| sum.multiply(&norm.length).add(radius));
+        let rounded = rounded.add(&added);
+        Series::new(coefficients, self.rest.add(&added).add(&norm.of_sizes(&radii)))
+            .with_error(self.error.add(&rounded), self.fresh.add(&rounded))
+            .with_error_at_start(self.error_at_start.add(&off))
             .of_roughness(self.roughness.max(norm.roughness))
             .of_sign(self.signed)
     }
 
     /// The same function so much beyond the ends of the cell.
     pub fn extended(&self, by: &Magnitude, cut: &Truncation) -> Series {
-        Series { rest: self.bound_beyond(&self.rest, by, cut), ..self.clone() }
+        let rest = self.bound_beyond(&self.rest, by, cut);
+        let error = if by.is_zero() { self.error } else { rest };
+        Series { rest, error, ..self.clone() }
     }
 
     /// The first coefficients of a polynomial in `ξ`, and a bound of its distance from `f(a + ξ)` for all
@@ -480,7 +507,7 @@ impl Series {
         }
         let rest = (0..terms).fold(rest, |rest, _| rest.multiply(h));
         shifted.resize(terms.max(1), Number::zero());
-        shifted[0] = shifted[0].widened(&self.rest, cut.bits);
+        shifted[0] = shifted[0].widened(&self.error, cut.bits);
         (shifted, rest)
     }
 
@@ -512,7 +539,7 @@ impl Series {
         if x.is_zero() {
             return self.start(0, cut);
         }
-        self.polynomial(x, cut.bits).widened(&self.rest, cut.bits)
+        self.polynomial(x, cut.bits).widened(&self.error, cut.bits)
     }
 
     /// A bound of `|Σ_{k≥n} c_k ξ^(k−n)|` for `|ξ| ≤ w`.
@@ -528,7 +555,7 @@ impl Series {
 
     /// The value of `integral`, this function's, at `x`: narrower than as that of any other function.
     pub fn integrated(&self, integral: &Series, x: &Number, bits: u64) -> Number {
-        integral.polynomial(x, bits).widened(&self.rest.multiply(&x.magnitude()), bits)
+        integral.polynomial(x, bits).widened(&self.error.multiply(&x.magnitude()), bits)
     }
 
     /// The same on a cell of at most this length.
@@ -539,7 +566,8 @@ impl Series {
         }
         let longest = (*length).max(Magnitude::power_of_two(-cut.rate));
         Series::new(coefficients, self.rest.multiply(&longest))
-            .with_rest_at_start(Magnitude::ZERO)
+            .with_error(self.error.multiply(&longest), self.fresh.multiply(&longest))
+            .with_error_at_start(Magnitude::ZERO)
             .of_roughness(self.roughness)
     }
 

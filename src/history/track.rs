@@ -159,11 +159,11 @@ impl Arriving {
         }
     }
 
-    /// A bound of the errors of that series.
-    pub fn rest(&self, waves: &[[Track; 2]]) -> Magnitude {
+    /// A bound of the errors of its values.
+    pub fn error(&self, waves: &[[Track; 2]]) -> Magnitude {
         match self {
             Arriving::Delayed { bar, direction, cell, .. } => {
-                waves[*bar][*direction].cells[*cell].1.series().rest
+                waves[*bar][*direction].cells[*cell].1.series().error
             }
             _ => Magnitude::ZERO,
         }

@@ -9,6 +9,7 @@ mod load;
 mod locks;
 mod order;
 mod page;
+mod passive;
 mod passivity;
 mod phases;
 mod positive;

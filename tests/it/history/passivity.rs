@@ -27,7 +27,7 @@ static NODE: LazyLock<(Node<Number>, System<Number>, Truncation)> = LazyLock::ne
     (node, system, Truncation::new(128, rate.top().unwrap()))
 });
 
-fn with_node<T>(what: impl Fn(&Node<Number>, &System<Number>, &Truncation) -> T) -> T {
+pub fn with_node<T>(what: impl Fn(&Node<Number>, &System<Number>, &Truncation) -> T) -> T {
     let (node, system, cut) = &*NODE;
     what(node, system, cut)
 }
@@ -36,7 +36,7 @@ fn rational(numerator: i64, denominator: i64) -> Rational {
     Rational::new(numerator.into(), denominator.into())
 }
 
-fn cell(length: &Rational, cut: &Truncation) -> CellNorm {
+pub fn cell(length: &Rational, cut: &Truncation) -> CellNorm {
     CellNorm::new(Magnitude::from_rational(length), cut)
 }
 
@@ -69,7 +69,7 @@ fn a_state_dies_out_no_slower_than_told() {
         let mut errors = passivity.errors(&state);
         for step in 0..160 {
             let motion = system.solve(&passivity, (&state, &errors), &still, (&norm, cut));
-            (state, errors) = system.ended(&passivity, &motion, &errors, &length, cut);
+            (state, errors) = system.ended(&passivity, &motion, (&errors, &mut None), &length, cut);
             told = told.after(&length, &Magnitude::ZERO, block);
             let size = block.size(state.iter().map(Number::magnitude)).to_double();
             assert!(size <= told.size().to_double() * (1.0 + 1e-8), "{step}: {size} {told:?}");
@@ -120,7 +120,7 @@ proptest! {
                 }
                 let shifted = exact.each_ref().map(|own| own.shift(&x, cut));
                 let motion = system.solve(&passivity, (&state, &errors), &shifted, (&short, cut));
-                (state, errors) = system.ended(&passivity, &motion, &errors, &step, cut);
+                (state, errors) = system.ended(&passivity, &motion, (&errors, &mut None), &step, cut);
             }
             Ok(())
         })?;
@@ -186,8 +186,8 @@ proptest! {
                     }
                 }
                 let length = Number::Exact(length);
-                (state, errors) = system.ended(&passivity, &wide, &errors, &length, &few);
-                (other, exact) = system.ended(&passivity, &narrow, &exact, &length, cut);
+                (state, errors) = system.ended(&passivity, &wide, (&errors, &mut None), &length, &few);
+                (other, exact) = system.ended(&passivity, &narrow, (&exact, &mut None), &length, cut);
                 for (wide, narrow) in state.iter().zip(&other) {
                     assert!(wide.subtract(narrow, bits).ball(bits).contains_zero());
                 }
