@@ -109,7 +109,7 @@ fn values_stay_known_while_a_bar_rings() {
         let off = few.subtract(&more, 448);
         assert!(off.contains(&Rational::default()), "{name}: {few:?} {more:?}");
         // The digits that are told are those.
-        let told = values(&network, name, &times[1..], Limit::Right, 30).remove(0);
+        let told = values(&network, name, &times[1..], Limit::Left, 30).remove(0);
         assert!(told.ball(300).subtract(&more, 300).contains(&Rational::default()), "{name}");
     }
 }
