@@ -152,7 +152,8 @@ fn errors_are_carried_through_a_cell() {
     let length = power_of_two(-8);
     let (motion, force) = contact.press(&state, &errors, (&ratio(1, 2), &length)).unwrap();
     let at = exact(&length);
-    let (ended, _) = contact.system.ended(&contact.passivity, &motion, &errors, &at, &contact.cut);
+    let (ended, _) =
+        contact.system.ended(&contact.passivity, &motion, (&errors, &mut None), &at, &contact.cut);
     for start in [&start - &off, &start + &off] {
         let there = between_bars(&start, &length);
         let square = there.multiply(&there, 4 * BITS);
@@ -214,8 +215,13 @@ fn cells_hold_the_motion_of_a_mass_or_are_too_long() {
             };
             told[0] += 1;
             let at = exact(&length);
-            let (ended, _) =
-                contact.system.ended(&contact.passivity, &motion, &errors, &at, &contact.cut);
+            let (ended, _) = contact.system.ended(
+                &contact.passivity,
+                &motion,
+                (&errors, &mut None),
+                &at,
+                &contact.cut,
+            );
             for (dv, da) in [(off, off), (off, -off), (-off, off), (-off, -off)] {
                 let time = num_traits::ToPrimitive::to_f64(&length).unwrap();
                 let there = beside_a_wall([dv, 1.0 + da], wave, time);
