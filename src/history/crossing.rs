@@ -118,13 +118,15 @@ pub fn follow(
     let tie = Ball::from_rational(&tie.into(), cut.bits);
     let narrowest = &end * Rational::from(&Magnitude::power_of_two(-(cut.bits as i64) / 2));
     let is_positive = |value: &Ball| sign(&value.add(&tie, cut.bits)) == Some(Ordering::Greater);
+    let [value, slope] = [0, 1].map(|k| f.coefficient(k).ball(cut.bits).widened(&errors.near[k]));
+    let begins = is_positive(&value);
+    // Else no part that begins at zero is known to be positive, however short, nor does one that rises fall to zero.
+    let may_begin = begins || sign(&slope) == Some(Ordering::Less);
     // Whether `f(0)` is positive and `(f(x) − f(0))/x` is until there: a tie begins near zero.
     let rises = |until: &Rational| {
-        let [value, slope] =
-            [0, 1].map(|k| f.coefficient(k).ball(cut.bits).widened(&errors.near[k]));
         let reach = Magnitude::from_rational(until);
         let bend = f.size_from(2, &reach).multiply(&reach);
-        is_positive(&value) && sign(&slope.widened(&bend)) == Some(Ordering::Greater)
+        begins && sign(&slope.clone().widened(&bend)) == Some(Ordering::Greater)
     };
     let few = Truncation { bits: SIGN_BITS, ..*cut };
     let rough = (cut.bits > 2 * SIGN_BITS).then(|| f.bare(&CellNorm::new(size, &few), &few));
@@ -165,6 +167,9 @@ pub fn follow(
                 }
                 _ => Course::Falls(root),
             };
+        }
+        if lower.is_zero() && !may_begin {
+            return Course::Undecided(Ball::from_rational(&lower, cut.bits));
         }
         if half < narrowest {
             return Course::Undecided(Ball::between(&lower, &upper, cut.bits));
