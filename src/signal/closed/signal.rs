@@ -274,7 +274,11 @@ fn made_exact(
         return Ok(None);
     }
     let recurrence = network.recurrence()?;
-    if recurrence.symbols().next().is_some() || !recurrence.constants().is_empty() {
+    let period = recurrence.statement().period.as_constant();
+    if recurrence.symbols().next().is_some()
+        || !recurrence.constants().is_empty()
+        || period.is_none()
+    {
         return Ok(None);
     }
     let solution = Solution::new(recurrence);
