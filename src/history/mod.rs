@@ -5,13 +5,11 @@
 //! where a gap closes the contact is formed again; each of these instants is exact or enclosed, and what
 //! cannot be decided is refused by name.
 //!
-//! Read `engine` for the way from cell to cell, `contacts` for which of them are closed, `reading` for what
-//! is taken from it, `crossing` and `positive` for the proof that nothing is
-//! passed over, `observe` and `phased` for what is
-//! seen of it, `validity` for how long closed contacts are true, `closed_form` for instants in closed form,
-//! `series` for the arithmetic, `pressing` for local contacts, `passivity` and `passive` for what becomes of errors, at a node
-//! and in the line, `energy` for what a wave holds, `body` for
-//! energies and momenta of bodies and for why they never meet again.
+//! Read `engine` for the way from cell to cell, `contacts` for which of them are closed, `reading` for what is taken
+//! from it, `crossing` and `positive` for the proof that nothing is passed over, `observe` and `phased` for what is seen
+//! of it, `validity` for how long closed contacts are true, `closed_form` for instants in closed form, `series` for the
+//! arithmetic, `pressing` for local contacts, `passivity` and `passive` for what becomes of errors, at a node and in the
+//! line, `energy` for what a wave holds, `body` for energies and momenta of bodies and for why they never meet again.
 
 mod body;
 pub mod closed_form;

@@ -25,7 +25,7 @@ pub fn run(options: &Check) -> Result<String, Failure> {
         Checked::LocalContact(contact) => {
             let _ = writeln!(
                 report,
-                "  `{contact}` is a local contact: no recurrence, values by the method of steps"
+                "  `{contact}` is a local contact: no recurrence; what it does is followed with proof"
             );
         }
         Checked::Lattice { echoes } => {
