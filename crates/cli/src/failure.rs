@@ -1,6 +1,7 @@
 //! Failures with their exit codes, as they are shown.
 
 use super::diagnostic::{Style, render};
+use std::io::{self, IsTerminal as _, Write as _};
 use wavestep::Error;
 use wavestep::answer::WayError;
 use wavestep::expression::NotInvertible;
@@ -68,6 +69,13 @@ impl Failure {
             Failure::Unanswered(..) => COMPUTATION,
             Failure::Told { code, .. } => *code,
         }
+    }
+
+    /// Shows it on standard error.
+    pub fn show(&self) {
+        let coloured = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+        let style = if coloured { Style::Coloured } else { Style::Plain };
+        let _ = writeln!(io::stderr(), "{}", self.render(style));
     }
 
     /// What is shown to the person.

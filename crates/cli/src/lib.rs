@@ -5,6 +5,7 @@
 
 mod arguments;
 mod book;
+mod budget;
 mod chart;
 mod chart_page;
 mod check;
@@ -36,9 +37,8 @@ mod validity;
 
 use arguments::{Arguments, Scenes, Subcommand};
 use clap::{CommandFactory as _, FromArgMatches as _};
-use diagnostic::Style;
 use failure::Failure;
-use std::io::{self, IsTerminal as _, Write as _};
+use std::io::{self, Write as _};
 use std::process::ExitCode;
 use wavestep::scenes::{SCENES, Scene};
 
@@ -58,6 +58,7 @@ pub fn run() -> ExitCode {
     if let Some(memory) = arguments.memory {
         wavestep::limits::set_memory(memory);
     }
+    budget::watch(arguments.time_limit);
     let result = match &arguments.subcommand {
         Subcommand::Derive(options) => derive::run(options),
         Subcommand::Eval(options) => eval::run(options),
@@ -76,15 +77,14 @@ pub fn run() -> ExitCode {
         Subcommand::Scenes(options) => scenes(options),
         Subcommand::Generate(options) => generate::run(options),
     };
+    budget::done();
     match result {
         Ok(output) => written(io::stdout().lock().write_all(output.as_bytes())),
         Err(failure) => {
             if let Failure::Told { report, .. } = &failure {
                 let _ = io::stdout().lock().write_all(report.as_bytes());
             }
-            let coloured = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-            let style = if coloured { Style::Coloured } else { Style::Plain };
-            let _ = writeln!(io::stderr(), "{}", failure.render(style));
+            failure.show();
             ExitCode::from(failure.code())
         }
     }

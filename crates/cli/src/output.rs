@@ -1,5 +1,6 @@
 //! Files that are written: whole, or not at all.
 
+use super::budget;
 use super::failure::Failure;
 use std::fs::{self, File};
 use std::io::Write as _;
@@ -19,6 +20,7 @@ pub fn written(text: String, file: Option<&str>) -> Result<String, Failure> {
 /// Writes a file as a whole or not at all: beside it first, under a name that is free, then in its
 /// place. What is no ordinary file, such as a pipe, is written to.
 pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let _writing = budget::writing();
     let written = match fs::metadata(file) {
         Ok(found) if !found.is_file() => fs::write(file, bytes),
         // A link stays a link: its target is replaced.

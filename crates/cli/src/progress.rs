@@ -1,6 +1,7 @@
 //! Progress on standard error, for work that takes longer than a second. It is shown where standard error is a
 //! terminal, and cleared where it is dropped, also on an error. What will take minutes is told anywhere.
 
+use super::budget;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 use std::ops::Deref;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -32,11 +33,10 @@ impl Deref for Progress {
 }
 
 pub fn counted(count: usize) -> Progress {
-    shown(
-        Some(count as u64),
-        "{wide_bar} {pos}/{len} points{msg}, {elapsed} so far; Ctrl-C stops it",
-        "",
-    )
+    let template = "{wide_bar} {pos}/{len} points{msg}, {elapsed} so far; Ctrl-C stops it";
+    let progress = shown(Some(count as u64), template, "");
+    budget::tell("evaluating");
+    progress
 }
 
 /// Progress of work that is not counted.
@@ -45,6 +45,7 @@ pub fn spinner(work: &'static str) -> Progress {
 }
 
 fn shown(length: Option<u64>, template: &str, work: &'static str) -> Progress {
+    budget::tell(work);
     let bar = ProgressBar::with_draw_target(length, ProgressDrawTarget::stderr())
         .with_finish(ProgressFinish::AndClear)
         .with_message(work);

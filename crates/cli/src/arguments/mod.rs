@@ -26,6 +26,7 @@ pub use tools::{Generate, Generated, Scenes};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand as Subcommands, ValueHint};
+use std::time::Duration;
 use wavestep::signal::Limit;
 
 /// How results are written. Each command takes some of these.
@@ -80,6 +81,22 @@ pub struct Arguments {
     /// How much memory waves may take, such as 500MB or 2GB [default: a quarter of the machine's]
     #[arg(long, global = true, value_name = "SIZE", value_parser = bytes, value_hint = ValueHint::Other)]
     pub memory: Option<u64>,
+    /// How long the answer may take, such as 15s or 10min [default: as long as it needs]
+    #[arg(long, global = true, value_name = "TIME", value_parser = duration, value_hint = ValueHint::Other)]
+    pub time_limit: Option<Duration>,
+}
+
+/// A duration with its unit.
+fn duration(text: &str) -> Result<Duration, String> {
+    let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)];
+    let given = units.iter().find_map(|(unit, size)| {
+        let number: f64 = text.strip_suffix(unit)?.trim_end().parse().ok()?;
+        Some(number * size)
+    });
+    match given {
+        Some(seconds) if (0.1..1e9).contains(&seconds) => Ok(Duration::from_secs_f64(seconds)),
+        _ => Err("give at least 0.1 s, with its unit, such as 15s or 10min".to_owned()),
+    }
 }
 
 /// A number of bytes with its unit.

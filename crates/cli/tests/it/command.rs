@@ -312,6 +312,7 @@ fn bad_arguments_are_explained() {
         ("piece-most", "derive two-bars --piece 18446744073709551615".to_owned()),
         ("piece-and-general", "derive rigid-mass --general --piece 3".to_owned()),
         ("form-unknown", "derive rigid-mass --form foo".to_owned()),
+        ("time-without-unit", "derive rigid-mass --time-limit 5".to_owned()),
         ("memory-without-unit", "derive rigid-mass --memory 500".to_owned()),
     ] {
         assert_fails(&folder, name, &words(&line), 2);
@@ -347,6 +348,30 @@ fn what_cannot_be_computed_is_explained() {
     ] {
         assert_fails(&folder, name, &words(&line), code);
     }
+}
+
+/// What no estimate foresees is ended by a watch: nothing is written, and the error tells how far it came.
+#[test]
+fn work_is_held_to_its_time_and_memory() {
+    let folder = folder("command-watch");
+    for (line, message, option) in [
+        (
+            "plot mass-that-bounces --quantity velocity --to 4000 -o late.svg --time-limit 0.3s",
+            "error: no answer within 0.3 s (",
+            "--time-limit",
+        ),
+        (
+            "derive rigid-mass --piece 120 --memory 1MB --time-limit 1min",
+            "error: the answer takes more than 1 MB of memory",
+            "--memory",
+        ),
+    ] {
+        let (code, stdout, stderr) = run(&folder, &words(line));
+        assert_eq!((code, stdout.as_str()), (1, ""), "{line}");
+        assert!(stderr.starts_with(message), "{line}: {stderr}");
+        assert!(stderr.trim_end().ends_with(&format!("or allow more with {option}")), "{stderr}");
+    }
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 0, "nothing is written");
 }
 
 #[test]

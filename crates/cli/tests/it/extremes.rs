@@ -1,8 +1,9 @@
 //! Requests with extreme numbers: each is answered or refused, whatever stands in the scene.
 //!
 //! A number of a shipped scene or of an accepted text of the grammar, or two of them, are replaced by one that
-//! nobody expects there; then something is asked of it. `WAVESTEP_REQUESTS=5000 cargo test -p wavestep-cli
-//! extremes` asks that many, and fails where one takes more than 15 seconds of a quiet machine.
+//! nobody expects there; then something is asked of it. `WAVESTEP_REQUESTS=5000 cargo test --release -p
+//! wavestep-cli extremes -- --nocapture` asks that many and says which of them the watch ended;
+//! `WAVESTEP_FIRST=2000` beside it begins with that number.
 
 use super::{ROOT, command, folder};
 use std::fs;
@@ -13,8 +14,15 @@ use std::time::{Duration, Instant};
 /// How many requests are made where nobody says.
 const REQUESTS: u64 = 40;
 
-/// How long a request may take in a long run.
+/// How long a request works at most in a long run, and where nobody says; what it may take beyond that to end.
+const LIMITS: (&str, &str) = ("14s", "3s");
 const PATIENCE: Duration = Duration::from_secs(15);
+
+/// What a request may take, in kB.
+const MEMORY: u64 = 1_000_000;
+
+/// Requests of which the watch ends one at most.
+const ENDED: u64 = 50;
 
 /// Numbers that nobody expects.
 const EXTREMES: [&str; 16] = [
@@ -150,39 +158,79 @@ fn request(chance: &mut Chance, text: &str) -> Vec<String> {
     words
 }
 
-/// Asks; the exit code and standard error, none where it takes too long.
-fn asked(
-    folder: &Path,
-    words: &[&str],
-    patience: Option<Duration>,
-) -> Option<(Option<i32>, String)> {
+/// The text that a request is made of: the one whose name and whose number give the largest hash, so that another
+/// text beside them changes few requests.
+fn drawn(texts: &[(PathBuf, String)], number: u64) -> &(PathBuf, String) {
+    let hash = |path: &Path| {
+        let name = path.file_name().unwrap().as_encoded_bytes();
+        let bytes =
+            name.iter().chain(&number.to_le_bytes()).fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+                (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3)
+            });
+        Chance(bytes).below(1 << 32)
+    };
+    texts.iter().max_by_key(|(path, _)| hash(path)).unwrap()
+}
+
+/// What became of a request.
+struct Told {
+    code: Option<i32>,
+    errors: String,
+    taken: Duration,
+    /// The most memory that was seen, in kB, where the system tells.
+    memory: u64,
+}
+
+impl Told {
+    /// Answered, or refused by name.
+    fn is_well(&self) -> bool {
+        let is_told = self.errors.contains("error:") && !self.errors.contains("panicked");
+        let is_ended = matches!(self.code, Some(0)) && !self.errors.contains("error:")
+            || matches!(self.code, Some(1..=3)) && is_told;
+        is_ended && self.memory <= MEMORY
+    }
+
+    /// The watch ended it.
+    fn was_ended(&self) -> bool {
+        self.errors.contains("error: no answer within")
+            || self.errors.contains("error: the answer takes")
+    }
+}
+
+/// Asks.
+fn asked(folder: &Path, words: &[&str]) -> Told {
     let mut command = command(folder, words);
     command.stdout(Stdio::null()).stderr(Stdio::piped());
-    let mut child = command.spawn().unwrap();
     let begun = Instant::now();
-    while let (Some(patience), None) = (patience, child.try_wait().unwrap()) {
-        if begun.elapsed() > patience {
-            child.kill().unwrap();
-            child.wait().unwrap();
-            return None;
-        }
+    let mut child = command.spawn().unwrap();
+    let status = format!("/proc/{}/status", child.id());
+    let mut memory = 0;
+    while child.try_wait().unwrap().is_none() {
+        let told = fs::read_to_string(&status).unwrap_or_default();
+        let held =
+            told.lines().find_map(|line| line.strip_prefix("VmHWM:")?.trim().strip_suffix(" kB"));
+        memory = held.map_or(memory, |held| held.parse().unwrap());
         std::thread::sleep(Duration::from_millis(5));
     }
     let output = child.wait_with_output().unwrap();
-    Some((output.status.code(), String::from_utf8(output.stderr).unwrap()))
+    let errors = String::from_utf8(output.stderr).unwrap();
+    Told { code: output.status.code(), errors, taken: begun.elapsed(), memory }
 }
 
 #[test]
 fn extreme_numbers_are_answered_or_refused() {
     let folder = folder("extremes");
     let texts = texts();
-    let count = std::env::var("WAVESTEP_REQUESTS").ok().map(|count| count.parse::<u64>().unwrap());
-    let patience = count.map(|_| PATIENCE);
+    let given = |name| std::env::var(name).ok().map(|count| count.parse::<u64>().unwrap());
+    let (count, is_long) =
+        (given("WAVESTEP_REQUESTS").unwrap_or(REQUESTS), given("WAVESTEP_REQUESTS").is_some());
+    let limit = if is_long { LIMITS.0 } else { LIMITS.1 };
+    let first = given("WAVESTEP_FIRST").unwrap_or(0);
     let mut failed = Vec::new();
-    let mut answered = 0;
-    for number in 0..count.unwrap_or(REQUESTS) {
+    let (mut answered, mut ended) = (0, 0);
+    for number in first..first + count {
         let mut chance = Chance(number << 32);
-        let (path, text) = &texts[chance.below(texts.len())];
+        let (path, text) = drawn(&texts, number);
         let mut text = text.clone();
         for _ in 0..1 + chance.below(3) / 2 {
             let places = numbers(&text);
@@ -195,22 +243,30 @@ fn extreme_numbers_are_answered_or_refused() {
         let words: Vec<&str> =
             words.iter().map(|word| if word == "X" { "extreme.wave" } else { word }).collect();
         fs::write(folder.join("extreme.wave"), &text).unwrap();
-        let words = [&words[..], &["--memory", "800MB"]].concat();
-        let told = asked(&folder, &words, patience);
-        let is_well = match &told {
-            Some((Some(0), stderr)) => !stderr.contains("error:"),
-            Some((Some(1..=3), stderr)) => {
-                stderr.contains("error:") && !stderr.contains("panicked")
-            }
-            _ => false,
-        };
-        answered += u64::from(matches!(told, Some((Some(0), _))));
-        if !is_well {
-            let asked = format!("{number}: {} of {}: {told:?}", words.join(" "), path.display());
-            fs::copy(folder.join("extreme.wave"), folder.join(format!("{number}.wave"))).unwrap();
+        let words = [&words[..], &["--memory", "800MB", "--time-limit", limit]].concat();
+        let told = asked(&folder, &words);
+        answered += u64::from(told.code == Some(0));
+        ended += u64::from(told.was_ended());
+        let is_late = is_long && told.taken > PATIENCE;
+        if told.is_well() && !told.was_ended() && !is_late {
+            continue;
+        }
+        let (seconds, megabytes) = (told.taken.as_secs_f64(), told.memory / 1000);
+        let asked = format!(
+            "{number}: {} of {}: {:?} after {seconds:.1} s with {megabytes} MB: {}",
+            words.join(" "),
+            path.display(),
+            told.code,
+            told.errors
+        );
+        println!("{asked}");
+        fs::copy(folder.join("extreme.wave"), folder.join(format!("{number}.wave"))).unwrap();
+        if !told.is_well() || is_late {
             failed.push(asked);
         }
     }
+    println!("{count} requests: {answered} answered, {ended} ended by the watch");
     assert!(failed.is_empty(), "{} requests:\n{}", failed.len(), failed.join("\n"));
-    assert!(answered > count.unwrap_or(REQUESTS) / 4, "most are refused: {answered}");
+    assert!(answered > count / 4, "most are refused: {answered}");
+    assert!(!is_long || ended * ENDED <= count, "{ended} of {count} were ended by the watch");
 }
