@@ -94,10 +94,14 @@ impl Guard {
         }
     }
 
+    /// Whether it is that of a local contact whose force is below the precision.
+    pub fn is_light(&self) -> bool {
+        matches!(self.kept, Kept::Compression(..)) && !self.is_safe()
+    }
+
     /// Whether a local contact has a force that may be taken for zero, since its compression is.
     pub fn may_be_idle(&self) -> bool {
-        let is_local = matches!(self.kept, Kept::Compression(..)) && !self.is_safe();
-        is_local && beginning(&self.series, &self.starts) != Beginning::Positive
+        self.is_light() && beginning(&self.series, &self.starts) != Beginning::Positive
     }
 
     /// The gap after a time, zero where the contact is closed.
@@ -222,6 +226,7 @@ impl Engine {
             match beginning(&guard.series, &guard.starts) {
                 Beginning::Positive | Beginning::Zero => {}
                 Beginning::Negative => changes.push(contact),
+                Beginning::Undecided if self.only_touches(contact, guard) => {}
                 Beginning::Undecided => {
                     let (quantity, place) = (guard.quantity(), self.between(contact));
                     let now = self.clock.time(&self.states[node].now)?;
@@ -234,6 +239,12 @@ impl Engine {
             }
         }
         Ok(changes)
+    }
+
+    /// Whether a local contact has not been pressed yet, as far as is known, and may not be on this cell either: its
+    /// force is within its bounds whether it is closed or open, so that nothing has to be decided.
+    fn only_touches(&self, contact: usize, guard: &Guard) -> bool {
+        !self.open[contact].pressed && guard.may_be_idle()
     }
 
     /// What becomes of a force or a gap on a cell of its node that begins now. What may be negative by no more
@@ -277,7 +288,7 @@ impl Engine {
         let after = |time: &Number| now.add(time, bits);
         let mut first: Option<(usize, Number)> = None;
         for (guard, (contact, _)) in guards.iter().zip(self.nodes[node].contacts()) {
-            if guard.is_safe() {
+            if guard.is_safe() || self.only_touches(contact, guard) {
                 continue;
             }
             let at = match self.course(contact, guard, (&now, length), norm)? {

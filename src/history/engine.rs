@@ -627,7 +627,7 @@ impl Engine {
     /// What a node does on its next cell, no longer than this share of the longest. The inner error is that
     /// of a cell that a shorter one may mend.
     fn plan(&mut self, node: usize, share: &Rational) -> Outcome<Outcome<Planned>> {
-        let mut changed = 0;
+        let (mut changed, mut is_lengthened) = (0, false);
         loop {
             let (Reach { end, is_step, length, norm, inputs }, motion) =
                 self.answer(node, share)?;
@@ -639,6 +639,14 @@ impl Engine {
                     Ok(Some((contact, length))) => {
                         let end = self.clock.later(&self.states[node].now, &length)?;
                         Ok(Planned { inputs, motion, guards, end, length, first: Some(contact) })
+                    }
+                    // A contact comes to its end near that of the cell, which may be longer where it is light.
+                    Err(HistoryError::Undecided { .. })
+                        if is_step && !is_lengthened && guards.iter().any(Guard::is_light) =>
+                    {
+                        is_lengthened = true;
+                        self.states[node].pressed_for = Some(Rational::from(&norm.length.scale(2)));
+                        continue;
                     }
                     Err(error) if is_step && error.is_at_an_end() => Err(error),
                     Err(error) => return Err(error),
@@ -673,12 +681,13 @@ impl Engine {
             contact.rests = false;
             contact.gap = guard.gap_after(length, cut.bits);
             if contact.closed {
-                match guard.has_no_force() {
-                    true if contact.pressed => {
-                        contact.idle.get_or_insert_with(|| now.clone());
-                    }
-                    true => {}
-                    false => (contact.pressed, contact.idle) = (true, None),
+                let has_none = guard.has_no_force();
+                if has_none && contact.pressed
+                    || !has_none && !contact.pressed && guard.may_be_idle()
+                {
+                    contact.idle.get_or_insert_with(|| now.clone());
+                } else if !has_none {
+                    (contact.pressed, contact.idle) = (true, None);
                 }
             }
         }

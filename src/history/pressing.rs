@@ -350,7 +350,7 @@ impl Pressing<'_> {
                 || from < largest.scale(LIGHT_AT_START)
                 || off.scale(6) > from;
             let (most, force, stiffest) = if is_light {
-                (largest.max(from.scale(2)).max(off.scale(2)), Magnitude::ZERO, Magnitude::ZERO)
+                (largest.max(from.scale(3)).max(off.scale(3)), Magnitude::ZERO, Magnitude::ZERO)
             } else {
                 let most = from.multiply(&Magnitude::from_u64(7)).scale(-3);
                 let ends = [&from.scale(-4), &from.scale(1)];
@@ -548,26 +548,32 @@ impl Pressing<'_> {
         let factor = Magnitude::power_of_two(0).add(&z).add(&z.multiply(&z));
         let arriving = self.block.push(&self.given.rests);
         let early = at_start.add(&arriving.multiply(&norm.length)).multiply(&factor);
-        let mut per_time = arriving;
-        let mut light = Vec::new();
-        for (own, law) in self.each(contacts) {
-            let mut largest = Magnitude::ZERO;
-            if own.is_light {
-                let compression = picard.reached(own).add(&self.block.entry(own.place, &early));
-                // The force itself moves it by as much again at most; that is proven below.
-                largest = law.law.bound(&compression.scale(1)).map_err(|_| self.unknown())?;
-                per_time = per_time.add(&self.block.pushed_by(law.input).multiply(&largest));
+        // The forces of light contacts themselves move them by as much again at most, which is proven here. One that
+        // nothing else presses is pressed by what the others push, which the rounds before have found.
+        let mut assumed = early;
+        let mut rounds = 0..=self.block.pressed.len();
+        let (light, per_time, error) = loop {
+            rounds.next().ok_or_else(|| self.unknown())?;
+            let room = |own: &Compressed| {
+                picard.reached(own).add(&self.block.entry(own.place, &assumed)).scale(1)
+            };
+            let (mut light, mut per_time) = (Vec::new(), arriving);
+            for (own, law) in self.each(contacts) {
+                let mut largest = Magnitude::ZERO;
+                if own.is_light {
+                    largest = law.law.bound(&room(own)).map_err(|_| self.unknown())?;
+                    per_time = per_time.add(&self.block.pushed_by(law.input).multiply(&largest));
+                }
+                light.push(largest);
             }
-            light.push(largest);
-        }
-        let error = at_start.add(&per_time.multiply(&norm.length)).multiply(&factor);
-        let is_within = |own: &Compressed| {
-            let room = picard.reached(own).add(&self.block.entry(own.place, &early)).scale(1);
-            picard.reached(own).add(&self.block.entry(own.place, &error)) <= room
+            let error = at_start.add(&per_time.multiply(&norm.length)).multiply(&factor);
+            let moved =
+                |own: &Compressed| picard.reached(own).add(&self.block.entry(own.place, &error));
+            if contacts.iter().filter(|own| own.is_light).all(|own| moved(own) <= room(own)) {
+                break (light, per_time, error);
+            }
+            assumed = error;
         };
-        if !contacts.iter().filter(|own| own.is_light).all(is_within) {
-            return Err(self.unknown());
-        }
         let tail = self.block.size(picard.sizes.iter().copied()).multiply(&left_out);
         // Within the distance errors of the state grow to e times, and those of the inputs are four times as large.
         let is_smooth = light.iter().all(Magnitude::is_zero);

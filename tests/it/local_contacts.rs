@@ -70,6 +70,45 @@ fn values_are_those_of_collocation() {
     }
 }
 
+/// A mass between two local contacts: the one behind it is touched at first, and pressed by what the one before it
+/// does, less than any precision tells. Values and instants against collocation.
+#[test]
+fn a_contact_is_pressed_by_another() {
+    for (exponents, bar) in [(["3/2", "3/2"], "travel = 1/2"), (["5/4", "2"], "travel = 1/3")] {
+        let problem = problem(&format!(
+            "bar a {{ impedance = 1, travel = 1/2, velocity = 1 }}\n\
+             hertz tip {{ stiffness = 40, exponent = {} }}\nmass m {{ mass = 1/4 }}\n\
+             hertz tail {{ stiffness = 30, exponent = {} }}\nbar b {{ impedance = 1, {bar} }}\n\
+             line free - a - tip - m - tail - b - free\nobserve force = force(tail)\n\
+             observe before = compression(tip)\nobserve behind = compression(tail)\n\
+             observe all = energy(line)",
+            exponents[0], exponents[1],
+        ));
+        let solved = |name: &str, time: Rational| {
+            let accuracy = Accuracy::Method(Method::Steps { tolerance: 1e-13 }, None);
+            problem.doubles(name, &[time], Limit::Right, accuracy).unwrap().values[0]
+        };
+        for time in [1, 4] {
+            let exact = Rational::new(time.into(), 4.into());
+            let proven = problem.signal("force").unwrap().at(&exact, 15).unwrap().to_f64();
+            let tested = solved("force", exact);
+            assert!((proven - tested).abs() < 1e-11, "{time}/4: {proven} and {tested}");
+        }
+        assert_eq!(value(&problem, "all", "1/8", 6), "0.250000");
+        let history = problem.events_until("2", 6).unwrap();
+        let opened =
+            history.events.iter().filter(|event| event.kind == wavestep::EventKind::Opening);
+        let opened: Vec<_> = opened.collect();
+        assert!(!opened.is_empty(), "{:?}", history.events);
+        for (event, name) in opened.iter().zip(["before", "behind"]) {
+            let time = event.time.to_f64();
+            let [earlier, later] = [time - 1e-5, time + 1e-5]
+                .map(|time| solved(name, Rational::from_float(time).unwrap()));
+            assert!(earlier > 0.0 && later < 0.0, "{name} at {time}: {earlier} and {later}");
+        }
+    }
+}
+
 /// The reflection from the far end presses again: force and instants of the second contact, within 10⁻¹².
 #[test]
 fn a_second_contact_is_that_of_collocation() {
