@@ -50,7 +50,7 @@ impl Binary {
 
     /// The number whose binary digits before the exponent `top` stand in a buffer, rounded to a precision where
     /// one is given; with a bound of the rounding error.
-    fn finish(
+    pub(super) fn finish(
         buffer: &mut [u64],
         top: i64,
         negative: bool,
@@ -208,6 +208,25 @@ impl Binary {
             limbs::multiply(buffer, &self.limbs, &other.limbs);
             let top = shifted(self.top, other.top);
             Self::finish(buffer, top, self.is_negative() != other.is_negative(), precision)
+        })
+    }
+
+    /// Works with the digits of `w |self·other|`, two numbers that are not zero, and the exponent that they stand before.
+    pub(super) fn with_product<R>(
+        &self,
+        other: &Self,
+        weight: u64,
+        work: impl FnOnce(&[u64], i64) -> R,
+    ) -> R {
+        let short = self.limbs.len() + other.limbs.len();
+        let top = shifted(self.top, other.top);
+        in_buffer(short + 1, |buffer| {
+            limbs::multiply(&mut buffer[..short], &self.limbs, &other.limbs);
+            if weight == 1 {
+                return work(&buffer[..short], top);
+            }
+            limbs::scale(buffer, weight);
+            work(buffer, shifted(top, 64))
         })
     }
 

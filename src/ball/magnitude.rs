@@ -151,6 +151,18 @@ impl Magnitude {
         Self::rounded_up(self.mantissa * other.mantissa, shifted(self.exponent, other.exponent))
     }
 
+    /// An upper bound of a power, by squares.
+    pub fn power(&self, exponent: u64) -> Self {
+        let mut power = Self::power_of_two(0);
+        for place in (0..u64::BITS - exponent.leading_zeros()).rev() {
+            power = power.multiply(&power);
+            if exponent >> place & 1 == 1 {
+                power = power.multiply(self);
+            }
+        }
+        power
+    }
+
     /// An upper bound of the quotient by `divisor`.
     pub fn divide(&self, divisor: u64) -> Self {
         if self.is_zero() {

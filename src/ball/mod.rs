@@ -20,6 +20,7 @@ mod logarithm;
 mod magnitude;
 mod number;
 mod precision;
+mod products;
 mod root;
 mod trigonometry;
 mod value;

@@ -76,7 +76,7 @@ impl Errors {
             return self.near;
         }
         let inverse = Magnitude::from_rational(&time.recip());
-        let power = (0..self.zeros).fold(Magnitude::power_of_two(0), |p, _| p.multiply(&inverse));
+        let power = inverse.power(self.zeros as u64);
         let [value, slope] = self.of_whole.map(|size| size.multiply(&power));
         let bent = value.multiply(&inverse).multiply(&Magnitude::from_u64(self.zeros as u64));
         [self.near[0].min(value), self.near[1].min(slope.add(&bent))]

@@ -462,7 +462,9 @@ impl Signal for FollowedSignal<'_> {
         let moment = Moment::at(now);
         let value = move |bits: u64| -> Result<Number, EvaluateError> {
             let mut first = self.known.borrow().engine.cut.bits;
-            if bits > first {
+            // Beside a local contact it is cheaper to see that what is known is not enough.
+            let is_local = self.follower.network.local_contact().is_some();
+            if bits > first << u32::from(is_local) {
                 first = (bits + SPARE_BITS).max((2 * first).min(MAX_HISTORY_BITS));
             }
             let attempt = |bits| {
@@ -533,7 +535,8 @@ impl Signal for FollowedSignal<'_> {
             let order = followed.engine.clock.compare(&followed.piece(stretch).ends[0], &at);
             Ok(order.map_or_else(|error| Attempt::NotYet(error.of_value(bits)), Attempt::Done))
         };
-        let precisions = Precisions::whole_doublings(FIRST_BITS, self.most_bits);
+        let known = self.known.borrow().engine.cut.bits;
+        let precisions = Precisions::whole_doublings(known, self.most_bits);
         precisions.raise(attempt).and_then(Attempt::done)
     }
 

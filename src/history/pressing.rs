@@ -484,8 +484,7 @@ impl Pressing<'_> {
         let reach = self.given.norm.length.add(distance);
         let mut columns: Vec<Vec<Number>> = Vec::new();
         let mut column = start.to_vec();
-        while columns.is_empty() || !self.is_enough(contacts, picard, &reach, columns.len()) {
-            let k = columns.len();
+        for k in 0..self.terms(contacts, picard, &reach) {
             let mut both = vec![Number::zero(); states];
             for (member, value) in self.block.members.iter().zip(&column) {
                 both[*member] = value.clone();
@@ -504,22 +503,22 @@ impl Pressing<'_> {
         Ok((columns, forces.collect()))
     }
 
-    /// Whether the first coefficients leave out less than the precision tells of a typical force.
-    fn is_enough(
-        &self,
-        contacts: &[Compressed],
-        picard: &Picard,
-        reach: &Magnitude,
-        terms: usize,
-    ) -> bool {
-        let share = picard.left_out(reach, terms);
-        let tail = self.block.size(picard.sizes.iter().copied()).multiply(&share);
-        self.each(contacts).all(|(own, law)| {
-            let least = law.law.force.magnitude().scale(-(self.given.cut.bits as i64));
-            let of_force = own.stiffest.multiply(&picard.sizes[own.place]).add(&own.force);
-            tail.multiply(&law.stiffness.magnitude().square_root()) <= least
-                && of_force.multiply(&share) <= least
-        })
+    /// How many coefficients leave out less than the precision tells of a typical force.
+    fn terms(&self, contacts: &[Compressed], picard: &Picard, reach: &Magnitude) -> usize {
+        let whole = self.block.size(picard.sizes.iter().copied());
+        let of_state = |law: &Pressed| whole.multiply(&law.stiffness.magnitude().square_root());
+        let of_force =
+            |own: &Compressed| own.stiffest.multiply(&picard.sizes[own.place]).add(&own.force);
+        let precision = -(self.given.cut.bits as i64);
+        let mut terms = 1;
+        for (own, law) in self.each(contacts) {
+            let least = law.law.force.magnitude().scale(precision);
+            let size = of_state(law).max(of_force(own));
+            while size.multiply(&picard.left_out(reach, terms)) > least {
+                terms += 1;
+            }
+        }
+        terms
     }
 
     /// The bounds of errors, by that of the state at the start and what of it comes from rounding now.
@@ -637,7 +636,7 @@ impl Picard {
     fn left_out(&self, reach: &Magnitude, terms: usize) -> Magnitude {
         let inverse = Magnitude::from_rational(&Rational::from(&self.radius).recip());
         let ratio = reach.multiply(&inverse);
-        (0..terms).fold(Magnitude::power_of_two(2), |power, _| power.multiply(&ratio))
+        ratio.power(terms as u64).scale(2)
     }
 }
 
@@ -649,8 +648,7 @@ struct PowerSeries {
     inverse: Number,
     /// `m + 1`
     exponent: Number,
-    /// `α_i` and `(m + 1) i α_i`.
-    compressions: Vec<[Number; 2]>,
+    compressions: Vec<Number>,
     values: Vec<Number>,
     first: Number,
 }
@@ -670,17 +668,16 @@ impl PowerSeries {
     /// The next coefficient, for that of the compression.
     fn next(&mut self, compression: &Number, bits: u64) -> Number {
         let k = self.values.len();
-        let raised = compression.multiply(&Number::integer(k as i64), bits);
-        self.compressions.push([compression.clone(), raised.multiply(&self.exponent, bits)]);
-        let (mut rising, mut sum) = (Number::zero(), Number::zero());
-        for (i, [own, raised]) in self.compressions.iter().enumerate().skip(1) {
-            sum = sum.add(&own.multiply(&self.values[k - i], bits), bits);
-            rising = rising.add(&raised.multiply(&self.values[k - i], bits), bits);
-        }
+        self.compressions.push(compression.clone());
         let value = match k {
             0 => self.first.clone(),
             _ => {
-                let falling = sum.multiply(&Number::integer(k as i64), bits);
+                let pairs = self.compressions[1..].iter().zip(self.values.iter().rev());
+                let plain = pairs.clone().map(|(own, value)| (1, own, value));
+                let raised = (1..).zip(pairs).map(|(i, (own, value))| (i, own, value));
+                let falling =
+                    Number::sum_of_products(plain, bits).multiply(&Number::integer(k as i64), bits);
+                let rising = Number::sum_of_products(raised, bits).multiply(&self.exponent, bits);
                 rising.subtract(&falling, bits).multiply(&self.inverse, bits).over(k as u64, bits)
             }
         };

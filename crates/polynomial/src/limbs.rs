@@ -176,6 +176,17 @@ pub fn multiply(buffer: &mut [u64], one: &[u64], other: &[u64]) {
     }
 }
 
+/// Multiplies a row that has room for it.
+pub fn scale(row: &mut [u64], factor: u64) {
+    let mut carry = 0;
+    for limb in row {
+        let product = u128::from(*limb) * u128::from(factor) + u128::from(carry);
+        *limb = product as u64;
+        carry = (product >> 64) as u64;
+    }
+    debug_assert!(carry == 0, "a row with room for the product");
+}
+
 /// Divides a row, and returns the remainder.
 pub fn divide(row: &mut [u64], divisor: u64) -> u64 {
     let mut remainder = 0;

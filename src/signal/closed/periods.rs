@@ -102,8 +102,16 @@ impl Periods {
         Ok(())
     }
 
-    /// Solves the next period. Cost: a few passes over the pieces that the equations name.
+    /// Solves the next period, of all waves or of none. Cost: a few passes over the pieces that the equations name.
     fn advance(&mut self) -> Result<(), EvaluateError> {
+        let solved = self.pieces.iter().map(Vec::len).min().unwrap_or(0);
+        self.solve_next().inspect_err(|_| {
+            self.pieces.iter_mut().for_each(|pieces| pieces.truncate(solved));
+            self.ends.iter_mut().for_each(|ends| ends.truncate(solved));
+        })
+    }
+
+    fn solve_next(&mut self) -> Result<(), EvaluateError> {
         for i in 0..self.steps.len() {
             let step = &self.steps[i];
             let (wave, n) = (step.wave, self.pieces[step.wave].len());

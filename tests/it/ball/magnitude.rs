@@ -37,6 +37,16 @@ proptest! {
     }
 
     #[test]
+    fn powers_round_up(a in samples::magnitude(), n in 0_u64..12) {
+        let power = exact(&a.power(n));
+        let x = exact(&a);
+        let value = (0..n).fold(BigRational::one(), |power, _| power * &x);
+        prop_assert!(power >= value);
+        let slack = BigRational::new((BigInt::one() << 25) + 1, BigInt::one() << 25);
+        prop_assert!(power <= value * slack);
+    }
+
+    #[test]
     fn conversions_round_up(n in samples::integer(40), q in samples::rational(40)) {
         assert_tight(&Magnitude::from_integer(&n, 0), &BigRational::from_integer(n.clone()).abs());
         assert_tight(&Magnitude::from_rational(&q), &q.abs());

@@ -12,6 +12,7 @@ mod magnitude;
 mod number;
 mod operations;
 mod precision;
+mod products;
 mod root;
 mod samples;
 mod trigonometry;

@@ -332,12 +332,18 @@ fn what_cannot_be_computed_is_explained() {
                      equation f[n]' + a*f[n] = exp(-t)\ncontinuous f[n] starts at 1\n";
     fs::write(folder.join("resonance.wave"), resonance).unwrap();
     output_in(&folder, "derive resonance.wave --set a=1");
+    // What fails within one period leaves nothing of it behind.
+    let thin = "scene \"Thin\"\nbar striker { impedance = 1, travel = 1/8, velocity = 1 }\n\
+                spring cushion { stiffness = 1/2 }\nbar long { impedance = 1e-300 }\n\
+                line free - striker | cushion - long - endless\nobserve energy = energy(line)\n";
+    fs::write(folder.join("thin.wave"), thin).unwrap();
     let eval = "eval rigid-mass --set mu=1 --quantity f";
     for (name, code, line) in [
         ("time-late", 1, format!("{eval} --at 100000")),
         ("time-far-off", 1, format!("{eval} --at 1e999")),
         ("piece-late", 1, format!("{eval} --piece 1000000000 --local 0")),
         ("exponential-large", 1, "eval rigid-mass --set mu=1e300 --quantity f --at 1e299".into()),
+        ("rate-huge", 1, "eval thin.wave --quantity energy --at 7/3 --tol 1e-6".into()),
         ("general-unknown", 1, "derive poles.wave --general".into()),
         ("division", 1, "derive resonance.wave".into()),
         ("bits-few", 3, format!("{eval} --at 33/10 --max-bits 16")),
