@@ -246,6 +246,9 @@ fn remedy(error: &ProblemError) -> Option<String> {
         ProblemError::NotBuiltIn(_) => {
             format!("the built-in scenes are {}", SCENES.map(|scene| scene.name).join(", "))
         }
+        ProblemError::Unknown { names, .. } if names.is_empty() => {
+            "nothing is observed here: add a line such as `observe v = velocity(NAME)`".to_owned()
+        }
         ProblemError::Unknown { name, names } => {
             match closest(name, names.iter().map(String::as_str)) {
                 Some(name) => format!("did you mean `{name}`?"),
