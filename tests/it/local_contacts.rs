@@ -98,7 +98,7 @@ fn a_contact_is_pressed_by_another() {
         let opened =
             history.events.iter().filter(|event| event.kind == wavestep::EventKind::Opening);
         let opened: Vec<_> = opened.collect();
-        assert!(!opened.is_empty(), "{:?}", history.events);
+        assert_eq!(opened.len(), 2, "{:?}", history.events);
         for (event, name) in opened.iter().zip(["before", "behind"]) {
             let time = event.time.to_f64();
             let [earlier, later] = [time - 1e-5, time + 1e-5]
