@@ -2,7 +2,6 @@
 //! this watch beside the work holds the rest to its time and its memory.
 
 use super::failure::{COMPUTATION, Failure};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use std::{fs, process, thread};
@@ -14,11 +13,8 @@ const TICK: Duration = Duration::from_millis(20);
 /// What the program takes beside the waves.
 const PROGRAM: u64 = 64_000_000;
 
-/// Held while something is written, so that nothing ends half written.
-static WRITING: Mutex<()> = Mutex::new(());
-
-/// Whether the work is done, and nothing is left but to write.
-static DONE: AtomicBool = AtomicBool::new(false);
+/// Held while something is written, so that nothing ends half written; whether nothing is left but to write.
+static DONE: Mutex<bool> = Mutex::new(false);
 
 /// What is being done, for whoever is told that it took too long.
 static WORK: Mutex<&str> = Mutex::new("");
@@ -31,11 +27,14 @@ pub fn watch(time: Option<Duration>) {
     let _ = thread::Builder::new().spawn(move || {
         loop {
             thread::sleep(TICK);
-            if time.is_some_and(|time| begun.elapsed() >= time) {
-                end(&too_long(begun.elapsed()));
+            let taken = begun.elapsed();
+            if time.is_some_and(|time| taken >= time) {
+                let seconds = (taken.as_secs_f64() * 10.0).floor() / 10.0;
+                end(&format!("no answer within {seconds} s"), "--time-limit");
             }
             if resident().is_some_and(|bytes| bytes > memory().saturating_add(PROGRAM)) {
-                end(&too_much());
+                let megabytes = memory() / 1_000_000;
+                end(&format!("the answer takes more than {megabytes} MB of memory"), "--memory");
             }
         }
     });
@@ -43,50 +42,43 @@ pub fn watch(time: Option<Duration>) {
 
 /// The work is done: what is written now is not cut off.
 pub fn done() {
-    DONE.store(true, Ordering::SeqCst);
+    *held(&DONE) = true;
 }
 
 /// Nothing ends while this is held.
-pub fn writing() -> MutexGuard<'static, ()> {
-    WRITING.lock().unwrap_or_else(PoisonError::into_inner)
+pub fn writing() -> MutexGuard<'static, bool> {
+    held(&DONE)
 }
 
 /// Tells what is being done.
 pub fn tell(work: &'static str) {
-    *WORK.lock().unwrap_or_else(PoisonError::into_inner) = work;
+    *held(&WORK) = work;
 }
 
-fn end(failure: &Failure) {
-    let _written = writing();
-    if !DONE.load(Ordering::SeqCst) {
+/// What is held stays true where a thread that held it has panicked.
+fn held<T>(mutex: &'static Mutex<T>) -> MutexGuard<'static, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Ends the process, unless the work has been done meanwhile.
+fn end(exceeded: &str, option: &str) {
+    let done = held(&DONE);
+    if !*done {
+        let failure = Failure::new(
+            COMPUTATION,
+            exceeded.to_owned() + &reached(),
+            format!(
+                "ask for an earlier time, a shorter window or fewer digits, or allow more with {option}"
+            ),
+        );
         failure.show();
         process::exit(i32::from(failure.code()));
     }
 }
 
-fn too_long(taken: Duration) -> Failure {
-    let message =
-        format!("no answer within {} s{}", (taken.as_secs_f64() * 10.0).floor() / 10.0, reached());
-    Failure::new(
-        COMPUTATION,
-        message,
-        "ask for an earlier time, a shorter window or fewer digits, or allow more with --time-limit",
-    )
-}
-
-fn too_much() -> Failure {
-    let message =
-        format!("the answer takes more than {} MB of memory{}", memory() / 1_000_000, reached());
-    Failure::new(
-        COMPUTATION,
-        message,
-        "ask for an earlier time, a shorter window or fewer digits, or allow more with --memory",
-    )
-}
-
 /// How far the work has come.
 fn reached() -> String {
-    let work = *WORK.lock().unwrap_or_else(PoisonError::into_inner);
+    let work = *held(&WORK);
     let share = followed_share();
     match (work, share > 0.0) {
         ("", false) => String::new(),

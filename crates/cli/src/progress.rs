@@ -33,19 +33,21 @@ impl Deref for Progress {
 }
 
 pub fn counted(count: usize) -> Progress {
-    let template = "{wide_bar} {pos}/{len} points{msg}, {elapsed} so far; Ctrl-C stops it";
-    let progress = shown(Some(count as u64), template, "");
     budget::tell("evaluating");
-    progress
+    shown(
+        Some(count as u64),
+        "{wide_bar} {pos}/{len} points{msg}, {elapsed} so far; Ctrl-C stops it",
+        "",
+    )
 }
 
 /// Progress of work that is not counted.
 pub fn spinner(work: &'static str) -> Progress {
+    budget::tell(work);
     shown(None, "{spinner} {msg}, {elapsed} so far; Ctrl-C stops it", work)
 }
 
 fn shown(length: Option<u64>, template: &str, work: &'static str) -> Progress {
-    budget::tell(work);
     let bar = ProgressBar::with_draw_target(length, ProgressDrawTarget::stderr())
         .with_finish(ProgressFinish::AndClear)
         .with_message(work);

@@ -88,12 +88,7 @@ pub struct Arguments {
 
 /// A duration with its unit.
 fn duration(text: &str) -> Result<Duration, String> {
-    let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)];
-    let given = units.iter().find_map(|(unit, size)| {
-        let number: f64 = text.strip_suffix(unit)?.trim_end().parse().ok()?;
-        Some(number * size)
-    });
-    match given {
+    match with_unit(text, &[("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)]) {
         Some(seconds) if (0.1..1e9).contains(&seconds) => Ok(Duration::from_secs_f64(seconds)),
         _ => Err("give at least 0.1 s, with its unit, such as 15s or 10min".to_owned()),
     }
@@ -101,15 +96,18 @@ fn duration(text: &str) -> Result<Duration, String> {
 
 /// A number of bytes with its unit.
 fn bytes(text: &str) -> Result<u64, String> {
-    let units = [("GB", 1e9), ("MB", 1e6), ("kB", 1e3)];
-    let given = units.iter().find_map(|(unit, size)| {
-        let number: f64 = text.strip_suffix(unit)?.trim_end().parse().ok()?;
-        Some(number * size)
-    });
-    match given {
+    match with_unit(text, &[("GB", 1e9), ("MB", 1e6), ("kB", 1e3)]) {
         Some(bytes) if (1e6..1e18).contains(&bytes) => Ok(bytes as u64),
         _ => Err("give at least 1 MB, with its unit, such as 500MB or 2GB".to_owned()),
     }
+}
+
+/// A number times the size of the unit behind it, where it is one of these.
+fn with_unit(text: &str, units: &[(&str, f64)]) -> Option<f64> {
+    units.iter().find_map(|(unit, size)| {
+        let number: f64 = text.strip_suffix(unit)?.trim_end().parse().ok()?;
+        Some(number * size)
+    })
 }
 
 /// What the command can do.
