@@ -204,11 +204,8 @@ impl Binary {
         if self.is_zero() || other.is_zero() {
             return (Self::zero(), Magnitude::ZERO);
         }
-        in_buffer(self.limbs.len() + other.limbs.len(), |buffer| {
-            limbs::multiply(buffer, &self.limbs, &other.limbs);
-            let top = shifted(self.top, other.top);
-            Self::finish(buffer, top, self.is_negative() != other.is_negative(), precision)
-        })
+        let negative = self.is_negative() != other.is_negative();
+        self.with_product(other, 1, |buffer, top| Self::finish(buffer, top, negative, precision))
     }
 
     /// Works with the digits of `w |self·other|`, two numbers that are not zero, and the exponent that they stand before.
@@ -216,17 +213,18 @@ impl Binary {
         &self,
         other: &Self,
         weight: u64,
-        work: impl FnOnce(&[u64], i64) -> R,
+        work: impl FnOnce(&mut [u64], i64) -> R,
     ) -> R {
         let short = self.limbs.len() + other.limbs.len();
-        let top = shifted(self.top, other.top);
-        in_buffer(short + 1, |buffer| {
+        // A weight takes a limb more.
+        let above = usize::from(weight != 1);
+        let top = shifted(shifted(self.top, other.top), 64 * above as i64);
+        in_buffer(short + above, |buffer| {
             limbs::multiply(&mut buffer[..short], &self.limbs, &other.limbs);
-            if weight == 1 {
-                return work(&buffer[..short], top);
+            if weight != 1 {
+                limbs::scale(buffer, weight);
             }
-            limbs::scale(buffer, weight);
-            work(buffer, shifted(top, 64))
+            work(buffer, top)
         })
     }
 

@@ -71,7 +71,7 @@ impl Number {
     }
 
     /// An enclosure, borrowed where there is one.
-    fn as_ball(&self, bits: u64) -> Cow<'_, Ball> {
+    pub(super) fn as_ball(&self, bits: u64) -> Cow<'_, Ball> {
         match self {
             Number::Exact(value) => Cow::Owned(Ball::from_rational(value, bits)),
             Number::Enclosed(ball) => Cow::Borrowed(ball),

@@ -38,26 +38,22 @@ impl Ball {
 }
 
 impl Number {
-    /// `Σ w x y`, for the terms with factors that are not known to be zero.
+    /// `Σ w x y`; zero is exact where each term is known to be.
     pub fn sum_of_products<'a>(
-        terms: impl Iterator<Item = (u64, &'a Number, &'a Number)> + Clone,
+        terms: impl Iterator<Item = (u64, &'a Number, &'a Number)>,
         bits: u64,
     ) -> Number {
-        let terms = terms.filter(|(_, x, y)| !x.is_zero() && !y.is_zero());
-        let balls = terms.clone().map_while(|(weight, x, y)| match (x, y) {
-            (Number::Enclosed(x), Number::Enclosed(y)) => Some((weight, x, y)),
-            _ => None,
-        });
-        let enclosed = balls.clone().count();
-        let rest = terms.skip(enclosed);
-        let first = match enclosed {
-            0 => Number::zero(),
-            _ => Number::Enclosed(Ball::sum_of_products(balls, bits)),
-        };
-        rest.fold(first, |sum, (weight, x, y)| {
-            let weight = Number::integer(weight.try_into().expect("a weight of 63 bits"));
-            sum.add(&x.multiply(y, bits).multiply(&weight, bits), bits)
-        })
+        let terms: Vec<_> = terms
+            .filter(|(_, x, y)| !x.is_zero() && !y.is_zero())
+            .map(|(weight, x, y)| (weight, x.as_ball(bits), y.as_ball(bits)))
+            .collect();
+        match terms.is_empty() {
+            true => Number::zero(),
+            false => Number::Enclosed(Ball::sum_of_products(
+                terms.iter().map(|(weight, x, y)| (*weight, &**x, &**y)),
+                bits,
+            )),
+        }
     }
 }
 
