@@ -681,13 +681,15 @@ impl Engine {
             contact.rests = false;
             contact.gap = guard.gap_after(length, cut.bits);
             if contact.closed {
-                let has_none = guard.has_no_force();
-                if has_none && contact.pressed
-                    || !has_none && !contact.pressed && guard.may_be_idle()
-                {
-                    contact.idle.get_or_insert_with(|| now.clone());
-                } else if !has_none {
-                    (contact.pressed, contact.idle) = (true, None);
+                match guard.has_no_force() {
+                    true if !contact.pressed => {}
+                    false if contact.pressed || !guard.may_be_idle() => {
+                        (contact.pressed, contact.idle) = (true, None);
+                    }
+                    // No force any more, or none yet that is known of.
+                    _ => {
+                        contact.idle.get_or_insert_with(|| now.clone());
+                    }
                 }
             }
         }
