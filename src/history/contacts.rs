@@ -112,6 +112,16 @@ impl Guard {
         }
     }
 
+    /// What else is known of the compression of a local contact: it has the sign of the force, and is minus the gap
+    /// where the contact is open.
+    pub fn complete(&self, compression: &mut Series, bits: u64) {
+        match &self.kept {
+            Kept::Compression(_, force) => compression.signed = force.signed,
+            Kept::Gap(_) => *compression = Series::zero().subtract(&self.series, bits),
+            Kept::Force => {}
+        }
+    }
+
     pub fn into_force_and_gap(self) -> (Series, Series) {
         match self.kept {
             Kept::Force => (self.series, Series::zero()),

@@ -41,8 +41,8 @@ pub(crate) struct Cell {
     /// Displacements of its runs since the start, when it begins.
     pub displacements: Vec<Number>,
     pub length: Magnitude,
-    /// The displacements of its elements: zero for those that have none, and for springs that hang on an
-    /// open contact.
+    /// The compressions of its springs and local contacts, the displacements of its supports: zero for elements
+    /// that have none and for springs that hang on an open contact, minus the gap of an open local contact.
     pub compressions: Vec<Series>,
     /// Forces of its contacts, zero where they are open, in the order of [`Node::contacts`].
     pub forces: Vec<Series>,
@@ -718,7 +718,12 @@ impl Engine {
             .kept
             .iter()
             .map(|place| place.map_or_else(Series::zero, |place| motion.state[place].clone()));
-        let compressions = compressions.collect();
+        let mut compressions: Vec<Series> = compressions.collect();
+        for (guard, (contact, _)) in guards.iter().zip(own.contacts()) {
+            if let Some(place) = own.local_contact(contact) {
+                guard.complete(&mut compressions[place], cut.bits);
+            }
+        }
         let errors = (&state.errors[..], &mut self.errors);
         (state.state, state.errors) =
             state.system.ended(&state.passivity, &motion, errors, length, &cut);

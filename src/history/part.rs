@@ -173,12 +173,16 @@ impl Engine {
     }
 
     /// Whether a part is known to be exactly zero just before an instant: the force of a contact that
-    /// opens since it came to zero.
+    /// opens since it came to zero, and the compression of a local one.
     pub fn vanishes_before(&self, part: &Part, moment: &Moment) -> bool {
-        let Source::Node { node, quantity: NodeQuantity::Force(place) } = part.source else {
-            return false;
-        };
-        let contact = self.nodes[node].contacts().nth(place).expect("a contact of the node").0;
+        let Source::Node { node, quantity } = part.source else { return false };
+        let own = &self.nodes[node];
+        let contact = own.contacts().zip(0..).find(|((contact, _), force)| match quantity {
+            NodeQuantity::Force(place) => *force == place,
+            NodeQuantity::Compression(place) => own.local_contact(*contact) == Some(place),
+            NodeQuantity::Velocity(_) | NodeQuantity::Displacement(_) => false,
+        });
+        let Some(((contact, _), _)) = contact else { return false };
         let mut happenings = self.happenings.iter().filter(|own| own.contact == contact);
         happenings.any(|own| own.cause == Cause::Crossing && !own.closes && own.moment == *moment)
     }

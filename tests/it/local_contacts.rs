@@ -133,6 +133,43 @@ fn a_second_contact_is_that_of_collocation() {
     assert!((proven - tested).abs() < 1e-12 * 0.5, "{proven} and {tested}");
 }
 
+/// Where the contact is open its compression is minus the gap, in every way that it is asked for.
+#[test]
+fn an_open_contact_is_compressed_by_minus_its_gap() {
+    let problem = problem(
+        "bar a { impedance = 1, travel = 1/2, velocity = 1 }\nhertz tip { stiffness = 40 }\n\
+         bar b { impedance = 6/5, travel = 1 }\nline free - a - tip - b - fixed\n\
+         observe compression = compression(tip)\nobserve moved = displacement(a.right) - displacement(b.left)",
+    );
+    for time in ["3/2", "7/4", "9/4"] {
+        let [one, other] = ["compression", "moved"].map(|name| value(&problem, name, time, 20));
+        assert_eq!(one, other, "{time}");
+    }
+    let time = problem.time("time", "7/4").unwrap();
+    let doubles = |accuracy| {
+        let times = std::slice::from_ref(&time);
+        problem.doubles("compression", times, Limit::Right, accuracy).unwrap().values[0]
+    };
+    let proven: f64 = value(&problem, "compression", "7/4", 17).parse().unwrap();
+    assert!(proven < -0.01, "{proven}");
+    close(doubles(Accuracy::Method(Method::Steps { tolerance: 1e-13 }, None)), proven, 1e-12);
+    for method in [Method::Certified, Method::Compiled] {
+        close(doubles(Accuracy::Method(method, None)), proven, 1e-14);
+    }
+    let signal = problem.signal("compression").unwrap();
+    let events = problem.events_until("9/4", 12).unwrap().events;
+    let zeros = signal.roots(0..=2, 12).unwrap().all;
+    let [Root::End { .. }, Root::Arrival { time, before: true, after: true }] = &zeros[..] else {
+        panic!("{zeros:?}")
+    };
+    close(time.to_f64(), events[1].time.to_f64(), 1e-11);
+    let least = signal.extremum(Goal::Smallest, 0..=2, 12).unwrap().value.to_f64();
+    assert!(least <= proven, "{least}");
+    let least_moved = problem.signal("moved").unwrap();
+    let least_moved = least_moved.extremum(Goal::Smallest, "3/2"..="2", 12).unwrap().value.to_f64();
+    close(least, least_moved, 1e-12);
+}
+
 /// Where both bars are free the momentum is what it was; what is in the contact and in the bars is told by `events`.
 #[test]
 fn nothing_is_lost_between_free_bars() {
