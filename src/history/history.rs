@@ -216,7 +216,7 @@ impl Engine {
 
 /// The precisions that a scene is followed with for numbers of so many digits.
 pub(crate) fn precisions(digits: usize, limit: u64) -> Precisions {
-    Precisions::whole_doublings(128 + 4 * digits as u64, limit)
+    Precisions::by_halves(128 + 4 * digits as u64, limit)
 }
 
 /// What is undecided may be decided with more bits.
@@ -271,7 +271,7 @@ impl History {
         let precisions = match network.local_contact() {
             None => precisions(digits, MAX_HISTORY_BITS),
             Some(_) => {
-                Precisions::whole_doublings(LEAST_BITS + 4 * digits as u64, MAX_HISTORY_BITS)
+                Precisions::by_halves(LEAST_BITS + 4 * digits as u64, MAX_HISTORY_BITS)
             }
         };
         precisions.raise(attempt)?.best()
