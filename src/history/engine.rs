@@ -195,17 +195,13 @@ impl Engine {
     ///
     /// # Errors
     /// [`HistoryError::MissingValue`], [`HistoryError::Refused`].
-    pub fn new(network: &Network, bits: u64) -> Outcome<Engine> {
+    pub fn new(network: &Network, contacts: Contacts, bits: u64) -> Outcome<Engine> {
         let numbers = crate::enclosure::Numbers::new(&network.model().constants);
         let mut symbols = network.model().assumptions.symbols().map(|(symbol, _)| symbol);
         if let Some(symbol) = symbols.find(|symbol: &&Symbol| numbers.value(symbol, 64).is_none()) {
             return Err(HistoryError::MissingValue(symbol.clone()));
         }
         let clock = Clock::new(numbers, bits, &network.assumed);
-        let contacts = match network.scene().contacts_open || network.local_contact().is_none() {
-            true => Contacts::Links,
-            false => Contacts::LocalLinks,
-        };
         let layout = Layout::of(network.scene(), network.model(), contacts);
         let nodes = nodes(network, &layout, &clock)?;
         let loads = loads(network, &clock)?;
@@ -368,11 +364,17 @@ impl Engine {
     /// [`HistoryError`], all kinds but [`HistoryError::AfterLast`].
     pub fn follow_until(&mut self, until: &Moment) -> Outcome<()> {
         self.foresee_cells(until)?;
+        let mut looked = 0.0;
         while let Some((node, now)) = self.behind() {
             if self.clock.compare(now, until)? == Ordering::Greater {
                 break;
             }
-            tell_followed(self.clock.about(now) / self.clock.about(until));
+            let passed = self.clock.about(now) / self.clock.about(until);
+            tell_followed(passed);
+            if passed > 1.125 * looked {
+                looked = passed;
+                self.foresee_memory(node, passed)?;
+            }
             self.advance(node)?;
         }
         tell_followed(0.0);
@@ -401,9 +403,24 @@ impl Engine {
         }
     }
 
+    /// Refuses what will take too much memory, once part of it is taken: cells hold more and more, and there may be
+    /// more and more of them, so that it grows as the square of the time.
+    fn foresee_memory(&self, node: usize, passed: f64) -> Outcome<()> {
+        let (taken, most) = (self.bytes as f64, memory() as f64);
+        match taken > most / 16.0 && taken > most * passed.powi(2) {
+            true => Err(self.too_much_memory(node)?),
+            false => Ok(()),
+        }
+    }
+
     /// How far a node was followed, as it is told.
     fn reached(&self, node: usize) -> Outcome<When> {
         Ok(self.clock.told(&self.clock.time(&self.states[node].now)?))
+    }
+
+    fn too_much_memory(&self, node: usize) -> Outcome<HistoryError> {
+        let (megabytes, when) = (memory() / 1_000_000, self.reached(node)?);
+        Ok(HistoryError::TooMuchMemory { megabytes, when })
     }
 
     fn too_many_cells(&self, node: usize) -> Outcome<HistoryError> {
@@ -516,8 +533,7 @@ impl Engine {
             return Err(self.too_many_cells(node)?);
         }
         if self.bytes > memory() {
-            let (megabytes, when) = (memory() / 1_000_000, self.reached(node)?);
-            return Err(HistoryError::TooMuchMemory { megabytes, when });
+            return Err(self.too_much_memory(node)?);
         }
         let all = self.cut.bits;
         self.cut.bits = self.bits_of(node);

@@ -46,7 +46,9 @@ pub enum HistoryError {
         when: When,
     },
     /// More memory than is allowed.
-    #[error("the waves until t = {when} take more than {megabytes} MB of memory")]
+    #[error(
+        "to be followed to the end the scene takes more than {megabytes} MB of memory, which shows at t = {when}"
+    )]
     TooMuchMemory {
         /// How much is allowed.
         megabytes: u64,

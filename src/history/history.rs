@@ -10,7 +10,7 @@ use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
 use crate::limits::MAX_HISTORY_BITS;
-use crate::network::Network;
+use crate::network::{Contacts, Network};
 use crate::scene::{Dimension, Kind};
 use crate::signal::Limit;
 use std::cmp::Ordering;
@@ -270,9 +270,7 @@ impl History {
         };
         let precisions = match network.local_contact() {
             None => precisions(digits, MAX_HISTORY_BITS),
-            Some(_) => {
-                Precisions::by_halves(LEAST_BITS + 4 * digits as u64, MAX_HISTORY_BITS)
-            }
+            Some(_) => Precisions::by_halves(LEAST_BITS + 4 * digits as u64, MAX_HISTORY_BITS),
         };
         precisions.raise(attempt)?.best()
     }
@@ -289,7 +287,7 @@ impl History {
         digits: usize,
         bits: u64,
     ) -> Outcome<History> {
-        let mut engine = Engine::new(network, bits)?;
+        let mut engine = Engine::new(network, Contacts::that_may_open(network.scene()), bits)?;
         let (end, parted) = match until {
             Some(until) => {
                 let until = Moment::at(network.scaled_time(until));

@@ -44,7 +44,7 @@ impl Moment {
 }
 
 /// From so many bits on what is undecided by no more than `2^(−bits/2)`, in the scale of the scene, is a tie.
-const TIE_BITS: u64 = 512;
+const TIE_BITS: u64 = 640;
 
 /// Instants as numbers.
 pub struct Clock {

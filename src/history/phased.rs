@@ -10,7 +10,7 @@ use crate::history::moment::Moment;
 use crate::history::part::{Part, Source};
 use crate::history::series::{Series, Truncation};
 use crate::limits::MAX_HISTORY_BITS;
-use crate::network::{Network, Observed, Squared, Term};
+use crate::network::{Contacts, Network, Observed, Squared, Term};
 use crate::scene::Dimension;
 use crate::signal::{
     At, Effort, EvaluateError, Instant, Known, Limit, MAX_FLATNESS, Point, Signal, Signed, Silence,
@@ -101,7 +101,7 @@ impl<'a> Follower<'a> {
     }
 
     fn follow(network: &Network, until: &Moment, bits: u64) -> Result<Rc<Engine>, HistoryError> {
-        let mut engine = Engine::new(network, bits)?;
+        let mut engine = Engine::new(network, Contacts::of(network.scene()), bits)?;
         engine.follow_until(until)?;
         Ok(Rc::new(engine))
     }

@@ -1,7 +1,7 @@
 //! Energies and momenta with what flows in, their derivative: what roots and extrema ask for.
 
 use super::energy;
-use super::{SignalError, Sources};
+use super::{Origin, SignalError, Sources};
 use crate::expression::{Fraction, Root};
 use crate::network::{Balance, FlowTerm, Network, Observed, ObservedValue, Squared};
 use crate::signal::{Balanced, Combination, Constant, Operation, Product, Scale, Signal};
@@ -10,6 +10,7 @@ use wavestep_polynomial::Rational;
 
 /// An energy or a momentum on a window of the user's time; one value where nothing flows in.
 pub(super) fn of_scene<'a>(
+    origin: Origin,
     network: &'a Network,
     observed: &Observed,
     Balance { at_start, flow }: &Balance,
@@ -22,7 +23,7 @@ pub(super) fn of_scene<'a>(
         return Ok(Box::new(Operation::new(&scale, rule, unit, window)));
     }
     let one = Root::from(Fraction::one());
-    let sources = Sources::until(network, window)?;
+    let sources = Sources::until(origin, network, window)?;
     let of: Box<dyn Signal + 'a> = match &observed.value {
         ObservedValue::Energy(terms) => energy::of_sources(&sources, terms, &one, window)?,
         ObservedValue::Linear(value) => sources.signal(value, &observed.readings, window)?,

@@ -2,7 +2,7 @@
 
 use super::{SignalError, Sources};
 use crate::expression::{Fraction, Root};
-use crate::network::{EnergyTerm, Network, Squared, Window};
+use crate::network::{EnergyTerm, Squared, Window};
 use crate::signal::{Combination, EvaluateError, Integral, Operation, Product, Scale, Signal};
 use num_traits::{Signed as _, Zero as _};
 use std::rc::Rc;
@@ -11,17 +11,7 @@ use wavestep_polynomial::Rational;
 /// Bits with which it is told how far back an integral reaches.
 const REACH_BITS: u64 = 64;
 
-/// An energy of a scene, the sum of its terms, on a window of the user's time.
-pub(super) fn of_scene<'a>(
-    network: &'a Network,
-    terms: &[EnergyTerm],
-    unit: &Root,
-    window: [&Rational; 2],
-) -> Result<Box<dyn Signal + 'a>, SignalError> {
-    of_sources(&Sources::until(network, window)?, terms, unit, window)
-}
-
-/// The same of sources that are known until the end of the window.
+/// An energy of a scene, the sum of its terms, on a window of the user's time, of sources that are known until its end.
 pub(super) fn of_sources<'a>(
     sources: &Sources<'a>,
     terms: &[EnergyTerm],

@@ -1,7 +1,7 @@
 //! The planner: which source of signals answers for a quantity.
 //!
-//! Where contacts stay closed, waves have a closed form, which is cheap and exact; where they open, the
-//! scene is followed from cell to cell. Energies are sums of squares of such signals, in bars integrated
+//! Where contacts stay closed, waves have a closed form, which is cheap and exact; where they open, or where the closed
+//! form takes too much, the scene is followed from cell to cell. Energies are sums of squares of such signals, in bars integrated
 //! over the last travel time. Who has a signal need not know which it is; what is no signal, such as a lock,
 //! asks whether there are periods.
 
@@ -12,7 +12,7 @@ use crate::expression::{Fraction, Root};
 use crate::history::{self, FollowedSignal, Follower, HistoryError};
 use crate::network::{FieldBars, Network, Observed, ObservedValue, Squared, Term};
 use crate::recurrence::Observation;
-use crate::signal::{ClosedSignal, EvaluateError, Signal};
+use crate::signal::{ClosedForm, ClosedSignal, EvaluateError, Signal, Taps};
 use num_traits::Zero as _;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
@@ -31,8 +31,8 @@ pub enum SignalError {
 /// What is asked of a signal, which decides what is prepared.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Purpose {
-    /// Values at times.
-    Values,
+    /// Values at times, with so many digits.
+    Values { digits: usize },
     /// Values at times, from echoes that are counted one by one.
     Echoes,
     /// Stretches between breaks, for polynomials.
@@ -49,6 +49,40 @@ pub fn has_periods(network: &Network) -> bool {
     !network.scene().contacts_open && network.local_contact().is_none()
 }
 
+/// From so many bytes of closed waves on a scene whose contacts stay closed is followed, which takes less: echoes grow
+/// at least as the square of their number.
+const FOLLOWED_FROM: f64 = 64e6;
+
+/// Following takes ever more bits and memory for more digits; a closed form goes on beyond these.
+const MOST_FOLLOWED_DIGITS: usize = 100;
+
+/// Where values come from.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Origin {
+    /// The closed form of waves.
+    Closed,
+    /// The scene, followed from cell to cell.
+    Followed,
+}
+
+/// Where values until a time of the user's come from at the least cost; a scene whose contacts open has no closed form.
+pub fn origin(network: &Network, to: &Rational, purpose: Purpose) -> Origin {
+    if !has_periods(network) {
+        return Origin::Followed;
+    }
+    let most = match purpose {
+        Purpose::Values { digits } if digits <= MOST_FOLLOWED_DIGITS => FOLLOWED_FROM,
+        // What is known of a closed form lets roots and polynomials be found sooner.
+        Purpose::Stretches | Purpose::Search => f64::INFINITY,
+        _ => return Origin::Closed,
+    };
+    match ClosedForm::foreseen(network, to) {
+        Ok(bytes) if bytes <= most => Origin::Closed,
+        Err(error) if !error.is_too_much() => Origin::Closed,
+        _ => Origin::Followed,
+    }
+}
+
 /// An observable of a scene on a window of the user's time.
 pub fn of_scene<'a>(
     network: &'a Network,
@@ -56,28 +90,69 @@ pub fn of_scene<'a>(
     window: [&Rational; 2],
     purpose: Purpose,
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
-    if let (Purpose::Search, Some(known)) = (purpose, &observed.balance) {
-        return balance::of_scene(network, observed, known, window);
+    if !has_periods(network) {
+        if purpose == Purpose::ClosedContacts {
+            history::stays_closed(network, window[1])?;
+            return of_origin(Origin::Closed, network, observed, window, purpose);
+        }
+        return of_origin(Origin::Followed, network, observed, window, purpose);
     }
-    let needs_closed = purpose == Purpose::ClosedContacts && !has_periods(network);
-    if needs_closed {
-        history::stays_closed(network, window[1])?;
+    let closed = || of_origin(Origin::Closed, network, observed, window, purpose);
+    if origin(network, window[1], purpose) == Origin::Closed
+        || is_marched(network, observed, window, purpose)
+    {
+        return closed();
+    }
+    match of_origin(Origin::Followed, network, observed, window, purpose) {
+        Err(SignalError::Followed(HistoryError::Refused(_))) => closed(),
+        Err(_) if ClosedForm::foreseen(network, window[1]).is_ok() => closed(),
+        followed => followed,
+    }
+}
+
+/// Whether polynomials come from a march through the waves of one pole and one lag, which takes no memory.
+fn is_marched(
+    network: &Network,
+    observed: &Observed,
+    window: [&Rational; 2],
+    purpose: Purpose,
+) -> bool {
+    let signal = || ClosedSignal::of_scene(network, observed, window).ok();
+    let has_taps =
+        |signal: ClosedSignal<'_>| signal.closed_form().is_ok_and(|form| Taps::of(form).is_ok());
+    purpose == Purpose::Stretches && signal().is_some_and(has_taps)
+}
+
+/// The same from one of the two sources.
+///
+/// # Errors
+/// As [`of_scene`].
+pub fn of_origin<'a>(
+    origin: Origin,
+    network: &'a Network,
+    observed: &Observed,
+    window: [&Rational; 2],
+    purpose: Purpose,
+) -> Result<Box<dyn Signal + 'a>, SignalError> {
+    if let (Purpose::Search, Some(known)) = (purpose, &observed.balance) {
+        return balance::of_scene(origin, network, observed, known, window);
     }
     if let ObservedValue::Energy(terms) = &observed.value {
-        return energy::of_scene(network, terms, &observed.unit, window);
+        let sources = Sources::until(origin, network, window)?;
+        return energy::of_sources(&sources, terms, &observed.unit, window);
     }
-    if needs_closed || has_periods(network) {
-        let signal = ClosedSignal::of_scene(network, observed, window)?;
-        return Ok(Box::new(match purpose {
-            Purpose::Echoes => signal.echo_by_echo(),
-            _ => signal,
-        }));
+    if origin == Origin::Followed {
+        let followed = FollowedSignal::of_scene(network, observed, window)?;
+        return Ok(match purpose {
+            Purpose::Values { .. } | Purpose::Echoes => Box::new(followed),
+            _ => Box::new(followed.cut_at_breaks()?),
+        });
     }
-    let followed = FollowedSignal::of_scene(network, observed, window)?;
-    Ok(match purpose {
-        Purpose::Values | Purpose::Echoes => Box::new(followed),
-        _ => Box::new(followed.cut_at_breaks()?),
-    })
+    let signal = ClosedSignal::of_scene(network, observed, window)?;
+    Ok(Box::new(match purpose {
+        Purpose::Echoes => signal.echo_by_echo(),
+        _ => signal,
+    }))
 }
 
 /// Where signals come from of which one is made: they share one closed form or one history.
@@ -85,7 +160,7 @@ struct Sources<'a> {
     network: &'a Network,
     /// The end of the window, in the user's time.
     to: Rational,
-    /// Where contacts open.
+    /// Where the scene is followed.
     follower: Option<Rc<Follower<'a>>>,
 }
 
@@ -93,11 +168,18 @@ struct Sources<'a> {
 type Seen<'s> = (&'s Observation, Squared, [&'s Rational; 2]);
 
 impl<'a> Sources<'a> {
-    fn until(network: &'a Network, [from, to]: [&Rational; 2]) -> Result<Self, SignalError> {
+    fn until(
+        origin: Origin,
+        network: &'a Network,
+        [from, to]: [&Rational; 2],
+    ) -> Result<Self, SignalError> {
         if to < from {
             return Err(EvaluateError::EmptyWindow.into());
         }
-        let follower = (!has_periods(network)).then(|| Follower::new(network, to)).transpose()?;
+        let follower = match origin {
+            Origin::Closed => None,
+            Origin::Followed => Some(Follower::new(network, to)?),
+        };
         Ok(Sources { network, to: to.clone(), follower })
     }
 
@@ -145,9 +227,9 @@ pub(crate) fn entering_waves<'a>(
     last: &Rational,
 ) -> Result<Vec<[Option<EnteringWave<'a>>; 2]>, SignalError> {
     let window = [&Rational::zero(), last];
-    let follower = match has_periods(network) {
-        true => None,
-        false => Some(Follower::new(network, last)?),
+    let follower = match origin(network, last, Purpose::Stretches) {
+        Origin::Closed => None,
+        Origin::Followed => Some(Follower::new(network, last)?),
     };
     let FieldBars { network: own, bars } = network.field_bars().map_err(EvaluateError::from)?;
     let mut signals: Vec<Box<dyn Signal + 'a>> = Vec::new();

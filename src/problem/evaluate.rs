@@ -7,7 +7,8 @@ use crate::answer::{self, Accuracy, Doubles, Method, Question, Remark, Tested, W
 use crate::expression::Fraction;
 use crate::field::FieldEvaluator;
 use crate::model::ModelError;
-use crate::planner::{self, Purpose};
+use crate::network::Network;
+use crate::planner::{self, Origin, Purpose};
 use crate::signal::{self, ClosedSignal, EvaluateError, Limit, Signal, Value, reaching_a_double};
 use num_traits::Signed as _;
 use wavestep_polynomial::Rational;
@@ -70,17 +71,28 @@ impl Problem {
             }
             Ok(values)
         };
-        let purpose = if count_echoes { Purpose::Echoes } else { Purpose::Values };
+        let purpose = match count_echoes {
+            true => Purpose::Echoes,
+            false => Purpose::Values { digits: count },
+        };
         let signal = self.signal_on(wanted, [from, to], purpose)?;
         let values = all(&*signal)?;
         Ok(Proven { values, echoes: if count_echoes { signal.echoes() } else { None } })
     }
 
-    /// How values with proven digits are found, in words.
-    pub fn how_found(&self) -> &'static str {
-        match self.has_periods() {
-            true => "in closed form: the echoes that have arrived are added up",
-            false => "followed from cell to cell, since contacts open",
+    /// How values with so many proven digits are found, in words.
+    pub fn how_found(&self, times: &[Rational], digits: usize) -> &'static str {
+        let purpose = Purpose::Values { digits };
+        let is_followed = |network: &Network| {
+            let last = times.iter().max();
+            last.is_some_and(|last| planner::origin(network, last, purpose) == Origin::Followed)
+        };
+        match self.network().is_ok_and(is_followed) {
+            true if self.has_periods() => {
+                "followed from cell to cell, which takes less here than the closed form"
+            }
+            true => "followed from cell to cell, since contacts open",
+            false => "in closed form: the echoes that have arrived are added up",
         }
     }
 

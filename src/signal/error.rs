@@ -77,6 +77,14 @@ fn too_many_echoes(echoes: u128, limit: usize) -> String {
     format!("about {echoes} echoes arrive until this time, and at most {limit} are worked out")
 }
 
+impl EvaluateError {
+    /// Whether the closed form of waves takes more work or memory than is allowed.
+    pub(crate) fn is_too_much(&self) -> bool {
+        use EvaluateError::{TooManyEchoes, TooManyPeriods, TooMuchMemory};
+        matches!(self, TooManyPeriods { .. } | TooManyEchoes { .. } | TooMuchMemory { .. })
+    }
+}
+
 impl From<EnclosureError> for EvaluateError {
     fn from(error: EnclosureError) -> EvaluateError {
         match error {

@@ -131,7 +131,7 @@ fn sums_over_periods_have_late_values() -> Result<(), Error> {
     Ok(())
 }
 
-/// Echoes of one second would take hundreds of gigabytes: that is known, and said, after the first of them.
+/// Two hundred seconds are far too much, by echoes and by cells: that is known, and said, before they are worked out.
 #[test]
 fn what_does_not_fit_into_memory_is_refused_at_once() -> Result<(), Error> {
     let text = "scene \"A\"\nmaterial brass { modulus = 100 GPa, density = 8500 kg/m^3 }\n\
@@ -141,7 +141,7 @@ fn what_does_not_fit_into_memory_is_refused_at_once() -> Result<(), Error> {
         line free - striker - input - sample - output - endless\nobserve force = force(sample)\n";
     let problem = Problem::read("bars.wave", text)?;
     let force = problem.signal("force")?;
-    for error in [force.at("2 s", 6).err(), force.roots("0 s"..="2 s", 6).err()] {
+    for error in [force.at("200 s", 6).err(), force.roots("0 s"..="200 s", 6).err()] {
         let error = error.expect("it does not fit");
         assert!(error.is_too_much_work(), "{error}");
     }

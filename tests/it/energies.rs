@@ -111,7 +111,7 @@ fn values_stretches_and_polynomials_agree() {
         let last = Rational::from_float(last).unwrap();
         for observed in network.observables().iter().filter(|own| own.name.ends_with("energy")) {
             let window = [&Rational::default(), &last];
-            let values = of_scene(&network, observed, window, Purpose::Values).unwrap();
+            let values = of_scene(&network, observed, window, Purpose::Values { digits: 20 }).unwrap();
             let signal = signal(&network, &observed.name, &last);
             let scale = value(&*values, &(&last / rational(2, 1)), Limit::Right, 9, 4096).unwrap();
             let scale = scale.to_f64().abs().max(0.1);
@@ -195,7 +195,7 @@ fn energies_have_many_digits() {
     let network = open();
     let all = network.observables().iter().find(|own| own.name == "all").unwrap();
     let at = rational(5, 2);
-    let signal = of_scene(&network, all, [&at, &at], Purpose::Values).unwrap();
+    let signal = of_scene(&network, all, [&at, &at], Purpose::Values { digits: 20 }).unwrap();
     let told = value(&*signal, &at, Limit::Right, 250, 1 << 12).unwrap();
     assert!(told.decimal(250).0.to_string().starts_with("0.7500000000"), "{told:?}");
 }

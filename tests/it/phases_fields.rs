@@ -97,7 +97,7 @@ fn observed(
     let network = Network::new(&scene).unwrap();
     let window = [times.iter().min().unwrap(), times.iter().max().unwrap()];
     let observed = &network.observables()[0];
-    let signal = of_scene(&network, observed, window, Purpose::Values).unwrap();
+    let signal = of_scene(&network, observed, window, Purpose::Values { digits: 20 }).unwrap();
     let told = |time| value(&*signal, time, Limit::Right, 18, 1 << 12).unwrap();
     times.iter().map(|time| double(&told(time))).collect()
 }

@@ -7,6 +7,7 @@ use num_traits::Signed as _;
 use std::collections::BTreeMap;
 use wavestep::language::parse_number;
 use wavestep::network::Network;
+use wavestep::planner::{Origin, Purpose, of_origin, of_scene, origin};
 use wavestep::problem::Problem;
 use wavestep::scenes::SCENES;
 use wavestep::signal::{At, ClosedSignal, EvaluateError, Limit, Signal as _, digits};
@@ -24,6 +25,68 @@ fn networks() -> impl Iterator<Item = (&'static str, Network)> {
         let network = problem.network().ok().filter(|network| network.local_contact().is_none())?;
         Some((scene.name, network.clone()))
     })
+}
+
+/// Scenes whose contacts stay closed, followed all the same: the two sources share neither the law of a node nor a
+/// series.
+#[test]
+fn closed_scenes_that_are_followed_have_the_values_of_their_closed_forms() {
+    let mut compared = 0;
+    for (name, network) in networks() {
+        let unit =
+            Rational::new(1.into(), if network.scene().dimensional { 5000 } else { 1 }.into());
+        if network.scene().contacts_open {
+            continue;
+        }
+        let last = &unit * Rational::from_integer(5.into());
+        for observed in network.observables() {
+            let purpose = Purpose::Values { digits: 20 };
+            let [closed, followed] = [Origin::Closed, Origin::Followed].map(|origin| {
+                let window = [&Rational::default(), &last];
+                of_origin(origin, &network, observed, window, purpose).unwrap()
+            });
+            for i in [1, 38, 79] {
+                let at = &last * Rational::new(i.into(), 80.into());
+                let [one, other] = [&closed, &followed].map(|signal| {
+                    digits(&**signal, &at, Limit::Right, 20, 1 << 12).unwrap().to_text(20)
+                });
+                let place = format!("{name} {} {at}", observed.name);
+                assert!(is_same(&one, &other), "{place}: {one} and {other}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 150, "{compared}");
+}
+
+/// Whether two values are told alike; one of them may be known exactly.
+fn is_same(one: &str, other: &str) -> bool {
+    let number = |text: &str| parse_number(text.split(' ').next().unwrap()).unwrap();
+    let (one, other) = (number(one), number(other));
+    (&one - &other).abs() <= one.abs() * Rational::new(1.into(), 10_i64.pow(18).into())
+}
+
+/// The far side of where following takes less: values of two sources.
+#[test]
+fn late_values_of_closed_scenes_are_followed() {
+    for (name, observable, at) in [
+        ("mass-on-fixed-bar", "velocity", Rational::from_integer(1600.into())),
+        ("hopkinson", "force", Rational::new(3.into(), 20.into())),
+    ] {
+        let (_, network) = networks().find(|(own, _)| *own == name).unwrap();
+        let observed = network.observables().iter().find(|own| own.name == observable).unwrap();
+        let window = [&at, &at];
+        let few = Purpose::Values { digits: 20 };
+        assert_eq!(origin(&network, &at, few), Origin::Followed, "{name}");
+        for closed in [Purpose::Values { digits: 500 }, Purpose::Stretches, Purpose::Echoes] {
+            assert_eq!(origin(&network, &at, closed), Origin::Closed, "{name}");
+        }
+        let late = of_scene(&network, observed, window, few).unwrap();
+        let closed = of_origin(Origin::Closed, &network, observed, window, few).unwrap();
+        let told = [late, closed]
+            .map(|signal| digits(&*signal, &at, Limit::Right, 20, 1 << 12).unwrap().to_text(20));
+        assert_eq!(told[0], told[1], "{name}");
+    }
 }
 
 /// Both enclose the same number, to forty bits at least.

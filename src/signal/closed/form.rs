@@ -11,7 +11,7 @@ use crate::signal::closed::echoes::{Arriving, Echoes, solve_in, whole_periods};
 use crate::signal::closed::memory::Memory;
 use crate::signal::closed::periods::Periods;
 
-use crate::expression::{Fraction, Root};
+use crate::expression::{Expression, Fraction, Root};
 use crate::limits::MAX_PIECES;
 use crate::network::Network;
 use crate::recurrence::{Observation, Recurrence};
@@ -207,11 +207,26 @@ impl ClosedForm {
         Ok(solved)
     }
 
-    /// Refuses a time until which all pieces are more than can be held, before they are worked out.
-    pub fn foresee(&self, to: &Rational) -> Result<(), EvaluateError> {
+    /// About how many bytes all waves of a scene take until a time; nothing to speak of where they are few. Foreseen
+    /// for waves on one grid alone.
+    ///
+    /// # Errors
+    /// As [`ClosedForm::foresee`].
+    pub fn foreseen(network: &Network, to: &Rational) -> Result<f64, EvaluateError> {
+        if network.lattice().periods().len() != 1 {
+            return Ok(0.0);
+        }
+        let nothing = Observation { waves: Vec::new(), forcing: Expression::zero() };
+        let unit = Root::from(Fraction::one());
+        ClosedForm::of_scene(network, &nothing, unit, to)?.foresee(to)
+    }
+
+    /// Refuses a time until which all pieces are more than can be held, before they are worked out; else about how
+    /// many bytes they take.
+    pub fn foresee(&self, to: &Rational) -> Result<f64, EvaluateError> {
         let order = self.order(to)?;
         if self.lattice.is_some() || order < FEW_PIECES {
-            return Ok(());
+            return Ok(0.0);
         }
         if order > MAX_PIECES + 1 {
             let (echoes, limit) = (order as u128, MAX_PIECES);

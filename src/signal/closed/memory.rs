@@ -17,6 +17,8 @@ pub struct Memory {
     coefficients: u64,
     /// The count at the last power of two.
     before: u64,
+    /// About how many bytes all steps take, as far as that is told.
+    foreseen: f64,
 }
 
 impl Memory {
@@ -27,7 +29,12 @@ impl Memory {
 
     /// Of coefficients of so many bytes.
     pub fn of(bytes_each: u64) -> Memory {
-        Memory { bytes_each, steps: 0, coefficients: 0, before: 0 }
+        Memory { bytes_each, steps: 0, coefficients: 0, before: 0, foreseen: 0.0 }
+    }
+
+    /// About how many bytes all steps take; nothing to speak of where that cannot be told yet.
+    pub fn foreseen(&self) -> f64 {
+        self.foreseen
     }
 
     /// Adds what one step of so many made; refuses where all would take more than is allowed.
@@ -45,6 +52,7 @@ impl Memory {
         let power = (self.coefficients as f64 / before as f64).log2().max(f64::MIN_POSITIVE);
         let rest = last as f64 / self.steps as f64;
         let bytes = taken * rest.powf(power);
+        self.foreseen = bytes;
         let limit = limits::memory() as f64;
         if bytes <= limit {
             return Ok(());

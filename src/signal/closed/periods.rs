@@ -90,8 +90,9 @@ impl Periods {
         Ok(())
     }
 
-    /// Foresees from the first periods what all up to the n-th will take, with the bits that they lose.
-    pub(crate) fn foresee(&mut self, n: usize) -> Result<(), EvaluateError> {
+    /// About how many bytes all periods up to the n-th will take, with the bits that they lose, foreseen from the
+    /// first ones; refused where that is more than is allowed.
+    pub(crate) fn foresee(&mut self, n: usize) -> Result<f64, EvaluateError> {
         let mut memory = Memory::of_balls(self.bits + LOST_BITS * n as u64);
         for _ in 0..FORESEEN.min(n) {
             self.advance()?;
@@ -99,7 +100,7 @@ impl Periods {
             let coefficients = last.flat_map(|piece| piece.poles()).map(|(_, row)| row.len());
             memory.add(coefficients.sum(), n)?;
         }
-        Ok(())
+        Ok(memory.foreseen())
     }
 
     /// Solves the next period, of all waves or of none. Cost: a few passes over the pieces that the equations name.

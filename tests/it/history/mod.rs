@@ -84,7 +84,7 @@ fn values(
     digits: usize,
 ) -> Vec<Value> {
     let window = [times.iter().min().unwrap(), times.iter().max().unwrap()];
-    let signal = signal(network, name, window, Purpose::Values).unwrap();
+    let signal = signal(network, name, window, Purpose::Values { digits }).unwrap();
     times.iter().map(|time| value(&*signal, time, limit, digits, 1 << 14).unwrap()).collect()
 }
 

@@ -35,7 +35,7 @@ fn a_force_that_touches_zero_is_a_tie() {
     let [assumption] = &tied.assumptions[..] else { panic!("{:?}", tied.assumptions) };
     assert!(
         assumption.starts_with("the force between rod and wall falls to zero at t = 2.2")
-            && assumption.ends_with(" and not below, which 656 bits do not decide"),
+            && assumption.ends_with(" and not below, which 829 bits do not decide"),
         "{assumption}"
     );
     let above = history(&format!("{touching} + 1e-150"));
