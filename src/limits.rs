@@ -146,7 +146,7 @@ pub const MAX_CONTACTS: usize = 6;
 pub const MAX_EVENTS: usize = 1_000;
 
 /// Cells of waves.
-pub const MAX_HISTORY_CELLS: usize = 100_000;
+pub const MAX_HISTORY_CELLS: usize = 400_000;
 
 /// Bits with which contacts are followed.
 pub const MAX_HISTORY_BITS: u64 = 1 << 11;

@@ -1,6 +1,6 @@
 //! Why a history cannot be followed.
 
-use crate::ball::{Ball, BallError};
+use crate::ball::{Ball, BallError, Number, Value};
 use crate::enclosure::EnclosureError;
 use crate::signal::EvaluateError;
 use std::fmt;
@@ -47,7 +47,8 @@ pub enum HistoryError {
     },
     /// More memory than is allowed.
     #[error(
-        "to be followed to the end the scene takes more than {megabytes} MB of memory, which shows at t = {when}"
+        "following the scene to the end would take more than {megabytes} MB of memory; that much is clear at \
+         t = {when}"
     )]
     TooMuchMemory {
         /// How much is allowed.
@@ -82,8 +83,9 @@ pub struct When {
 
 impl fmt::Display for When {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let digits = f.precision().unwrap_or(8);
-        write!(f, "{}{}", self.time.to_decimal(digits), self.unit)
+        let digits = f.precision().unwrap_or(6);
+        let time = Value::of(&Number::Enclosed((*self.time).clone()), digits);
+        write!(f, "{}{}", time.to_text(digits), self.unit)
     }
 }
 

@@ -104,7 +104,9 @@ pub fn of_scene<'a>(
         return closed();
     }
     match of_origin(Origin::Followed, network, observed, window, purpose) {
-        Err(SignalError::Followed(HistoryError::Refused(_))) => closed(),
+        Err(SignalError::Followed(
+            HistoryError::Refused(_) | HistoryError::TooManyCells { .. },
+        )) => closed(),
         Err(_) if ClosedForm::foreseen(network, window[1]).is_ok() => closed(),
         followed => followed,
     }

@@ -111,7 +111,8 @@ fn values_stretches_and_polynomials_agree() {
         let last = Rational::from_float(last).unwrap();
         for observed in network.observables().iter().filter(|own| own.name.ends_with("energy")) {
             let window = [&Rational::default(), &last];
-            let values = of_scene(&network, observed, window, Purpose::Values { digits: 20 }).unwrap();
+            let values =
+                of_scene(&network, observed, window, Purpose::Values { digits: 20 }).unwrap();
             let signal = signal(&network, &observed.name, &last);
             let scale = value(&*values, &(&last / rational(2, 1)), Limit::Right, 9, 4096).unwrap();
             let scale = scale.to_f64().abs().max(0.1);

@@ -398,7 +398,8 @@ fn energy_that_nothing_takes_stays() {
         let last = if scene.dimensional { rational(1, 1000) } else { rational(8, 1) };
         let energy = network.observables().iter().find(|seen| seen.name == "energy").expect("one");
         let window = [&BigRational::default(), &last];
-        let signal = of_scene(&network, energy, window, Purpose::Values { digits: 20 }).expect("a window");
+        let signal =
+            of_scene(&network, energy, window, Purpose::Values { digits: 20 }).expect("a window");
         let value = |at: BigRational| {
             let value = digits(&*signal, &at, Limit::Right, 30, 1 << 10);
             value.unwrap_or_else(|error| panic!("{error}")).decimal(30).0.to_string()
