@@ -229,7 +229,9 @@ fn kind_of_way(error: &WayError) -> Kind {
         WayError::Method(MethodError::TooManyPeriods { .. })
         | WayError::Model(ModelError::TooMuch { .. }) => Kind::TooMuchWork,
         WayError::Method(MethodError::Outside)
-        | WayError::Model(ModelError::MissingValue(_) | ModelError::Time(_)) => Kind::BadInput,
+        | WayError::Model(
+            ModelError::MissingValue(_) | ModelError::Time(_) | ModelError::Setting { .. },
+        ) => Kind::BadInput,
         WayError::NotMet { .. } => Kind::AccuracyNotReached,
         _ => Kind::NotSupported,
     }
@@ -396,6 +398,7 @@ fn remedy_of_way(error: &WayError) -> &'static str {
     match error {
         WayError::Method(MethodError::NoTaps(_)) => "use the method compiled or certified",
         WayError::Method(_) => "ask for a shorter window, or use the method certified",
+        WayError::Model(ModelError::Setting { .. }) => "give a setting within these bounds",
         WayError::Model(_) => "use another model, or a method on the exact solution",
         WayError::NeedsRecurrence(_) => "use the method of steps",
         WayError::NeedsScene(_) => DESCRIBE,

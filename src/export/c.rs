@@ -15,6 +15,8 @@ pub struct CHeading {
     /// The unit of its values; empty if they have none.
     pub unit: String,
     pub time_unit: String,
+    /// What the values take for granted; empty if that is nothing.
+    pub note: String,
     /// The command that writes the file.
     pub command: String,
 }
@@ -79,6 +81,10 @@ fn preamble(heading: &CHeading, name: &str, [first, end]: [f64; 2], bound: f64) 
     let plain = |text: &str| text.replace("*/", "* /").replace(['\n', '\r'], " ");
     let unit = |unit: &str| if unit.is_empty() { "1".to_owned() } else { plain(unit) };
     let bound = number(bound);
+    let note = match plain(&heading.note) {
+        note if note.is_empty() => note,
+        note => format!(" *\n * Note: {note}.\n"),
+    };
     format!(
         "/* {title}: {name}(t)\n \
          *\n \
@@ -92,8 +98,8 @@ fn preamble(heading: &CHeading, name: &str, [first, end]: [f64; 2], bound: f64) 
          * Proven: for every double t of the window the result is within\n \
          *   {bound}\n \
          * of the exact solution, if doubles are those of IEEE 754 and the compiler keeps to the order\n \
-         * of operations (no -ffast-math); multiplications and additions may be fused.\n \
-         */\n\n\
+         * of operations (no -ffast-math); multiplications and additions may be fused.\n\
+         {note} */\n\n\
          #include <stddef.h>\n\n\
          #define WAVESTEP_{upper}_BOUND {bound}\n\n",
         title = plain(&heading.title),

@@ -144,8 +144,8 @@ impl Problem {
         Ok(Signal { problem: self, wanted: self.wanted(name)? })
     }
 
-    /// What contacts do until nothing can meet again, at most for a hundred of the longest travel times:
-    /// every separation and re-impact, with proof that none is missed. Instants have `digits` proven digits.
+    /// What contacts do until nothing can meet again, at most for a hundred of the longest travel times, or ten beside
+    /// a local contact: every separation and re-impact, with proof that none is missed. Instants have `digits` proven digits.
     ///
     /// ```
     /// let hammer = wavestep::Problem::builtin("saint-venant")?.with("mu", 1)?;

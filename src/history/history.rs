@@ -20,6 +20,9 @@ use wavestep_polynomial::Rational;
 /// How many of the longest travel times a history is followed where no end is given.
 pub(crate) const PATIENCE: u32 = 100;
 
+/// The same beside a local contact, which takes some seconds for each time that it is pressed.
+const PATIENCE_WITH_LOCAL_CONTACTS: u32 = 10;
+
 /// The precision that a scene with a local contact is begun with where no digits are asked for: its cost grows as the
 /// cube of the bits, and errors hardly grow in the few contacts that there are.
 pub(crate) const LEAST_BITS: u64 = 64;
@@ -243,7 +246,7 @@ impl History {
     }
 
     /// Follows a scene until a time in the user's units or until nothing can meet again; without a time for
-    /// a hundred of the longest travel times at most. Instants have the digits asked for, unless they are exact.
+    /// a hundred of the longest travel times at most, or ten beside a local contact. Instants have the digits asked for, unless they are exact.
     ///
     /// # Errors
     /// [`HistoryError::MissingValue`] for a symbol without a value; [`HistoryError::Refused`] for what is
@@ -326,7 +329,11 @@ fn follow_to_the_end(
 ) -> Outcome<(Moment, bool)> {
     let travel = longest(engine)?;
     let mut end = Moment::at(Fraction::zero());
-    for step in 1..=PATIENCE {
+    let patience = match network.local_contact() {
+        None => PATIENCE,
+        Some(_) => PATIENCE_WITH_LOCAL_CONTACTS,
+    };
+    for step in 1..=patience {
         let count = Rational::from_integer(step.into());
         let next = Moment::at(travel.scale(&count));
         if let Some(until) = until

@@ -7,19 +7,12 @@ use super::input;
 use super::output::plural;
 use super::progress;
 use super::rows::{times, written};
-use super::validity::note_search;
-use num_rational::BigRational;
+use super::validity::note_pulling;
 use std::time::Instant;
 use wavestep::answer::Accuracy;
-use wavestep::problem::{Digits, Problem};
+use wavestep::problem::Digits;
 
 /// Says where a contact that stays closed would pull before the last of some times.
-fn note_pulling(problem: &Problem, times: &[BigRational]) {
-    if let Some(last) = times.iter().max() {
-        note_search(problem, last);
-    }
-}
-
 pub fn run(options: &Eval) -> Result<String, Failure> {
     input::digits(options.digits)?;
     let problem = input::problem(&options.scene)?;
@@ -38,7 +31,7 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
         drop(progress);
         let found = found.map_err(|error| doubles::refused(error, times.len(), options.explain))?;
         doubles::tell(&found, times.len(), tolerance, options.explain);
-        note_pulling(&problem, &times);
+        times.iter().max().into_iter().for_each(|last| note_pulling(&problem, last));
         let unit = problem.wanted(name)?.unit();
         return Ok(doubles::written(&found, &problem, &unit, &times, options));
     }
@@ -57,7 +50,7 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
              more narrowly, until the last digit is rounded correctly"
         );
     }
-    note_pulling(&problem, &times);
+    times.iter().max().into_iter().for_each(|last| note_pulling(&problem, last));
     if let Some((expanded, needed)) = found.echoes {
         eprintln!("echoes expanded: {expanded} of {needed} that can reach what is observed");
     }

@@ -141,7 +141,9 @@ impl Told<'_> {
             }
             Ending::Followed(end) => {
                 let end = self.value(end, Dimension::TIME);
-                format!("Followed until t = {end}; what comes later is not known.")
+                format!(
+                    "Followed until t = {end}; what comes later is not known. For another end give --until."
+                )
             }
             Ending::NoContact => "Nothing can open: there is no contact.".to_owned(),
         }

@@ -6,6 +6,7 @@ use super::failure::{ACCURACY, Failure};
 use super::input;
 use super::output;
 use super::progress;
+use super::validity::pulling;
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
 use wavestep::answer::{Tolerance, WayError};
@@ -19,6 +20,7 @@ pub fn run(options: &Export) -> Result<String, Failure> {
     // The double nearest to the end belongs to the window, also where it lies beyond.
     let nearest = to.to_f64().and_then(BigRational::from_float);
     let to = nearest.map_or(to.clone(), |nearest| nearest.max(to));
+    let pulls = pulling(&problem, &to);
     let spinner = progress::spinner("expanding the observable");
     let question = problem.question(&options.quantity, [from, to])?;
     let absolute = tolerance.absolute(question.scale()?);
@@ -38,6 +40,7 @@ pub fn run(options: &Export) -> Result<String, Failure> {
         quantity: wanted.name.clone(),
         unit: wanted.unit(),
         time_unit: problem.time_unit().to_owned(),
+        note: pulls.unwrap_or_default(),
         command: format!(
             "wavestep export {} --as c{set} --quantity {} --from {} --to {}{tol}",
             options.scene.scene, options.quantity, options.from, options.to

@@ -6,6 +6,7 @@ use super::input;
 use super::json::SCHEMA_VERSION;
 use super::output::written;
 use super::progress;
+use super::validity::note_pulling;
 use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
 use wavestep::field::{BarFields, Bounded, Fields, Mesh, Quantity, Sampling};
@@ -31,6 +32,7 @@ pub fn run(options: &Field) -> Result<String, Failure> {
     let progress = progress::spinner("evaluating");
     let fields = problem.field_evaluator(&time)?.at(&time, &mesh)?;
     drop(progress);
+    note_pulling(&problem, &time);
     let text = match options.format {
         Format::Json => json_document(&fields, &problem, options),
         _ => csv(&fields),

@@ -19,9 +19,8 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;
     let (name, written) = quantity(options)?;
     let wanted = problem.wanted(name)?;
-    let (from, to) = (options.from.as_deref(), options.to.as_deref());
-    let window =
-        problem.window(("--from", from.unwrap_or_default()), ("--to", to.unwrap_or_default()))?;
+    let to = options.to.as_deref();
+    let window = problem.window(("--from", &options.from), ("--to", to.unwrap_or_default()))?;
     // What is given wrongly is told before any work is done.
     let level = problem.quantity("--level", written, wanted.dimension)?;
     let told =
@@ -45,7 +44,7 @@ pub fn run(options: &Find) -> Result<String, Failure> {
         }
     };
     if found.is_ok() {
-        validity::note_search(&problem, &window[1]);
+        validity::note_pulling(&problem, &window[1]);
     }
     found
 }

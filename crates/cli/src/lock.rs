@@ -5,6 +5,7 @@ use super::failure::{COMPUTATION, Failure};
 use super::input;
 use super::output::{plural, write_whole};
 use super::progress;
+use super::validity::{note_derivation, note_pulling};
 use num_rational::BigRational;
 use std::fs;
 use std::path::Path;
@@ -24,6 +25,10 @@ pub fn run(options: &Options) -> Result<String, Failure> {
         let _progress = progress::spinner("deriving");
         problem.lock(&asked).map_err(refused)?
     };
+    match asked.times.iter().max() {
+        Some(last) => note_pulling(&problem, last),
+        None => note_derivation(&problem),
+    }
     write(options, &lock)
 }
 

@@ -4,6 +4,7 @@ use super::arguments::Plot;
 use super::failure::Failure;
 use super::input;
 use super::picture;
+use super::validity::note_pulling;
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
 use wavestep::field::Quantity;
@@ -26,6 +27,7 @@ fn chart(options: &Plot) -> Result<Box<dyn Chart>, Failure> {
         None => usual_end(&problem, &from)?,
     };
     let [from, to] = window(from, to)?;
+    note_pulling(&problem, &to);
     let caption = Caption::default();
     if let Some(quantity) = options.diagram {
         let evaluator = problem.field_evaluator(&to)?;
@@ -45,6 +47,7 @@ fn fields_at(problem: &Problem, options: &Plot) -> Result<Box<dyn Chart>, Failur
     let times = options.at_time.iter().map(|time| problem.time("--at-time", time.as_str()));
     let times = times.collect::<Result<Vec<BigRational>, ProblemError>>()?;
     let Some(last) = times.iter().max() else { unreachable!("there are times") };
+    note_pulling(problem, last);
     let evaluator = problem.field_evaluator(last)?;
     let figure = along_the_line(&evaluator, &fields(options)?, &times, Caption::default())?;
     Ok(Box::new(match &options.title {

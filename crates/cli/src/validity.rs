@@ -34,15 +34,20 @@ pub fn note_derivation(problem: &Problem) {
     eprintln!("note: {note}");
 }
 
-/// Says that values or a search until this time go beyond the form with closed contacts, where that is soon known.
-pub fn note_search(problem: &Problem, last: &BigRational) {
-    if let Some((time, [left, right])) = problem.pulls(last, DIGITS) {
-        eprintln!(
-            "note: from t = {} on the contact between {left} and {right} would pull; with `contacts open` \
-             it opens then",
-            text(problem, &time)
-        );
+/// Says that what is told until this time goes beyond the form with closed contacts, where that is soon known.
+pub fn note_pulling(problem: &Problem, last: &BigRational) {
+    if let Some(note) = pulling(problem, last) {
+        eprintln!("note: {note}");
     }
+}
+
+/// The same in words.
+pub fn pulling(problem: &Problem, last: &BigRational) -> Option<String> {
+    let (time, [left, right]) = problem.pulls(last, DIGITS)?;
+    Some(format!(
+        "from t = {} on the contact between {left} and {right} would pull; with `contacts open` it opens then",
+        text(problem, &time)
+    ))
 }
 
 fn text(problem: &Problem, time: &Value) -> String {

@@ -70,6 +70,7 @@ fn check(name: &str, quantity: &str, subject: &Subject<'_>, tolerance: Option<f6
         quantity: quantity.to_owned(),
         unit: String::new(),
         time_unit: "s".to_owned(),
+        note: String::new(),
         command: "wavestep export".to_owned(),
     };
     let c = to_c(&compiled, &heading);

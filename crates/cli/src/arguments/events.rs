@@ -14,7 +14,7 @@ pub struct Events {
     #[command(flatten)]
     pub scene: Scene,
     /// Follow the scene until this time [default: until nothing can meet again, at most for a hundred
-    /// of the longest travel times]
+    /// of the longest travel times, or ten beside a local contact]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub until: Option<String>,
     /// How many significant digits

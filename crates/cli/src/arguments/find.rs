@@ -30,8 +30,8 @@ pub struct Find {
     #[arg(long, value_name = "QUANTITY=VALUE", allow_hyphen_values = true)]
     pub level: Option<String>,
     /// The first time of the window
-    #[arg(long, value_name = "T", allow_hyphen_values = true, required_unless_present = "equal")]
-    pub from: Option<String>,
+    #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
+    pub from: String,
     /// The last time of the window
     #[arg(long, value_name = "T", allow_hyphen_values = true, required_unless_present = "equal")]
     pub to: Option<String>,
