@@ -163,4 +163,4 @@ pub const MAX_MODE_TERMS: f64 = 1e9;
 pub const MAX_CELL_UPDATES: f64 = 1e9;
 
 /// Nodes times periods of the method of steps, each of which is integrated anew.
-pub const MAX_NODE_PERIODS: f64 = 2e4;
+pub const MAX_NODE_PERIODS: f64 = 2e6;

@@ -72,12 +72,20 @@ pub enum Remark {
     NearSpring(String),
 }
 
-/// With this local contact values are tested, not certified.
+/// With this local contact, or with contacts that open, values are tested, not certified.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Tested {
-    pub contact: String,
+    pub contact: Option<String>,
     /// To how much of the largest value.
     pub tolerance: f64,
+    /// Where contacts open, by how much values change at most where all is changed by [`Tested::NUDGE`] whenever a contact
+    /// opens or closes: each may magnify what was off before.
+    pub differs: Option<f64>,
+}
+
+impl Tested {
+    /// A change that is larger than rounding.
+    pub const NUDGE: f64 = 1e-15;
 }
 
 /// The values of a question at times of its window; refused where no method is good enough, or the

@@ -2,8 +2,8 @@
 //!
 //! An enclosure shrinks as its precision grows, but nobody knows beforehand how many bits it takes.
 //! [`Precisions`] says where to start and where to stop, and [`Precisions::raise`] tries one after the
-//! other. Where the cost of an attempt grows at least linearly, all of them together cost at most twice as
-//! much as the last one, and three times where precision grows by halves.
+//! other. Where the cost of an attempt grows at least linearly, all of them together cost less than about three
+//! times as much as the last one.
 
 /// Ascending precisions, in bits or digits, each twice the one before or half as much again; the last one is the
 /// limit.
@@ -11,8 +11,8 @@
 pub struct Precisions {
     first: u64,
     limit: u64,
-    /// Twice what a precision is multiplied by.
-    step: u64,
+    /// Precision grows by the factor `halves/2`.
+    halves: u64,
 }
 
 /// The outcome of one precision.
@@ -27,16 +27,17 @@ pub enum Attempt<T, B = T> {
 impl Precisions {
     /// From `first` up to and including `limit`; the limit alone where `first` is not below it.
     pub fn doubling(first: u64, limit: u64) -> Precisions {
-        Precisions { first: first.min(limit), limit, step: 4 }
+        Precisions { first: first.min(limit), limit, halves: 4 }
     }
 
     /// From `first` on, each half as much again as the one before: where an attempt takes much time and memory, one
     /// with far more bits than it needs is the worse waste. The last is the highest that is not above `most`, or
     /// `first` itself.
-    pub fn by_halves(first: u64, most: u64) -> Precisions {
+    pub fn growing_by_half(first: u64, most: u64) -> Precisions {
+        debug_assert!(first > 1, "half of one bit is none");
         let all = std::iter::successors(Some(first), |bits| Some(bits * 3 / 2));
         let limit = all.take_while(|bits| *bits <= most).last().unwrap_or(first);
-        Precisions { first, limit, step: 3 }
+        Precisions { first, limit, halves: 3 }
     }
 
     /// The lowest.
@@ -46,7 +47,7 @@ impl Precisions {
 
     /// The precision to try after another one.
     pub fn after(self, bits: u64) -> Option<u64> {
-        (bits < self.limit).then(|| (bits.saturating_mul(self.step) / 2).min(self.limit))
+        (bits < self.limit).then(|| (bits.saturating_mul(self.halves) / 2).min(self.limit))
     }
 
     /// All of them.

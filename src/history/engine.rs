@@ -34,6 +34,10 @@ const MAX_CHANGES: usize = 16;
 const SPARE_BITS: i64 = 48;
 const LEAST_BITS: u64 = 96;
 
+/// Memory is foreseen each time that so many times as much of a window has passed, from this share of it on.
+const OFTEN: f64 = 1.125;
+const TELLING: f64 = 1.0 / 16.0;
+
 /// What a node did on one cell.
 pub(crate) struct Cell {
     /// Velocities of its runs.
@@ -363,7 +367,12 @@ impl Engine {
     /// # Errors
     /// [`HistoryError`], all kinds but [`HistoryError::AfterLast`].
     pub fn follow_until(&mut self, until: &Moment) -> Outcome<()> {
-        self.foresee_cells(until)?;
+        let followed = self.foresee_cells(until).and_then(|()| self.follow_all(until));
+        tell_followed(0.0);
+        followed
+    }
+
+    fn follow_all(&mut self, until: &Moment) -> Outcome<()> {
         let mut looked = 0.0;
         while let Some((node, now)) = self.behind() {
             if self.clock.compare(now, until)? == Ordering::Greater {
@@ -371,13 +380,12 @@ impl Engine {
             }
             let passed = self.clock.about(now) / self.clock.about(until);
             tell_followed(passed);
-            if passed > 1.125 * looked {
+            if passed > OFTEN * looked {
                 looked = passed;
                 self.foresee_memory(node, passed)?;
             }
             self.advance(node)?;
         }
-        tell_followed(0.0);
         Ok(())
     }
 
@@ -403,11 +411,11 @@ impl Engine {
         }
     }
 
-    /// Refuses what will take too much memory, once part of it is taken: cells hold more and more, and there may be
-    /// more and more of them, so that it grows as the square of the time.
+    /// Refuses what will take too much memory, once some of it is taken. Memory is assumed to grow as the square of
+    /// time: cells hold more and more, and there may be more of them.
     fn foresee_memory(&self, node: usize, passed: f64) -> Outcome<()> {
         let (taken, most) = (self.bytes as f64, memory() as f64);
-        match taken > most / 16.0 && taken > most * passed.powi(2) {
+        match taken > most * TELLING && taken > most * passed.powi(2) {
             true => Err(self.too_much_memory(node)?),
             false => Ok(()),
         }

@@ -219,7 +219,7 @@ impl Engine {
 
 /// The precisions that a scene is followed with for numbers of so many digits.
 pub(crate) fn precisions(digits: usize, limit: u64) -> Precisions {
-    Precisions::by_halves(128 + 4 * digits as u64, limit)
+    Precisions::growing_by_half(128 + 4 * digits as u64, limit)
 }
 
 /// What is undecided may be decided with more bits.
@@ -255,7 +255,7 @@ impl History {
     ///
     /// # Cost
     /// A few products of small matrices with vectors for each coefficient of each cell; a cell begins where
-    /// something arrives at a node. All is done again with twice the precision until the digits are proven.
+    /// something arrives at a node. All is done again with half as much precision again until the digits are proven.
     pub fn of(
         network: &Network,
         until: Option<&Rational>,
@@ -273,7 +273,9 @@ impl History {
         };
         let precisions = match network.local_contact() {
             None => precisions(digits, MAX_HISTORY_BITS),
-            Some(_) => Precisions::by_halves(LEAST_BITS + 4 * digits as u64, MAX_HISTORY_BITS),
+            Some(_) => {
+                Precisions::growing_by_half(LEAST_BITS + 4 * digits as u64, MAX_HISTORY_BITS)
+            }
         };
         precisions.raise(attempt)?.best()
     }

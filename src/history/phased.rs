@@ -96,7 +96,7 @@ impl<'a> Follower<'a> {
             None => FIRST_BITS,
             Some(_) => 2 * LEAST_BITS,
         };
-        let known = Precisions::by_halves(first, MAX_HISTORY_BITS).raise(attempt)?.best()?;
+        let known = Precisions::growing_by_half(first, MAX_HISTORY_BITS).raise(attempt)?.best()?;
         Ok(Rc::new(Follower { network, until, known: RefCell::new(known) }))
     }
 
@@ -477,7 +477,7 @@ impl Signal for FollowedSignal<'_> {
                     Err(error) => Err(error.of_value(bits)),
                 }
             };
-            Precisions::by_halves(first, MAX_HISTORY_BITS).raise(attempt)?.done()
+            Precisions::growing_by_half(first, MAX_HISTORY_BITS).raise(attempt)?.done()
         };
         match value(0)? {
             Number::Exact(exact) => return Ok(Point::exact(exact)),
@@ -536,7 +536,7 @@ impl Signal for FollowedSignal<'_> {
             Ok(order.map_or_else(|error| Attempt::NotYet(error.of_value(bits)), Attempt::Done))
         };
         let known = self.known.borrow().engine.cut.bits;
-        let precisions = Precisions::by_halves(known, self.most_bits);
+        let precisions = Precisions::growing_by_half(known, self.most_bits);
         precisions.raise(attempt).and_then(Attempt::done)
     }
 

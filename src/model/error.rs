@@ -44,6 +44,10 @@ pub enum NotRepresented {
     Massless(String),
     #[error("beside {0} something moves that has no mass, and nothing resists it")]
     Unresisted(String),
+    #[error("{0} contacts that open meet in one place")]
+    TooManyContacts(usize),
+    #[error("rigid masses of different velocities meet")]
+    RigidImpact,
     #[error("no bar has a finite length, and nothing else says how long a cell is")]
     NoFiniteBar,
     #[error("there is no element {0}")]

@@ -5,7 +5,9 @@ use crate::enclosure::Numbers;
 use crate::expression::Fraction;
 use crate::model::course::{Course, double, double_root};
 use crate::model::error::{ModelError, NotRepresented, NotSeen};
-use crate::network::{ElementLaw, Measured, MeasuredValue, Node, Reading, ScaledScene, Term};
+use crate::network::{
+    ElementLaw, Layout, Measured, MeasuredValue, Node, Reading, ScaledScene, Term,
+};
 use crate::scene::ElementIndex;
 use num_traits::ToPrimitive as _;
 use std::collections::BTreeMap;
@@ -165,7 +167,13 @@ pub(crate) struct Line {
 }
 
 impl Line {
+    /// The line with all contacts closed.
     pub fn of(scaled: &ScaledScene) -> Result<Line, ModelError> {
+        Line::laid_out(scaled, &scaled.layout)
+    }
+
+    /// The line cut into these nodes and bars.
+    pub fn laid_out(scaled: &ScaledScene, layout: &Layout) -> Result<Line, ModelError> {
         let numbers = Numbers::new(&scaled.model().constants);
         let mut symbols = scaled.model().assumptions.symbols().map(|(symbol, _)| symbol);
         if let Some(symbol) = symbols.find(|symbol| numbers.value(symbol, 64).is_none()) {
@@ -173,7 +181,6 @@ impl Line {
         }
         let (scene, model) = (scaled.scene(), scaled.model());
         let double = |value: &Fraction| double(&numbers, value);
-        let layout = &scaled.layout;
         let mut bars = Vec::new();
         for (element, nodes) in layout.bars.iter().zip(&layout.ends) {
             let data = &model.bars[element];

@@ -9,6 +9,7 @@ pub mod collocation;
 pub mod course;
 mod equivalent;
 mod error;
+mod laws;
 mod leapfrog;
 pub mod line;
 mod modes;

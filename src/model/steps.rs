@@ -15,18 +15,23 @@
 //! power is not smooth, at the first touch and where a contact opens or closes, pieces are halved until
 //! their series have converged. Measured for two endless bars: within the tolerance of the closed form, of
 //! the largest force, down to 1e-11; within 1e-12 at 1e-13.
+//!
+//! Contacts open where their force would be negative, and close where their gap would: a piece ends at the root of
+//! that series, and the node goes on with the law of the other contacts. What such an event sends out is not smooth
+//! there, and comes back whole periods later, so pieces end at that place of all later periods.
 
 use crate::enclosure::Numbers;
 use crate::expression::{Fraction, Root};
 use crate::limits::MAX_NODE_PERIODS;
 use crate::model::Model;
-use crate::model::collocation::{Collocation, Pressing};
-use crate::model::course::{double, double_of};
+use crate::model::collocation::Collocation;
+use crate::model::course::double;
 use crate::model::error::{BadSetting, ModelError, NotRepresented};
-use crate::model::line::{Bar, Line, LocalContact};
-use crate::model::track::{DEGREE, POINTS, Track, Values, points, series};
+use crate::model::laws::{Law, Laws, NodeState};
+use crate::model::line::{Bar, Line, LocalContact, Observable};
+use crate::model::track::{DEGREE, POINTS, Track, Values, integral, points, series, sum};
 use crate::network::{
-    Face, Field, Lump, ModelLoad, Reading, ScaledScene, Section, Side, System, Unresisted,
+    Contacts, Face, Field, Layout, Lump, ModelLoad, Reading, ScaledScene, Section, Side,
 };
 use crate::scene::ElementIndex;
 use num_integer::Integer as _;
@@ -34,7 +39,7 @@ use num_traits::{Signed, ToPrimitive, Zero};
 use std::collections::BTreeMap;
 use wavestep_polynomial::Rational;
 
-const NAME: &str = "method of steps";
+pub(super) const NAME: &str = "method of steps";
 
 /// How often a period is halved before its solution is given up.
 const MAX_HALVINGS: u32 = 40;
@@ -42,8 +47,20 @@ const MAX_HALVINGS: u32 = 40;
 /// How much finer than the tolerance the forces of local contacts are found.
 const MARGIN: f64 = 1e-2;
 
-/// The precision of the laws of nodes before they are rounded to doubles.
-const BITS: u64 = 128;
+/// The most changes of contacts of a node at one instant.
+const MAX_CHANGES: usize = 16;
+
+/// Places of a period where what arrives is not smooth.
+const MAX_KINKS: usize = 2_000;
+
+/// Equations that are kept of a node, by their contacts and lengths.
+const MAX_COLLOCATIONS: usize = 4_096;
+
+/// How many times a force or a gap is looked at on a piece.
+const LOOKS: usize = 64;
+
+/// Halvings of the interval in which one falls below zero.
+const ROOT_HALVINGS: usize = 60;
 
 /// Delayed waves, with collocation at the nodes.
 ///
@@ -55,10 +72,11 @@ const BITS: u64 = 128;
 #[derive(Clone, Debug)]
 pub struct Steps {
     line: Line,
-    /// The systems of the nodes, and the local contacts in them.
-    systems: Vec<System<f64>>,
-    contacts: Vec<Vec<Pressing>>,
+    /// Of the nodes.
+    laws: Vec<Laws>,
     tolerance: f64,
+    /// By which share everything is changed at each change of a contact: zero, but to see what errors become.
+    nudge: f64,
     /// The common measure; `None` where nothing is delayed.
     period: Option<f64>,
     /// The travel times in periods.
@@ -95,18 +113,19 @@ impl Steps {
             let reason = BadSetting::Tolerance(tolerance);
             return Err(ModelError::Setting { model: NAME, reason });
         }
-        let line = Line::of(scaled)?;
+        let opening;
+        let layout = match scaled.scene().contacts_open {
+            true => {
+                opening = Layout::of(scaled.scene(), scaled.model(), Contacts::Links);
+                &opening
+            }
+            false => &scaled.layout,
+        };
+        let line = Line::laid_out(scaled, layout)?;
         let numbers = Numbers::new(&scaled.model().constants);
-        let systems = systems(scaled, &numbers, &line)?;
-        let contacts = line.nodes.iter().zip(&systems).map(|(node, system)| {
-            let places = node.elements.iter().zip(&system.kept).zip(&system.driven);
-            let pressing = places.filter_map(|((own, kept), driven)| {
-                let contact = LocalContact::of(&own.law)?;
-                Some(Pressing { contact, state: (*kept)?, input: (*driven)? })
-            });
-            pressing.collect()
-        });
-        let contacts = contacts.collect();
+        let laws = layout.nodes.iter().enumerate();
+        let laws = laws.map(|(place, node)| Laws::of(place, &line, node, &numbers, line.speed()));
+        let laws = laws.collect::<Result<_, _>>()?;
         let (mut times, mut loads) = (Vec::new(), Vec::new());
         let named = |element: ElementIndex, time: &Option<Fraction>| {
             (line.name(element), time.clone().unwrap_or_else(Fraction::zero))
@@ -131,93 +150,63 @@ impl Steps {
         });
         let (acting, delays) = (acting.collect(), delays.to_vec());
         let period = grid.map(|(period, _)| double(&numbers, &period)).transpose()?;
-        Ok(Steps { line, systems, contacts, tolerance, period, delays, acting })
+        Ok(Steps { line, laws, tolerance, nudge: 0.0, period, delays, acting })
     }
 
+    /// The same model with instants and velocities changed by this share whenever a contact opens or closes: how far its
+    /// values are from those without tells what becomes of errors of that size.
+    #[must_use]
+    pub fn nudged(self, nudge: f64) -> Steps {
+        Steps { nudge, ..self }
+    }
+
+    /// The line at the start, for a motion until a time.
     fn motion(&self, last: f64) -> Result<Motion<'_>, ModelError> {
         // Without delays one period is as long as what is asked for.
         let period = self.period.unwrap_or(if last > 0.0 { last } else { 1.0 });
-        let periods = (last / period * (1.0 + 1e-11)).floor() + 1.0;
-        let count = periods * self.systems.len() as f64;
-        ModelError::limited(NAME, "periods of nodes", count, MAX_NODE_PERIODS)?;
         let track = |before| Track::new(before, period);
         let tracks = |count: usize| vec![track(0.0); count];
-        let speed = self.line.speed();
-        let mut motion = Motion {
+        let (line, speed) = (&self.line, self.line.speed());
+        let start = |(laws, node): (&Laws, _)| laws.start(node, speed);
+        let states: Option<Vec<NodeState>> = self.laws.iter().zip(&line.nodes).map(start).collect();
+        let states = states
+            .ok_or(ModelError::Refused { model: NAME, reason: NotRepresented::RigidImpact })?;
+        Ok(Motion {
             steps: self,
             period,
-            states: (0..self.systems.len()).map(|node| self.start(node)).collect(),
-            scales: (0..self.systems.len()).map(|node| self.scales(node, speed)).collect(),
-            waves: self.line.bars.iter().map(|bar| bar.before().map(track)).collect(),
-            velocities: self.systems.iter().map(|own| tracks(own.group.len())).collect(),
-            displacements: self.systems.iter().map(|own| tracks(own.displacements())).collect(),
-            collocations: self.systems.iter().map(|_| BTreeMap::new()).collect(),
+            states,
+            waves: line.bars.iter().map(|bar| bar.before().map(track)).collect(),
+            velocities: line.nodes.iter().map(|node| tracks(node.runs())).collect(),
+            displacements: self.laws.iter().map(|laws| tracks(laws.springs.len())).collect(),
+            collocations: self.laws.iter().map(|_| BTreeMap::new()).collect(),
+            kinks: Vec::new(),
             speed,
-        };
-        for number in 0..periods as i64 {
-            motion.step(number)?;
-        }
-        Ok(motion)
+        })
     }
 
-    /// The state of a node at the start: velocities of what has a mass, and no displacements.
-    fn start(&self, node: usize) -> Vec<f64> {
-        let (node, system) = (&self.line.nodes[node], &self.systems[node]);
-        let mut state = vec![0.0; system.states()];
-        for run in 0..node.runs() {
-            if let Some(place) = system.place_of_velocity(run) {
-                let (mass, momentum) = node.mass_of(run);
-                state[place] = momentum / mass;
-            }
-        }
-        state
-    }
-
-    /// What is large for each state of a node where velocities are about `speed`: displacements in a unit
-    /// of time, in local contacts in the time in which these are pressed together.
-    fn scales(&self, node: usize, speed: f64) -> Vec<f64> {
-        let [left, right] = self.line.nodes[node].impedance;
-        let mut scales = vec![speed; self.systems[node].states()];
-        for own in &self.contacts[node] {
-            scales[own.state] *= own.contact.time(left + right, speed);
-        }
-        scales
+    /// How many periods it takes to a time.
+    fn periods(&self, motion: &Motion<'_>, last: f64) -> Result<i64, ModelError> {
+        let periods = (last / motion.period * (1.0 + 1e-11)).floor() + 1.0;
+        let count = periods * self.laws.len() as f64;
+        ModelError::limited(NAME, "periods of nodes", count, MAX_NODE_PERIODS)?;
+        Ok(periods as i64)
     }
 }
 
-/// The systems of all nodes, with their contacts closed.
-fn systems(
-    scaled: &ScaledScene,
-    numbers: &Numbers,
-    line: &Line,
-) -> Result<Vec<System<f64>>, ModelError> {
-    let mut systems = Vec::new();
-    for node in &scaled.layout.nodes {
-        let node = node.map(|value| numbers.number(value, BITS))?;
-        let system = System::of(&node, |_| true, BITS).map_err(|Unresisted| {
-            let near = node.elements.first().map(|own| line.name(own.element));
-            let near = near.unwrap_or_else(|| "an end".to_owned());
-            ModelError::Refused { model: NAME, reason: NotRepresented::Unresisted(near) }
-        })?;
-        systems.push(system.map(double_of));
-    }
-    Ok(systems)
-}
-
-/// All functions of time of a line, as far as they are known.
+/// All functions of time of a line, as far as they are known and still needed.
 struct Motion<'a> {
     steps: &'a Steps,
     period: f64,
-    states: Vec<Vec<f64>>,
-    /// What is large for each state of each node.
-    scales: Vec<Vec<f64>>,
+    states: Vec<NodeState>,
     /// Of each bar the waves that leave its left end to the right, and its right end to the left.
     waves: Vec<[Track; 2]>,
-    /// Of each node the velocities of its runs, and the displacements in its state.
+    /// Of each node the velocities of its runs, and the displacements of its springs.
     velocities: Vec<Vec<Track>>,
     displacements: Vec<Vec<Track>>,
-    /// Of each node its equations, by how often a period is halved; none where they have no solution.
-    collocations: Vec<BTreeMap<u32, Option<Collocation<'a>>>>,
+    /// Of each node its equations, by its closed contacts and the length of a piece; none where they have no solution.
+    collocations: Vec<BTreeMap<(usize, u64), Option<Collocation<'a>>>>,
+    /// Times since the beginning of a period at which a contact changed, in order: what arrives is not smooth there.
+    kinks: Vec<f64>,
     /// About the largest velocity, which tells what a small error is.
     speed: f64,
 }
@@ -225,22 +214,34 @@ struct Motion<'a> {
 struct Solved {
     start: f64,
     length: f64,
-    /// The series of velocities of runs, displacements, and what leaves to the left and to the right.
+    /// The series of velocities of runs, displacements of springs, and what leaves to the left and to the right.
     rows: Vec<Values>,
-    last: Vec<f64>,
+    /// The series of the force of each contact that opens, or of its gap.
+    guards: Vec<Vec<f64>>,
+    last: NodeState,
 }
 
-impl Motion<'_> {
+/// A node on its way through a period.
+struct Passage {
+    node: usize,
+    number: i64,
+    state: NodeState,
+    solved: Vec<Solved>,
+    kinks: Vec<f64>,
+}
+
+impl<'a> Motion<'a> {
     fn step(&mut self, number: i64) -> Result<(), ModelError> {
         let mut all = Vec::new();
         for node in 0..self.states.len() {
-            all.push(self.solve(node, number)?);
+            all.push(self.pass(node, number)?);
         }
         self.waves.iter_mut().flatten().for_each(Track::begin);
         self.velocities.iter_mut().flatten().for_each(Track::begin);
         self.displacements.iter_mut().flatten().for_each(Track::begin);
-        for (node, pieces) in all.into_iter().enumerate() {
-            for Solved { start, length, rows, last } in pieces {
+        let known = self.kinks.len();
+        for Passage { node, state, solved, kinks, .. } in all {
+            for Solved { start, length, rows, .. } in solved {
                 let mut rows = rows.into_iter();
                 let own = self.velocities[node].iter_mut().chain(&mut self.displacements[node]);
                 for track in own {
@@ -253,73 +254,187 @@ impl Motion<'_> {
                         self.waves[bar][way].push(start, length, row);
                     }
                 }
-                self.states[node] = last;
             }
+            self.states[node] = state;
+            self.kinks.extend(kinks);
+        }
+        if self.kinks.len() > known {
+            self.kinks.sort_by(f64::total_cmp);
+            self.kinks.dedup();
+            ModelError::limited(
+                NAME,
+                "kinks in a period",
+                self.kinks.len() as f64,
+                MAX_KINKS as f64,
+            )?;
         }
         Ok(())
     }
 
-    /// One period at one node, halved until the series of each piece has converged.
-    fn solve(&mut self, node: usize, number: i64) -> Result<Vec<Solved>, ModelError> {
-        let mut solved: Vec<Solved> = Vec::new();
-        let mut state = self.states[node].clone();
-        let (mut start, mut halvings) = (0_u64, 0_u32);
-        // `start` counts pieces of the present length.
-        loop {
-            let length = self.period / f64::from(halvings).exp2();
-            let (system, contacts) = (&self.steps.systems[node], &self.steps.contacts[node]);
-            let known = self.collocations[node].entry(halvings);
-            known.or_insert_with(|| Collocation::of(system, contacts, length));
-            let Some(piece) = self.piece(node, number, (start, halvings), &state) else {
-                if halvings >= MAX_HALVINGS {
-                    return Err(ModelError::NotSmooth { model: NAME, period: number });
-                }
-                (start, halvings) = (2 * start, halvings + 1);
-                continue;
-            };
-            state.clone_from(&piece.last);
-            solved.push(piece);
-            start += 1;
-            while halvings > 0 && start % 2 == 0 {
-                (start, halvings) = (start / 2, halvings - 1);
-            }
-            if halvings == 0 && start == 1 {
-                return Ok(solved);
-            }
-        }
+    /// How many periods back an observable is seen, and waves arrive.
+    fn reach(&self, observable: &Observable) -> i64 {
+        let late = observable.terms().iter().flat_map(|term| match &term.of {
+            Reading::InBar(_, section) => section.delays,
+            _ => [None; 2],
+        });
+        let late = late.flatten().fold(0.0, f64::max) / self.period;
+        let delays = self.steps.delays.iter().copied();
+        delays.fold(late.ceil() as i64, i64::max) + 1
     }
 
-    /// A piece of a period, the n-th of so many halvings; `None` where it is too long.
-    fn piece(
-        &self,
-        node: usize,
-        number: i64,
-        (place, halvings): (u64, u32),
-        from: &[f64],
-    ) -> Option<Solved> {
-        let system = &self.steps.systems[node];
-        let length = self.period / f64::from(halvings).exp2();
-        let start = place as f64 * length;
-        let mut input = self.input(node, number, points().map(|share| start + length * share));
+    /// Lets go of all periods before one.
+    fn forget(&mut self, before: i64) {
+        let Ok(before) = usize::try_from(before) else { return };
+        self.waves.iter_mut().flatten().for_each(|track| track.forget(before));
+        self.velocities.iter_mut().flatten().for_each(|track| track.forget(before));
+        self.displacements.iter_mut().flatten().for_each(|track| track.forget(before));
+    }
+
+    /// One period at one node, from kink to kink.
+    fn pass(&mut self, node: usize, number: i64) -> Result<Passage, ModelError> {
+        let state = self.states[node].clone();
+        let (solved, kinks) = (Vec::new(), Vec::new());
+        let mut passage = Passage { node, number, state, solved, kinks };
+        let ends: Vec<f64> = self.kinks.iter().copied().chain([self.period]).collect();
+        let mut from = 0.0;
+        for to in ends {
+            self.cover(&mut passage, [from, to], 0)?;
+            from = to;
+        }
+        Ok(passage)
+    }
+
+    /// A part of a period, halved until the series of each piece has converged, and cut where a contact changes.
+    fn cover(
+        &mut self,
+        passage: &mut Passage,
+        [from, to]: [f64; 2],
+        halvings: u32,
+    ) -> Result<(), ModelError> {
+        let mut from = from;
+        let mut changes = 0;
+        while from < to {
+            self.prepare(passage, to - from);
+            let Some(piece) = self.piece(passage, [from, to]) else {
+                if halvings >= MAX_HALVINGS {
+                    return Err(ModelError::NotSmooth { model: NAME, period: passage.number });
+                }
+                let middle = from + (to - from) / 2.0;
+                self.cover(passage, [from, middle], halvings + 1)?;
+                return self.cover(passage, [middle, to], halvings + 1);
+            };
+            let Some((contact, share)) = self.first_change(&piece) else {
+                passage.state = piece.last.clone();
+                passage.solved.push(piece);
+                return Ok(());
+            };
+            let end = from + share * piece.length * (1.0 - self.steps.nudge);
+            if end > from {
+                changes = 0;
+                self.prepare(passage, end - from);
+                if let Some(piece) = self.piece(passage, [from, end]) {
+                    passage.state = piece.last.clone();
+                    passage.solved.push(piece);
+                    passage.kinks.push(end);
+                    from = end;
+                }
+            }
+            changes += 1;
+            if changes > MAX_CHANGES {
+                return Err(ModelError::NotSmooth { model: NAME, period: passage.number });
+            }
+            let (laws, own) =
+                (&self.steps.laws[passage.node], &self.steps.line.nodes[passage.node]);
+            let changed = laws.changed(own, &passage.state, contact, self.speed);
+            let mut changed = changed
+                .ok_or(ModelError::Refused { model: NAME, reason: NotRepresented::RigidImpact })?;
+            changed.state.iter_mut().for_each(|own| *own *= 1.0 + self.steps.nudge);
+            passage.state = changed;
+        }
+        Ok(())
+    }
+
+    fn law(&self, node: usize, closed: usize) -> Option<&'a Law> {
+        self.steps.laws[node].law(closed)
+    }
+
+    /// Makes the equations of a node on a piece of a length.
+    fn prepare(&mut self, passage: &Passage, length: f64) {
+        let (node, closed) = (passage.node, passage.state.closed);
+        let law = self.law(node, closed);
+        let known = &mut self.collocations[node];
+        if known.len() > MAX_COLLOCATIONS {
+            known.clear();
+        }
+        known.entry((closed, length.to_bits())).or_insert_with(|| {
+            law.and_then(|law| Collocation::of(&law.system, &law.pressing, length))
+        });
+    }
+
+    /// A piece of a period; `None` where it is too long.
+    fn piece(&self, passage: &Passage, [start, end]: [f64; 2]) -> Option<Solved> {
+        let length = end - start;
+        let (node, from) = (passage.node, &passage.state);
+        let law = self.law(node, from.closed)?;
+        let system = &law.system;
+        let mut times = points().map(|share| start + length * share);
+        times[POINTS - 1] = end;
+        let mut input = self.input(node, passage.number, times);
         let accuracy = (self.steps.tolerance * MARGIN).max(1e-13);
-        let collocation = self.collocations[node][&halvings].as_ref()?;
-        let states = collocation.solve(from, &mut input, &self.scales[node], accuracy)?;
+        let collocation = self.collocations[node][&(from.closed, length.to_bits())].as_ref()?;
+        let states = collocation.solve(&from.state, &mut input, &law.scales, accuracy)?;
         let known: Vec<&Values> = states.iter().chain(&input).collect();
-        let velocity = |row: &Vec<f64>| -> Values {
+        let output = |row: &Vec<f64>| -> Values {
             std::array::from_fn(|j| row.iter().zip(&known).map(|(c, own)| c * own[j]).sum())
         };
-        let mut rows: Vec<Values> =
-            system.output.iter().take(system.group.len()).map(velocity).collect();
-        let leaving =
-            [0, rows.len() - 1].into_iter().zip(&input).map(|(run, arriving)| -> Values {
-                std::array::from_fn(|j| rows[run][j] - arriving[j])
-            });
+        let runs = system.group.len();
+        let mut rows: Vec<Values> = system.output.iter().take(runs).map(output).collect();
+        let leaving = [0, runs - 1].into_iter().zip(&input).map(|(run, arriving)| -> Values {
+            std::array::from_fn(|j| rows[run][j] - arriving[j])
+        });
         let leaving: Vec<Values> = leaving.collect();
-        rows.extend_from_slice(&states[system.heavy.len()..]);
+        let laws = &self.steps.laws[node];
+        let displacement =
+            |place: &usize| system.kept[*place].map_or([0.0; POINTS], |kept| states[kept]);
+        rows.extend(laws.springs.iter().map(displacement));
         rows.extend(leaving);
-        let last = states.iter().map(|state| state[POINTS - 1]).collect();
-        let rows = self.resolved(node, &rows)?;
-        Some(Solved { start, length, rows, last })
+        let rows = self.resolved(node, law, &rows)?;
+        let mut forces = system.output[runs..].iter();
+        let mut guards = Vec::with_capacity(laws.contacts.len());
+        let mut gaps = from.gaps.clone();
+        for (contact, run) in laws.contacts.iter().enumerate() {
+            guards.push(match from.closed >> contact & 1 == 1 {
+                true => series(&output(forces.next().expect("a force for each closed contact")))
+                    .to_vec(),
+                false => {
+                    let apart: Values = std::array::from_fn(|k| rows[run + 1][k] - rows[*run][k]);
+                    let mut gap = integral(&apart).map(|c| c * length).to_vec();
+                    gap[0] += gaps[contact];
+                    gaps[contact] = sum(&gap, 1.0);
+                    gap
+                }
+            });
+        }
+        let state = states.iter().map(|state| state[POINTS - 1]).collect();
+        let last = NodeState { closed: from.closed, state, gaps };
+        Some(Solved { start, length, rows, guards, last })
+    }
+
+    /// Which contact changes first on a piece, and at which share of it: the force of a closed one, or the gap of an
+    /// open one, falls below zero.
+    fn first_change(&self, piece: &Solved) -> Option<(usize, f64)> {
+        let floor = self.steps.tolerance * self.speed;
+        let mut first: Option<(usize, f64)> = None;
+        for (contact, guard) in piece.guards.iter().enumerate() {
+            let most = guard.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
+            let floor = -floor.min(most);
+            if let Some(share) = falls_below(guard, floor)
+                && first.is_none_or(|(_, earliest)| share < earliest)
+            {
+                first = Some((contact, share));
+            }
+        }
+        first
     }
 
     /// What acts on a node at these times since a period began: the waves that arrive, loads, and no forces
@@ -333,7 +448,7 @@ impl Motion<'_> {
             // before.
             let delay = steps.delays[bar];
             let number = if delay == 0 { -1 } else { number - delay };
-            times.map(|since| self.waves[bar][way].within(number, since))
+            self.waves[bar][way].on(number, &times)
         });
         let driven = node.elements.iter().filter(|own| own.law.is_driven()).map(|own| {
             let acts = |[from, until]: &[i64; 2]| *from <= number && number < *until;
@@ -349,12 +464,12 @@ impl Motion<'_> {
     }
 
     /// The series through these values; `None` where their last coefficients are not below the tolerance.
-    fn resolved(&self, node: usize, rows: &[Values]) -> Option<Vec<Values>> {
-        let system = &self.steps.systems[node];
-        let displacements = &self.scales[node][system.heavy.len()..];
+    fn resolved(&self, node: usize, law: &Law, rows: &[Values]) -> Option<Vec<Values>> {
+        let springs = &self.steps.laws[node].springs;
         let series = |(number, row): (usize, &Values)| {
-            let number = number.checked_sub(system.group.len());
-            let scale = number.and_then(|number| displacements.get(number)).unwrap_or(&self.speed);
+            let number = number.checked_sub(law.system.group.len());
+            let place = number.and_then(|number| law.system.kept[*springs.get(number)?]);
+            let scale = place.map_or(&self.speed, |state| &law.scales[state]);
             let most = row.iter().fold(*scale, |most, value| most.max(value.abs()));
             let series = series(row);
             let small = |c: &f64| c.abs() <= self.steps.tolerance * most;
@@ -405,11 +520,9 @@ impl Motion<'_> {
     /// The compression of a spring or a local contact, or the displacement of a support; zero where none is
     /// kept.
     fn compression(&self, lump: Lump, time: f64) -> f64 {
-        let system = &self.steps.systems[lump.node];
-        match system.kept[lump.place] {
-            Some(state) => self.displacements[lump.node][state - system.heavy.len()].value(time),
-            None => 0.0,
-        }
+        let springs = &self.steps.laws[lump.node].springs;
+        let known = springs.iter().position(|place| *place == lump.place);
+        known.map_or(0.0, |spring| self.displacements[lump.node][spring].value(time))
     }
 
     fn in_bar(&self, field: Field, section: &Section<f64>, time: f64) -> f64 {
@@ -440,13 +553,40 @@ impl Model for Steps {
         let observable = self.line.observable(NAME, observable)?;
         let times = self.line.scaled(times)?;
         let last = times.iter().copied().fold(0.0, f64::max);
-        let motion = self.motion(last)?;
+        let mut motion = self.motion(last)?;
+        let mut order: Vec<usize> = (0..times.len()).filter(|i| times[*i] >= 0.0).collect();
+        order.sort_by(|i, j| times[*j].total_cmp(&times[*i]));
         let mut values = vec![0.0; times.len()];
-        for (value, time) in values.iter_mut().zip(times) {
-            for term in observable.terms().iter().filter(|_| time >= 0.0) {
-                *value += term.coefficient * motion.value(&term.of, time);
+        let (periods, reach) = (self.periods(&motion, last)?, motion.reach(observable));
+        for number in 0..periods {
+            motion.step(number)?;
+            // A time within a rounding of the next period belongs to that.
+            let end = (number + 1) as f64 * (1.0 - 1e-11);
+            let is_last = number + 1 == periods;
+            while let Some(next) = order.pop_if(|i| is_last || times[*i] / motion.period < end) {
+                for term in observable.terms() {
+                    values[next] += term.coefficient * motion.value(&term.of, times[next]);
+                }
             }
+            motion.forget(number - reach);
         }
         Ok(values)
     }
+}
+
+/// At which share of a piece a series falls below a floor, and from zero on.
+fn falls_below(guard: &[f64], floor: f64) -> Option<f64> {
+    let value = |share: f64| sum(guard, 2.0 * share - 1.0);
+    let share = |look: usize| look as f64 / LOOKS as f64;
+    let below = (0..=LOOKS).find(|look| value(share(*look)) < floor)?;
+    let Some(above) = below.checked_sub(1) else { return Some(0.0) };
+    let [mut above, mut below] = [share(above), share(below)];
+    if value(above) <= 0.0 {
+        return Some(above);
+    }
+    for _ in 0..ROOT_HALVINGS {
+        let middle = above.midpoint(below);
+        if value(middle) > 0.0 { above = middle } else { below = middle }
+    }
+    Some(above)
 }

@@ -1,5 +1,6 @@
 //! Functions of time as Chebyshev series piece by piece, with their integrals.
 
+use std::collections::VecDeque;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
@@ -31,13 +32,23 @@ struct Piece {
     total: f64,
 }
 
+impl Piece {
+    /// The value at a time since the period began.
+    fn value(&self, since: f64) -> f64 {
+        let y = (2.0 * (since - self.start) / self.length - 1.0).clamp(-1.0, 1.0);
+        sum(&self.series, y)
+    }
+}
+
 /// A function of time, constant before the start, in periods of one length.
 #[derive(Clone, Debug)]
 pub struct Track {
     before: f64,
     /// The length of a period.
     period: f64,
-    periods: Vec<Vec<Piece>>,
+    /// The periods that are held, from the first of them on.
+    periods: VecDeque<Vec<Piece>>,
+    first: usize,
     /// The integral from time 0 to the end.
     total: f64,
 }
@@ -84,32 +95,50 @@ pub fn integral(series: &Values) -> [f64; POINTS + 1] {
 
 impl Track {
     pub fn new(before: f64, period: f64) -> Track {
-        Track { before, period, periods: Vec::new(), total: 0.0 }
+        Track { before, period, periods: VecDeque::new(), first: 0, total: 0.0 }
     }
 
     pub fn begin(&mut self) {
-        self.periods.push(Vec::new());
+        self.periods.push_back(Vec::new());
+    }
+
+    /// Lets go of the periods before one.
+    pub fn forget(&mut self, before: usize) {
+        let count = before.saturating_sub(self.first).min(self.periods.len());
+        self.periods.drain(..count);
+        self.first += count;
     }
 
     pub fn push(&mut self, start: f64, length: f64, series: Values) {
         let integral = integral(&series).map(|entry| entry * length);
         let piece = Piece { start, length, series, integral, total: self.total };
         self.total += sum(&piece.integral, 1.0);
-        self.periods.last_mut().expect("a period has begun").push(piece);
+        self.periods.back_mut().expect("a period has begun").push(piece);
     }
 
     fn piece(&self, period: usize, since: f64) -> &Piece {
-        let pieces = &self.periods[period];
+        let pieces = &self.periods[period - self.first];
         let count = pieces.partition_point(|piece| piece.start <= since);
         &pieces[count.saturating_sub(1)]
+    }
+
+    /// The values at the points of a piece of time in a period, at its end the limit from earlier times; before the start
+    /// for a negative period.
+    pub fn on(&self, period: i64, times: &Values) -> Values {
+        let mut values = times.map(|since| self.within(period, since));
+        if let Ok(period) = usize::try_from(period) {
+            let last = times[POINTS - 1];
+            let pieces = &self.periods[period - self.first];
+            let count = pieces.partition_point(|piece| piece.start < last);
+            values[POINTS - 1] = pieces[count.saturating_sub(1)].value(last);
+        }
+        values
     }
 
     /// The value in a period, some time after it began; before the start for a negative period.
     pub fn within(&self, period: i64, since: f64) -> f64 {
         let Ok(period) = usize::try_from(period) else { return self.before };
-        let piece = self.piece(period, since);
-        let y = (2.0 * (since - piece.start) / piece.length - 1.0).clamp(-1.0, 1.0);
-        sum(&piece.series, y)
+        self.piece(period, since).value(since)
     }
 
     /// The period that a time is in, and how long since it began; a time that is a rounding below a
@@ -117,7 +146,7 @@ impl Track {
     fn place(&self, time: f64) -> (i64, f64) {
         let periods = time / self.period;
         let period = (periods + 1e-11 * periods.abs().max(1.0)).floor();
-        let last = self.periods.len() as i64 - 1;
+        let last = (self.first + self.periods.len()) as i64 - 1;
         let period = (period as i64).min(last);
         (period, (time - period as f64 * self.period).clamp(0.0, self.period))
     }
@@ -130,6 +159,9 @@ impl Track {
 
     /// The integral from the start to a time, also to one before.
     pub fn integral(&self, time: f64) -> f64 {
+        if time <= 0.0 {
+            return self.before * time;
+        }
         let (period, since) = self.place(time);
         let Ok(period) = usize::try_from(period) else { return self.before * time };
         let piece = self.piece(period, since);

@@ -49,8 +49,8 @@ pub fn has_periods(network: &Network) -> bool {
     !network.scene().contacts_open && network.local_contact().is_none()
 }
 
-/// From so many bytes of closed waves on a scene whose contacts stay closed is followed, which takes less: echoes grow
-/// at least as the square of their number.
+/// A closed form that would take more bytes than this is replaced by following: its memory grows at least as the square
+/// of the number of echoes.
 const FOLLOWED_FROM: f64 = 64e6;
 
 /// Following takes ever more bits and memory for more digits; a closed form goes on beyond these.
@@ -104,6 +104,7 @@ pub fn of_scene<'a>(
         return closed();
     }
     match of_origin(Origin::Followed, network, observed, window, purpose) {
+        // The closed form says better what is too much of a window that cannot be followed at all.
         Err(SignalError::Followed(
             HistoryError::Refused(_) | HistoryError::TooManyCells { .. },
         )) => closed(),
@@ -231,7 +232,10 @@ pub(crate) fn entering_waves<'a>(
     let window = [&Rational::zero(), last];
     let follower = match origin(network, last, Purpose::Stretches) {
         Origin::Closed => None,
-        Origin::Followed => Some(Follower::new(network, last)?),
+        Origin::Followed => match Follower::new(network, last) {
+            Err(HistoryError::Refused(_)) if has_periods(network) => None,
+            follower => Some(follower?),
+        },
     };
     let FieldBars { network: own, bars } = network.field_bars().map_err(EvaluateError::from)?;
     let mut signals: Vec<Box<dyn Signal + 'a>> = Vec::new();

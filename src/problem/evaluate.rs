@@ -6,11 +6,11 @@ use super::{Kind, Problem, ProblemError, Wanted};
 use crate::answer::{self, Accuracy, Doubles, Method, Question, Remark, Tested, Way, WayError};
 use crate::expression::Fraction;
 use crate::field::FieldEvaluator;
-use crate::model::ModelError;
-use crate::network::Network;
+use crate::model::{Model as _, ModelError, Steps};
+use crate::network::{Network, ScaledScene};
 use crate::planner::{self, Origin, Purpose};
 use crate::signal::{self, ClosedSignal, EvaluateError, Limit, Signal, Value, reaching_a_double};
-use num_traits::Signed as _;
+use num_traits::{Signed as _, ToPrimitive as _};
 use wavestep_polynomial::Rational;
 
 /// How values with proven digits are asked for.
@@ -26,6 +26,15 @@ pub struct Digits {
     pub count_echoes: bool,
 }
 
+impl Digits {
+    fn purpose(self) -> Purpose {
+        match self.count_echoes {
+            true => Purpose::Echoes,
+            false => Purpose::Values { digits: self.count },
+        }
+    }
+}
+
 /// Values with proven digits.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Proven {
@@ -34,6 +43,21 @@ pub struct Proven {
     /// How many echoes were worked out, of how many that can reach what is observed, where they were
     /// counted.
     pub echoes: Option<(usize, usize)>,
+}
+
+/// How far values by the method of steps are at most from those of the same motion, changed by [`Tested::NUDGE`] at each
+/// change of a contact.
+fn differing(
+    scaled: &ScaledScene,
+    (tolerance, place): (f64, usize),
+    times: &[Rational],
+    values: &[f64],
+) -> Result<f64, ProblemError> {
+    let times: Vec<f64> = times.iter().map(|time| time.to_f64().unwrap_or(f64::NAN)).collect();
+    let nudged = Steps::new(scaled, tolerance).map(|steps| steps.nudged(Tested::NUDGE));
+    let others = nudged.and_then(|steps| steps.values(place, &times)).map_err(WayError::from)?;
+    let off = values.iter().zip(others).map(|(one, other)| (one - other).abs());
+    Ok(off.fold(0.0, f64::max))
 }
 
 #[doc(hidden)]
@@ -71,18 +95,15 @@ impl Problem {
             }
             Ok(values)
         };
-        let purpose = match count_echoes {
-            true => Purpose::Echoes,
-            false => Purpose::Values { digits: count },
-        };
+        let purpose = digits.purpose();
         let signal = self.signal_on(wanted, [from, to], purpose)?;
         let values = all(&*signal)?;
         Ok(Proven { values, echoes: if count_echoes { signal.echoes() } else { None } })
     }
 
-    /// How values with so many proven digits are found, in words.
-    pub fn how_found(&self, times: &[Rational], digits: usize) -> &'static str {
-        let purpose = Purpose::Values { digits };
+    /// How values with proven digits are found, in words.
+    pub fn how_found(&self, times: &[Rational], digits: Digits) -> &'static str {
+        let purpose = digits.purpose();
         let is_followed = |network: &Network| {
             let last = times.iter().max();
             last.is_some_and(|last| planner::origin(network, last, purpose) == Origin::Followed)
@@ -104,10 +125,12 @@ impl Problem {
         limit: Limit,
         accuracy: Accuracy,
     ) -> Result<Doubles, ProblemError> {
-        if let (Accuracy::Method(method, None), Some(contact)) = (accuracy, self.local_contact())
-            && method.is_model()
-        {
-            return self.by_model(&self.wanted(name)?, (method, contact), times, limit);
+        if let Accuracy::Method(method, None) = accuracy {
+            let contact = self.local_contact();
+            let is_stepped = matches!(method, Method::Steps { .. }) && !self.has_periods();
+            if is_stepped || method.is_model() && contact.is_some() {
+                return self.by_model(&self.wanted(name)?, (method, contact), times, limit);
+            }
         }
         let first = times.iter().min().cloned().unwrap_or_default();
         let last = times.iter().max().cloned().unwrap_or_default();
@@ -205,24 +228,31 @@ impl Problem {
     fn by_model(
         &self,
         wanted: &Wanted,
-        (method, contact): (Method, String),
+        (method, contact): (Method, Option<String>),
         times: &[Rational],
         limit: Limit,
     ) -> Result<Doubles, ProblemError> {
         let scaled = self.scaled()?;
         let place = wanted.place.expect("an observable of the scene");
         let way = Way::of_model(method, scaled, place).map_err(|error| match error {
-            WayError::Model(error @ ModelError::Refused { .. }) => {
+            WayError::Model(error @ ModelError::Refused { .. }) if contact.is_some() => {
                 ProblemError::ModelOfLocalContact(error)
             }
             error => error.into(),
         })?;
         let values = way.exact_values(times, limit)?;
+        let spring = contact.as_ref().and_then(|_| equivalent_spring(scaled));
         let tested = match method {
-            Method::Steps { tolerance } => Some(Remark::Tested(Tested { contact, tolerance })),
+            Method::Steps { tolerance } => {
+                let differs = match scaled.scene().contacts_open {
+                    true => Some(differing(scaled, (tolerance, place), times, &values)?),
+                    false => None,
+                };
+                Some(Remark::Tested(Tested { contact, tolerance, differs }))
+            }
             _ => None,
         };
-        let spring = equivalent_spring(scaled).map(Remark::NearSpring);
+        let spring = spring.map(Remark::NearSpring);
         let remarks = tested.into_iter().chain([Remark::Law]).chain(spring).collect();
         Ok(Doubles { method, law: way.law(), bound: way.bound(), values, remarks })
     }

@@ -7,7 +7,7 @@ use num_traits::Signed as _;
 use std::collections::BTreeMap;
 use wavestep::language::parse_number;
 use wavestep::network::Network;
-use wavestep::planner::{Origin, Purpose, of_origin, of_scene, origin};
+use wavestep::planner::{Origin, Purpose, of_origin, origin};
 use wavestep::problem::Problem;
 use wavestep::scenes::SCENES;
 use wavestep::signal::{At, ClosedSignal, EvaluateError, Limit, Signal as _, digits};
@@ -66,7 +66,7 @@ fn is_same(one: &str, other: &str) -> bool {
     (&one - &other).abs() <= one.abs() * Rational::new(1.into(), 10_i64.pow(18).into())
 }
 
-/// The far side of where following takes less: values of two sources.
+/// From where following is cheaper on both sources give the same digits.
 #[test]
 fn late_values_of_closed_scenes_are_followed() {
     for (name, observable, at) in [
@@ -78,10 +78,10 @@ fn late_values_of_closed_scenes_are_followed() {
         let window = [&at, &at];
         let few = Purpose::Values { digits: 20 };
         assert_eq!(origin(&network, &at, few), Origin::Followed, "{name}");
-        for closed in [Purpose::Values { digits: 500 }, Purpose::Stretches, Purpose::Echoes] {
-            assert_eq!(origin(&network, &at, closed), Origin::Closed, "{name}");
+        for purpose in [Purpose::Values { digits: 500 }, Purpose::Stretches, Purpose::Echoes] {
+            assert_eq!(origin(&network, &at, purpose), Origin::Closed, "{name}");
         }
-        let late = of_scene(&network, observed, window, few).unwrap();
+        let late = of_origin(Origin::Followed, &network, observed, window, few).unwrap();
         let closed = of_origin(Origin::Closed, &network, observed, window, few).unwrap();
         let told = [late, closed]
             .map(|signal| digits(&*signal, &at, Limit::Right, 20, 1 << 12).unwrap().to_text(20));

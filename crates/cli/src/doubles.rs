@@ -64,12 +64,22 @@ pub fn tell(found: &Doubles, points: usize, tolerance: Option<Tolerance>, explai
     }
 }
 
-/// Says on standard error how sure values with a local contact are.
-fn note_tested(Tested { contact, tolerance }: &Tested) {
+/// Says on standard error how sure values with a local contact, or with contacts that open, are.
+fn note_tested(Tested { contact, tolerance, differs }: &Tested) {
+    let why = match contact {
+        Some(contact) => format!("`{contact}` is a local contact"),
+        None => "contacts open here".to_owned(),
+    };
     eprintln!(
-        "note: `{contact}` is a local contact; these values are tested, not certified: computed to \
+        "note: {why}; these values are tested, not certified: computed to \
          {tolerance:e} of the largest"
     );
+    if let Some(differs) = differs {
+        eprintln!(
+            "note: a change by {:e} whenever a contact opens or closes changes them by {differs:.1e} at most",
+            Tested::NUDGE
+        );
+    }
 }
 
 /// Why there are no values in doubles; with `explain` the methods that were weighed are told.

@@ -142,7 +142,7 @@ impl Told<'_> {
             Ending::Followed(end) => {
                 let end = self.value(end, Dimension::TIME);
                 format!(
-                    "Followed until t = {end}; what comes later is not known. For another end give --until."
+                    "Followed until t = {end}; what comes later is not known. --until asks for another end."
                 )
             }
             Ending::NoContact => "Nothing can open: there is no contact.".to_owned(),

@@ -8,9 +8,9 @@ fn precisions_double_up_to_the_limit() {
     assert_eq!(all(Precisions::doubling(82, 400)), [82, 164, 328, 400]);
     assert_eq!(all(Precisions::doubling(64, 256)), [64, 128, 256]);
     assert_eq!(all(Precisions::doubling(64, 8)), [8]);
-    assert_eq!(all(Precisions::by_halves(164, 2048)), [164, 246, 369, 553, 829, 1243, 1864]);
-    assert_eq!(all(Precisions::by_halves(512, 1152)), [512, 768, 1152]);
-    assert_eq!(all(Precisions::by_halves(3000, 2048)), [3000]);
+    assert_eq!(all(Precisions::growing_by_half(164, 2048)), [164, 246, 369, 553, 829, 1243, 1864]);
+    assert_eq!(all(Precisions::growing_by_half(512, 1152)), [512, 768, 1152]);
+    assert_eq!(all(Precisions::growing_by_half(3000, 2048)), [3000]);
 }
 
 #[test]

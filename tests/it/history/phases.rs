@@ -214,3 +214,56 @@ fn finer_digits_begin_with_the_coarser() {
     // The finer one is known to 40 digits, the coarser one is not.
     assert!(is_zero(&fine.subtract(&fine, 400)) && !is_zero(&coarse.subtract(&coarse, 400)));
 }
+
+/// Doubles by the method of steps: those of the proven source for a while, and ten thousand periods later where a scene
+/// whose contact has opened is periodic.
+#[test]
+fn the_method_of_steps_follows_contacts_that_open() {
+    use wavestep::answer::Accuracy;
+    use wavestep::{Method, Problem};
+    let bounces = "scene \"A\"\nload weight { force = 1/20 }\nmass hammer { mass = 1, velocity = 1 }\n\
+        bar rod { impedance = 1, travel = 1 }\nline free - weight - hammer | rod - fixed\ncontacts open\n\
+        observe velocity = velocity(hammer)\nobserve force = force(rod.right)";
+    let cushion = "scene \"A\"\nbar a { impedance = 2, travel = 1, velocity = 1 }\nspring k { stiffness = 3 }\n\
+        bar b { impedance = 1, travel = 3/2 }\nline free - a - k | b - fixed\ncontacts open\n\
+        observe velocity = velocity(a.right)\nobserve force = force(k)\nobserve gap = compression(k)";
+    let stepped = |problem: &Problem, name: &str, time: &str| {
+        let accuracy = Accuracy::Method(Method::Steps { tolerance: 1e-12 }, None);
+        let times = [problem.time("time", time).unwrap()];
+        problem.doubles(name, &times, Limit::Right, accuracy).unwrap().values[0]
+    };
+    let read = |text: &str| Problem::read("test.wave", text).unwrap();
+    let shipped = |name: &str| Problem::builtin(name).unwrap();
+    let scenes = [
+        (read(bounces), ["velocity", "force"], ["3", "13/3", "20", "50"]),
+        (read(cushion), ["velocity", "force"], ["1", "7/3", "5", "17"]),
+        (read(cushion), ["gap", "gap"], ["1", "7/3", "5", "17"]),
+        (shipped("hopkinson-with-release"), ["force", "force"], ["100us", "500us", "1ms", "3ms"]),
+        (
+            shipped("saint-venant").with("mu", "1").unwrap(),
+            ["velocity", "strain_fixed"],
+            ["1", "7/2", "5", "40"],
+        ),
+    ];
+    for (problem, names, times) in scenes {
+        for name in names {
+            let proven =
+                times.map(|time| problem.signal(name).unwrap().at(time, 15).unwrap().to_f64());
+            let largest = proven.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            for (time, proven) in times.iter().zip(proven) {
+                let found = stepped(&problem, name, time);
+                assert!(
+                    (found - proven).abs() <= 1e-10 * largest,
+                    "{name} at {time}: {found} and {proven}"
+                );
+            }
+        }
+    }
+    // Once the mass has left, the bar between its free and its fixed end has the period 4.
+    let problem = shipped("saint-venant").with("mu", "1").unwrap();
+    for name in ["velocity", "strain_fixed"] {
+        let proven = problem.signal(name).unwrap().at("100", 15).unwrap().to_f64();
+        let found = stepped(&problem, name, "20000");
+        assert!((found - proven).abs() <= 1e-10, "{name}: {found} and {proven}");
+    }
+}

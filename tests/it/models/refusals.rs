@@ -212,7 +212,7 @@ fn settings_times_and_symbols_are_checked() {
     let error = steps.values(9, &[1.0]).unwrap_err();
     assert_eq!(error.to_string(), "there is no observable 9; the scene has 6, counted from 0");
     let late = steps.values(0, &[1e9]).unwrap_err();
-    assert!(matches!(late, ModelError::TooMuch { limit: 2e4, .. }), "{late}");
+    assert!(matches!(late, ModelError::TooMuch { limit: 2e6, .. }), "{late}");
     let cells = Leapfrog::new(&network, 1000, 1.0).unwrap().values(0, &[1e4]).unwrap_err();
     assert!(matches!(cells, ModelError::TooMuch { limit: 1e9, .. }), "{cells}");
     let many = Modes::new(&network, 20_000).unwrap().values(0, &vec![1.0; 60_000]).unwrap_err();
