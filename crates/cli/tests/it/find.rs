@@ -101,7 +101,7 @@ fn mistakes_are_told_with_a_remedy() {
         ("rigid-mass --set mu=1 --zero f --from 0 --to 1 --digits 0", 2, "0 significant", "1 to"),
         ("rigid-mass --set mu=1 --zero f --max g --from 0 --to 1", 2, "cannot be used", "--help"),
         ("rigid-mass --set mu=1 --from 0 --to 1", 2, "required", "--help"),
-        ("rigid-mass --set mu=1 --zero f", 2, "--from", "--help"),
+        ("rigid-mass --set mu=1 --zero f", 2, "--to", "--help"),
         ("hopkinson --level force=1mm --from 0 --to 1us", 2, "force", "N"),
         ("rigid-mass --max f --equal mu --between 1,2,3", 2, "no symbol", "LOW..HIGH"),
         ("rigid-mass --max f --equal mu=2..1 --between 1,2,3", 2, "empty", "lower bound"),
