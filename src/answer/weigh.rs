@@ -112,7 +112,9 @@ pub fn consider(
             }
             (_, Ok(Err(reason))) => return told(None, Verdict::NoTaps(reason.clone())),
         }
-        if order > MAX_PIECES
+        // Of a scene that is followed these are cells, as many as it takes.
+        if form.is_ok()
+            && order > MAX_PIECES
             && matches!(method, Method::Certified | Method::Compiled | Method::Expanded)
         {
             return told(None, Verdict::TooManyPeriods);

@@ -111,7 +111,7 @@ impl Engine {
     }
 
     /// What the force at the end of a bar is, where it is known without the waves: that of a contact
-    /// without a mass between, and `Some(None)`, nothing, at a free end.
+    /// without a mass between, or with nothing but a spring, and `Some(None)`, nothing, at a free end.
     fn end_force(&self, section: &Section) -> Option<Option<Source>> {
         let side = section.end(Fraction::is_zero)?;
         let node = self.layout.ends[section.bar][side]?;
@@ -121,8 +121,15 @@ impl Engine {
         if own.is_held(run) || own.attached(run).next().is_some() {
             return None;
         }
-        let contact = if side == 1 { own.contact_right_of(run) } else { own.contact_left_of(run) };
-        match contact {
+        let (contact, link) = match side {
+            1 => (own.contact_right_of(run), Some(run)),
+            _ => (own.contact_left_of(run), run.checked_sub(1)),
+        };
+        let spring = link.and_then(|link| match own.links.get(link)? {
+            Link::Element(place) => self.contact_of_spring(Lump { node, place: *place }),
+            _ => None,
+        });
+        match contact.or(spring) {
             Some(place) => Some(Some(Source::Node { node, quantity: NodeQuantity::Force(place) })),
             None if own.links.is_empty() && [own.left, own.right][side] == Side::Free => Some(None),
             None => None,

@@ -148,3 +148,36 @@ fn what_does_not_fit_into_memory_is_refused_at_once() -> Result<(), Error> {
     assert!(force.at("20 ms", 6)?.to_f64() != 0.0);
     Ok(())
 }
+
+/// Where travel times have no common measure it shows only while echoes are worked out that they are too many; then the
+/// scene is followed, as it is with the statement that its contacts open, of which it has none.
+#[test]
+fn late_values_without_a_common_measure_are_followed() -> Result<(), Error> {
+    let text = "scene \"A\"\nmass ram { mass = 2, velocity = 1 }\nspring s { stiffness = 1, damping = 1/100 }\n\
+        bar rod { impedance = 1, travel = pi/3 }\nmass m { mass = 1/10 }\nbar end { impedance = 1/2, travel = 1 }\n\
+        support sp { stiffness = 1/2 }\nline fixed - rod - m - end - s - ram - sp - free\n\
+        observe x = displacement(end.left)";
+    let value = |text: &str| -> Result<_, Error> {
+        Ok(Problem::read("bars.wave", text)?.signal("x")?.at("60", 15)?.to_string())
+    };
+    assert_eq!(value(text)?, value(&format!("{text}\ncontacts open"))?);
+    Ok(())
+}
+
+/// A scene with a local contact has thousands of cells, and no double of it is out of reach for that.
+#[test]
+fn doubles_beside_local_contacts_are_proven_on_long_windows() -> Result<(), Error> {
+    use wavestep::answer::{Accuracy, Tolerance};
+    use wavestep::signal::Limit;
+    let text = "scene \"A\"\nbar a { impedance = 1, travel = 1, velocity = 1 }\nhertz h { stiffness = 2 }\n\
+        bar b { impedance = 2, travel = 3/2 }\nline fixed - a - h - b - fixed\nobserve c = compression(h)";
+    let problem = Problem::read("bars.wave", text)?;
+    let times = ["1/2", "3", "6"].map(|time| problem.time("time", time).unwrap());
+    let accuracy = Accuracy::Within(Tolerance::Relative(1e-9));
+    let found = problem.doubles("c", &times, Limit::Right, accuracy).unwrap();
+    for (time, value) in ["1/2", "3", "6"].iter().zip(&found.values) {
+        let proven = problem.signal("c")?.at(*time, 15)?.to_f64();
+        assert!((proven - value).abs() <= 1e-9, "{time}: {proven} and {value}");
+    }
+    Ok(())
+}

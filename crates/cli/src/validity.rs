@@ -1,4 +1,4 @@
-//! How long a form with closed contacts is true, as a note on standard error.
+//! Until when a form with closed contacts is valid, as a note on standard error.
 
 use num_rational::BigRational;
 use wavestep::problem::{Holds, Pressed, Problem};
@@ -12,7 +12,10 @@ pub fn note_derivation(problem: &Problem) {
     let note = match problem.holds(DIGITS) {
         None => return,
         Some(Holds::UntilTheyPart(time, [left, right])) => {
-            format!("this holds until t = {}, when {left} and {right} part", text(problem, &time))
+            format!(
+                "this holds until t = {}, when {left} and {right} move apart",
+                text(problem, &time)
+            )
         }
         Some(Holds::UntilItPulls(time, [left, right])) => format!(
             "this holds until t = {}, when the contact between {left} and {right} would pull",
@@ -34,14 +37,14 @@ pub fn note_derivation(problem: &Problem) {
     eprintln!("note: {note}");
 }
 
-/// Says that what is told until this time goes beyond the form with closed contacts, where that is soon known.
+/// Warns where a contact would pull before a time, when that is found quickly.
 pub fn note_pulling(problem: &Problem, last: &BigRational) {
     if let Some(note) = pulling(problem, last) {
         eprintln!("note: {note}");
     }
 }
 
-/// The same in words.
+/// That warning.
 pub fn pulling(problem: &Problem, last: &BigRational) -> Option<String> {
     let (time, [left, right]) = problem.pulls(last, DIGITS)?;
     Some(format!(

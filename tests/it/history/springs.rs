@@ -146,3 +146,36 @@ fn a_stiff_specimen_needs_few_cells_and_bits() {
     assert_eq!(history.ending, wavestep::Ending::Parted);
     assert!(history.bits <= 352 && history.cells <= 1600, "{} {}", history.bits, history.cells);
 }
+
+/// Once a ram has left the cushion on a pile, the end of the pile carries no force at all: that of the contact, and not
+/// what is left of waves that cancel.
+#[test]
+fn a_bar_behind_a_loose_spring_has_no_force_at_its_end() {
+    let right = "line free - ram | cushion - pile - toe - free";
+    let left = "line free - toe - pile - cushion | ram - free";
+    for (line, velocity, end) in [(right, "1", "left"), (left, "-1", "right")] {
+        let problem = wavestep::Problem::read(
+            "pile.wave",
+            format!(
+                "scene \"A\"\nmass ram {{ mass = 1/2, velocity = {velocity} }}\nspring cushion {{ stiffness = 4 }}\n\
+                 bar pile {{ impedance = 1, travel = 1 }}\nsupport toe {{ damping = 1/3 }}\n{line}\n\
+                 contacts open\nobserve top = force(pile.{end})\nobserve spring = force(cushion)"
+            ),
+        )
+        .unwrap();
+        let parted = problem.events_until("6", 12).unwrap().events[1].time.to_f64();
+        let signals = ["top", "spring"].map(|name| problem.signal(name).unwrap());
+        for time in ["1/3", "1", "3/2"] {
+            let [top, cushion] =
+                signals.each_ref().map(|own| own.at(time, 20).unwrap().to_string());
+            assert_eq!(top, cushion, "{end} at {time}");
+        }
+        assert!(parted < 5.0, "{parted}");
+        assert_eq!(signals[0].at("11/2", 20).unwrap().to_string(), "0");
+        let zeros = signals[0].roots("1/10"..="6", 9).unwrap().all;
+        assert!(
+            matches!(&zeros[..], [wavestep::Root::Interval { from, .. }] if (from.to_f64() - parted).abs() < 1e-8),
+            "{zeros:?}"
+        );
+    }
+}

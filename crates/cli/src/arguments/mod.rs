@@ -97,7 +97,7 @@ fn duration(text: &str) -> Result<Duration, String> {
 
 /// A number of bytes with its unit.
 fn bytes(text: &str) -> Result<u64, String> {
-    match with_unit(text, &[("GB", 1e9), ("MB", 1e6), ("kB", 1e3)]) {
+    match with_unit(text, &[("TB", 1e12), ("GB", 1e9), ("MB", 1e6), ("kB", 1e3)]) {
         Some(bytes) if bytes >= 1e6 => Ok(bytes as u64),
         _ => Err("give at least 1 MB, with its unit, such as 500MB or 2GB".to_owned()),
     }

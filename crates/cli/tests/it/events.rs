@@ -109,5 +109,5 @@ fn derive_says_until_when_its_form_holds() {
     let line = "derive saint-venant --set mu=1 --through 1";
     let (code, _, told) = run(anywhere(), &words(line));
     assert_eq!(code, 0);
-    assert_eq!(told, "note: this holds until t = 3.06766764162, when hammer and rod part\n");
+    assert_eq!(told, "note: this holds until t = 3.06766764162, when hammer and rod move apart\n");
 }
