@@ -10,7 +10,7 @@ use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
 use crate::limits::MAX_HISTORY_BITS;
-use crate::network::{Contacts, Network};
+use crate::network::Network;
 use crate::scene::{Dimension, Kind};
 use crate::signal::Limit;
 use std::cmp::Ordering;
@@ -292,7 +292,7 @@ impl History {
         digits: usize,
         bits: u64,
     ) -> Outcome<History> {
-        let mut engine = Engine::new(network, Contacts::that_may_open(network.scene()), bits)?;
+        let mut engine = Engine::new(network, network.as_ref().contacts_that_may_open(), bits)?;
         let (end, parted) = match until {
             Some(until) => {
                 let until = Moment::at(network.scaled_time(until));

@@ -10,7 +10,7 @@ use crate::history::error::{HistoryError, When};
 use crate::history::history::{PATIENCE, longest, precisions, undecided};
 use crate::history::moment::{Moment, TOLD_DIGITS};
 use crate::limits::MAX_HISTORY_BITS;
-use crate::network::{Contacts, Network};
+use crate::network::Network;
 use crate::scene::Dimension;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
@@ -114,7 +114,7 @@ fn followed(
     digits: usize,
     (bits, cells): (u64, usize),
 ) -> Result<Validity, HistoryError> {
-    let mut engine = Engine::new(network, Contacts::that_may_open(network.scene()), bits)?;
+    let mut engine = Engine::new(network, network.as_ref().contacts_that_may_open(), bits)?;
     let until = Moment::at(match until {
         Some(until) => network.scaled_time(until),
         None => longest(&engine)?.scale(&Rational::from_integer(PATIENCE.into())),

@@ -69,14 +69,8 @@ impl Lock {
 fn values(network: &Network, request: &Request, digits: u64) -> Result<Values, LockError> {
     let writer = Writer { digits: request.digits };
     let observables = network.observables().iter().map(|observed| (&observed.name, observed));
-    let signal = |observed, window| {
-        Ok(planner::of_scene(
-            network,
-            observed,
-            window,
-            Purpose::Values { digits: digits as usize },
-        )?)
-    };
+    let purpose = Purpose::Values { digits: digits as usize };
+    let signal = |observed, window| Ok(planner::of_scene(network, observed, window, purpose)?);
     request.values(observables, signal, |name, signal, time| {
         let value = value(&**signal, time, Limit::Right, digits as usize, LIMIT_BITS);
         writer.number(&value.map_err(HistoryError::from)?, || format!("{name}({time})"))

@@ -108,14 +108,8 @@ fn of_solution(solution: &Solution, request: &Request) -> Result<Values, LockErr
 /// The values of all observables of a scene, in its units.
 fn of_observables(network: &Network, request: &Request) -> Result<Values, LockError> {
     let observables = network.observables().iter().map(|observed| (&observed.name, observed));
-    let signal = |observed, window| {
-        Ok(planner::of_scene(
-            network,
-            observed,
-            window,
-            Purpose::Values { digits: request.digits },
-        )?)
-    };
+    let purpose = Purpose::Values { digits: request.digits };
+    let signal = |observed, window| Ok(planner::of_scene(network, observed, window, purpose)?);
     request.values(observables, signal, |_, signal, time| rounded(&**signal, time, request))
 }
 

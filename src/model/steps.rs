@@ -316,12 +316,7 @@ impl<'a> Motion<'a> {
         while from < to {
             self.prepare(passage, to - from);
             let Some(piece) = self.piece(passage, [from, to]) else {
-                if halvings >= MAX_HALVINGS {
-                    return Err(ModelError::NotSmooth { model: NAME, period: passage.number });
-                }
-                let middle = from + (to - from) / 2.0;
-                self.cover(passage, [from, middle], halvings + 1)?;
-                return self.cover(passage, [middle, to], halvings + 1);
+                return self.halve(passage, [from, to], halvings);
             };
             let Some((contact, share)) = self.first_change(&piece) else {
                 passage.state = piece.last.clone();
@@ -332,12 +327,13 @@ impl<'a> Motion<'a> {
             if end > from {
                 changes = 0;
                 self.prepare(passage, end - from);
-                if let Some(piece) = self.piece(passage, [from, end]) {
-                    passage.state = piece.last.clone();
-                    passage.solved.push(piece);
-                    passage.kinks.push(end);
-                    from = end;
-                }
+                let Some(piece) = self.piece(passage, [from, end]) else {
+                    return self.halve(passage, [from, to], halvings);
+                };
+                passage.state = piece.last.clone();
+                passage.solved.push(piece);
+                passage.kinks.push(end);
+                from = end;
             }
             changes += 1;
             if changes > MAX_CHANGES {
@@ -352,6 +348,20 @@ impl<'a> Motion<'a> {
             passage.state = changed;
         }
         Ok(())
+    }
+
+    fn halve(
+        &mut self,
+        passage: &mut Passage,
+        [from, to]: [f64; 2],
+        halvings: u32,
+    ) -> Result<(), ModelError> {
+        if halvings >= MAX_HALVINGS {
+            return Err(ModelError::NotSmooth { model: NAME, period: passage.number });
+        }
+        let middle = from + (to - from) / 2.0;
+        self.cover(passage, [from, middle], halvings + 1)?;
+        self.cover(passage, [middle, to], halvings + 1)
     }
 
     fn law(&self, node: usize, closed: usize) -> Option<&'a Law> {

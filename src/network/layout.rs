@@ -21,17 +21,6 @@ impl Contacts {
     pub fn of(scene: &Scene) -> Contacts {
         if scene.contacts_open { Contacts::Links } else { Contacts::LocalLinks }
     }
-
-    /// Those that are looked at where it is asked what opens: all that the scene does not keep closed beside a
-    /// local one.
-    pub fn that_may_open(scene: &Scene) -> Contacts {
-        let is_local =
-            |element: &ElementIndex| matches!(scene.elements[*element].kind, Kind::Hertz(_));
-        match scene.line.elements.iter().any(is_local) {
-            true => Contacts::of(scene),
-            false => Contacts::Links,
-        }
-    }
 }
 
 /// A contact of a line that may open.

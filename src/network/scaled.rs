@@ -67,6 +67,14 @@ impl ScaledScene {
             |element: &&ElementIndex| matches!(self.scene.elements[**element].kind, Kind::Hertz(_));
         self.scene.line.elements.iter().find(is_contact).copied()
     }
+
+    /// The contacts whose opening is looked for: all of them, but beside a local one only those that the scene lets open.
+    pub fn contacts_that_may_open(&self) -> Contacts {
+        match self.local_contact() {
+            Some(_) => Contacts::of(&self.scene),
+            None => Contacts::Links,
+        }
+    }
 }
 
 impl AsRef<ScaledScene> for ScaledScene {

@@ -23,12 +23,12 @@ pub(super) fn of_sources<'a>(
     let reaches: Vec<Rational> =
         terms.iter().map(|term| reach(&scale, term, from)).collect::<Result<_, _>>()?;
     let seen = terms.iter().zip(&reaches);
-    let squared =
-        sources.signals(seen.map(|(term, from)| (&term.of, term.squared.clone(), [from, to])))?;
-    let others = terms.iter().filter_map(|term| Some((term, term.times.clone()?)));
-    let mut others = sources
-        .signals(others.map(|(term, other)| (&term.of, Squared::Reading(other), [from, to])))?
-        .into_iter();
+    let squared = seen.map(|(term, from)| (&term.of, term.squared.clone(), [from, to]));
+    let others = terms
+        .iter()
+        .filter_map(|term| Some((&term.of, Squared::Reading(term.times.clone()?), [from, to])));
+    let mut squared = sources.signals(squared.chain(others))?;
+    let mut others = squared.split_off(terms.len()).into_iter();
     let (mut operands, mut products): (Vec<Rc<dyn Signal + 'a>>, Vec<Product>) = Default::default();
     for ((term, of), reach) in terms.iter().zip(squared).zip(&reaches) {
         let (coefficient, place) = (term.coefficient.clone(), operands.len());

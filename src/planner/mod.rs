@@ -90,20 +90,33 @@ pub fn of_scene<'a>(
     window: [&Rational; 2],
     purpose: Purpose,
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
+    chosen(network, observed, window, purpose).map(|(_, signal)| signal)
+}
+
+/// The same, with the source that it comes from.
+pub(crate) fn chosen<'a>(
+    network: &'a Network,
+    observed: &Observed,
+    window: [&Rational; 2],
+    purpose: Purpose,
+) -> Result<(Origin, Box<dyn Signal + 'a>), SignalError> {
+    let from = |origin| {
+        of_origin(origin, network, observed, window, purpose).map(|signal| (origin, signal))
+    };
     if !has_periods(network) {
         if purpose == Purpose::ClosedContacts {
             history::stays_closed(network, window[1])?;
-            return of_origin(Origin::Closed, network, observed, window, purpose);
+            return from(Origin::Closed);
         }
-        return of_origin(Origin::Followed, network, observed, window, purpose);
+        return from(Origin::Followed);
     }
-    let closed = || of_origin(Origin::Closed, network, observed, window, purpose);
+    let closed = || from(Origin::Closed);
     if origin(network, window[1], purpose) == Origin::Closed
         || is_marched(network, observed, window, purpose)
     {
         return closed();
     }
-    match of_origin(Origin::Followed, network, observed, window, purpose) {
+    match from(Origin::Followed) {
         // The closed form says better what is too much of a window that cannot be followed at all.
         Err(SignalError::Followed(
             HistoryError::Refused(_) | HistoryError::TooManyCells { .. },

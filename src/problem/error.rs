@@ -207,12 +207,12 @@ fn in_powers(terms: f64) -> String {
 }
 
 impl ProblemError {
-    /// What is said of a scene with a local contact by all that needs a recurrence.
     /// Whether the closed form of waves takes too much, so that a scene is better followed.
     pub(super) fn is_too_much_of_a_closed_form(&self) -> bool {
         matches!(self, ProblemError::Evaluate(error) if error.is_too_much())
     }
 
+    /// What is said of a scene with a local contact by all that needs a recurrence.
     pub(super) fn local_contact(scaled: &ScaledScene) -> ProblemError {
         let contact = scaled.local_contact().map(|contact| &scaled.scene().elements[contact].name);
         let contact = contact.cloned().unwrap_or_default();

@@ -7,7 +7,7 @@ use crate::answer::{self, Accuracy, Doubles, Method, Question, Remark, Tested, W
 use crate::expression::Fraction;
 use crate::field::FieldEvaluator;
 use crate::model::{Model as _, ModelError, Steps};
-use crate::network::{Network, ScaledScene};
+use crate::network::ScaledScene;
 use crate::planner::{self, Origin, Purpose};
 use crate::signal::{self, ClosedSignal, EvaluateError, Limit, Signal, Value, reaching_a_double};
 use num_traits::{Signed as _, ToPrimitive as _};
@@ -43,6 +43,8 @@ pub struct Proven {
     /// How many echoes were worked out, of how many that can reach what is observed, where they were
     /// counted.
     pub echoes: Option<(usize, usize)>,
+    /// Where they come from.
+    pub origin: Origin,
 }
 
 /// How far values by the method of steps are at most from those of the same motion, changed by [`Tested::NUDGE`] at each
@@ -72,7 +74,8 @@ impl Problem {
     ) -> Result<Proven, ProblemError> {
         let Digits { count, max_bits, limit, count_echoes } = digits;
         let (Some(from), Some(to)) = (times.iter().min(), times.iter().max()) else {
-            return Ok(Proven { values: Vec::new(), echoes: None });
+            let (echoes, origin) = (None, Origin::Closed);
+            return Ok(Proven { values: Vec::new(), echoes, origin });
         };
         if count_echoes && !self.has_periods() {
             return Err(ProblemError::NoPeriodsWhereContactsOpen);
@@ -95,35 +98,38 @@ impl Problem {
             }
             Ok(values)
         };
-        let purpose = digits.purpose();
-        let signal = self.signal_on(wanted, [from, to], purpose)?;
-        let values = match (all(&*signal), &self.kind, &wanted.observed) {
-            // On a lattice it shows late that a closed form is too much.
-            (Err(error), Kind::Line { network, .. }, Some(observed))
-                if error.is_too_much_of_a_closed_form() && !count_echoes =>
-            {
-                let followed =
-                    planner::of_origin(Origin::Followed, network, observed, [from, to], purpose);
-                all(&*followed.map_err(|_| error)?)?
-            }
-            (values, ..) => values?,
+        let (window, purpose) = ([from, to], digits.purpose());
+        let (Kind::Line { network, .. }, Some(observed)) = (&self.kind, &wanted.observed) else {
+            let signal = self.signal_on(wanted, window, purpose)?;
+            let values = all(&*signal)?;
+            let echoes = if count_echoes { signal.echoes() } else { None };
+            return Ok(Proven { values, echoes, origin: Origin::Closed });
         };
-        Ok(Proven { values, echoes: if count_echoes { signal.echoes() } else { None } })
+        let (origin, signal) = planner::chosen(network, observed, window, purpose)?;
+        match all(&*signal) {
+            // On a lattice it shows late that a closed form is too much.
+            Err(error) if error.is_too_much_of_a_closed_form() && !count_echoes => {
+                let origin = Origin::Followed;
+                let followed = planner::of_origin(origin, network, observed, window, purpose);
+                let values = all(&*followed.map_err(|_| error)?)?;
+                Ok(Proven { values, echoes: None, origin })
+            }
+            values => {
+                let values = values?;
+                let echoes = if count_echoes { signal.echoes() } else { None };
+                Ok(Proven { values, echoes, origin })
+            }
+        }
     }
 
     /// How values with proven digits are found, in words.
-    pub fn how_found(&self, times: &[Rational], digits: Digits) -> &'static str {
-        let purpose = digits.purpose();
-        let is_followed = |network: &Network| {
-            let last = times.iter().max();
-            last.is_some_and(|last| planner::origin(network, last, purpose) == Origin::Followed)
-        };
-        match self.network().is_ok_and(is_followed) {
-            true if self.has_periods() => {
+    pub fn how_found(&self, origin: Origin) -> &'static str {
+        match origin {
+            Origin::Closed => "in closed form: the echoes that have arrived are added up",
+            Origin::Followed if self.has_periods() => {
                 "followed from cell to cell, which takes less here than the closed form"
             }
-            true => "followed from cell to cell, since contacts open",
-            false => "in closed form: the echoes that have arrived are added up",
+            Origin::Followed => "followed from cell to cell, since contacts open",
         }
     }
 

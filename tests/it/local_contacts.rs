@@ -173,9 +173,9 @@ fn a_second_contact_of_steel_bars_is_that_of_collocation() {
     assert!((found - proven).abs() <= 1e-12 * wanted, "{found} and {proven}");
 }
 
-/// Where the contact is open its compression is minus the gap, in every way that it is asked for.
+/// Minus the gap, while the contact is open and after it has closed again, in every way that it is asked for.
 #[test]
-fn an_open_contact_is_compressed_by_minus_its_gap() {
+fn a_compression_is_minus_the_gap() {
     let problem = problem(
         "bar a { impedance = 1, travel = 1/2, velocity = 1 }\nhertz tip { stiffness = 40 }\n\
          bar b { impedance = 6/5, travel = 1 }\nline free - a - tip - b - fixed\n\

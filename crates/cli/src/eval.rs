@@ -43,7 +43,7 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
     let found = problem.proven(&wanted, &times, digits, &|| progress.inc(1))?;
     drop(progress);
     if options.explain {
-        let (how, took) = (problem.how_found(&times, digits), begin.elapsed().as_secs_f64());
+        let (how, took) = (problem.how_found(found.origin), begin.elapsed().as_secs_f64());
         let several = plural(times.len(), "value");
         eprintln!(
             "{several} with {count} proven digits, {took:.1} s\n  {how}\n  bound: enclosed more and \
