@@ -380,7 +380,7 @@ impl Engine {
             own.rests =
                 !own.closed && !loosened && !is_local && (inert || cause == Cause::Crossing);
         }
-        let passivity = Passivity::of(&self.nodes[node], &system)?;
+        let passivity = Passivity::at(&self.nodes[node], &system, &next)?;
         let state = &mut self.states[node];
         state.errors = passivity.errors(&next);
         (state.system, state.passivity, state.state) = (system, passivity, next);

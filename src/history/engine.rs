@@ -292,7 +292,7 @@ impl Engine {
             let still = vec![Number::zero(); node.elements.len()];
             let velocity = |run: usize| self.starting_velocity(node, run);
             let state = system.state(node, velocity, &still, &self.places[number], bits)?;
-            let passivity = Passivity::of(node, &system)?;
+            let passivity = Passivity::at(node, &system, &state)?;
             let errors = passivity.errors(&state);
             if let Some(all) = &mut self.errors {
                 errors.iter().for_each(|own| all.add_state(&own.size()));
@@ -551,6 +551,7 @@ impl Engine {
     }
 
     fn advance_over(&mut self, node: usize) -> Outcome<()> {
+        self.follow_stiffness(node)?;
         let whole = Rational::from_integer(1.into());
         let planned = match self.plan(node, &whole)? {
             Ok(planned) => planned,
@@ -565,6 +566,19 @@ impl Engine {
         if let Some(contact) = first {
             self.change(node, &[contact], Cause::Crossing)?;
         }
+        Ok(())
+    }
+
+    /// The springs that stand for pressed local contacts become as stiff as these are now.
+    fn follow_stiffness(&mut self, node: usize) -> Outcome<()> {
+        let state = &self.states[node];
+        if state.passivity.is_near(&state.state) {
+            return Ok(());
+        }
+        let passivity = Passivity::at(&self.nodes[node], &state.system, &state.state)?;
+        let errors = passivity.carried(&state.passivity, &state.errors);
+        let state = &mut self.states[node];
+        (state.passivity, state.errors) = (passivity, errors);
         Ok(())
     }
 

@@ -6,8 +6,8 @@
 //! bounded by one number, which grows with what arrives and dies out as the motion itself does, however
 //! many cells the time is cut into.
 //!
-//! A local contact that is pressed counts as the spring that it is at a typical compression; `pressing` adds what
-//! it differs from that.
+//! A local contact that is pressed counts as the spring that it is where a cell begins; `pressing` adds what it
+//! differs from that.
 
 use crate::ball::{Ball, BallError, Magnitude, Number};
 use crate::history::pressing::Pressed;
@@ -74,10 +74,31 @@ pub struct Passivity {
 }
 
 impl Passivity {
+    /// Local contacts count as springs that are as stiff as may be.
+    ///
     /// # Errors
     /// [`BallError::DivisorMayBeZero`] for a mass or a stiffness of which it is not known.
     pub fn of(node: &Node<Number>, system: &System<Number>) -> Result<Passivity, BallError> {
-        let pressed = Pressed::all(node, system)?;
+        Passivity::beside(Pressed::all(node, system, None)?, node, system)
+    }
+
+    /// Local contacts count as springs that are as stiff as they are at this state.
+    ///
+    /// # Errors
+    /// As [`Passivity::of`].
+    pub fn at(
+        node: &Node<Number>,
+        system: &System<Number>,
+        now: &[Number],
+    ) -> Result<Passivity, BallError> {
+        Passivity::beside(Pressed::all(node, system, Some(now))?, node, system)
+    }
+
+    fn beside(
+        pressed: Vec<Pressed>,
+        node: &Node<Number>,
+        system: &System<Number>,
+    ) -> Result<Passivity, BallError> {
         let stiffened;
         let system = match pressed.is_empty() {
             true => system,
@@ -115,6 +136,21 @@ impl Passivity {
             StateError::of(block, &values)
         };
         self.blocks.iter().map(own).collect()
+    }
+
+    /// Whether the springs that stand for local contacts are about as stiff as these at a state.
+    pub fn is_near(&self, now: &[Number]) -> bool {
+        self.blocks.iter().flat_map(|block| &block.pressed).all(|pressed| pressed.is_near(now))
+    }
+
+    /// Errors in the norms of other springs: they are larger at most by the root of how much stiffer these are.
+    pub fn carried(&self, before: &Passivity, errors: &[StateError]) -> Vec<StateError> {
+        let both = self.blocks.iter().zip(&before.blocks).zip(errors);
+        both.map(|((block, before), error)| match block.pressed.is_empty() {
+            true => error.clone(),
+            false => StateError::new(error.size().multiply(&block.stretch_of(before))),
+        })
+        .collect()
     }
 
     /// The largest norm of a block.
@@ -189,6 +225,13 @@ impl Block {
             self.decay = None;
         }
         self
+    }
+
+    /// How much larger sizes are at most than with other weights.
+    fn stretch_of(&self, before: &Block) -> Magnitude {
+        let both = self.roots.iter().zip(&before.inverse_roots);
+        let stretches = both.map(|(root, inverse)| root.multiply(inverse));
+        stretches.fold(Magnitude::ZERO, Magnitude::max)
     }
 
     /// `|B_j|` of an input.

@@ -6,10 +6,12 @@
 //!
 //! Errors. Near the beginning and the end of a contact the force is no power series in time. While it is below
 //! the precision the contact is *light*: its force is taken to be zero, and what it may be pushes as an error does.
-//! Else an error `e` of the compression changes the force by `S e`, with a secant stiffness `0 ≤ S ≤ max X'`. With a
-//! spring `K` in place of the contact errors do not grow in the norm of the energy; the difference pushes with
-//! `|S − K| |e|`, so that they grow as `e^(λt)`, `λ = max(K, S − K) |B|/√K` (Gronwall). Where nothing but the contact
-//! acts on the compression, as between two bars, more compression means more resistance, and errors do not grow at all.
+//! Else an error `e` of the compression changes the force by `S e`, with a secant stiffness `S` between the least and
+//! the largest `X'` of the cell. With a spring `K` in place of the contact errors do not grow in the norm of the energy;
+//! the difference pushes with `|S − K| |e|`, so that they grow as `e^(λt)`, `λ = max |S − K| |B|/√K` (Gronwall). So `K`
+//! follows `X'` from cell to cell; where it becomes larger, so does the norm, by the square root at most. Where nothing
+//! but the contact acts on the compression, as between two bars, more compression means more resistance, and errors do
+//! not grow at all.
 
 use crate::ball::{BallError, Magnitude, Number};
 use crate::history::motion::{Added, Course, Given, Motion};
@@ -32,6 +34,14 @@ const MOST_DISCS: usize = 4096;
 
 /// So often a box is made larger before its disc is taken to be too large.
 const MOST_BOXES: usize = 24;
+
+/// `K` is this many times the force over the compression of the law at most, and so large a share of that at least: the
+/// softer it becomes between two times at which it is pressed, the more errors grow in its norm as it is pressed again.
+const STIFFEST: u64 = 2;
+const LEAST_SHARE: f64 = 1.0 / 256.0;
+
+/// `K` is left as it is while `X'` is as near to it as this.
+const NEAR: f64 = 1.0 / 16.0;
 
 /// A contact is light at the start of a cell whose compression is this power of two times the largest light one.
 const LIGHT_AT_START: i64 = -4;
@@ -79,6 +89,28 @@ impl PowerLaw {
         Ok(largest.multiply(&Magnitude::from_rational(&self.exponent)))
     }
 
+    /// `X'` at a positive compression.
+    fn slope(&self, compression: &Rational) -> Result<Number, BallError> {
+        let inverse = Number::Exact(compression.recip());
+        let secant = self.value(&Number::Exact(compression.clone()), BITS)?.multiply(&inverse, BITS);
+        Ok(secant.multiply(&Number::Exact(self.exponent.clone()), BITS))
+    }
+
+    /// The largest `K`.
+    fn stiffest_spring(&self) -> Result<Number, BallError> {
+        let secant = self.force.multiply(&self.compression.reciprocal(BITS)?, BITS);
+        Ok(secant.multiply(&Number::integer(STIFFEST as i64), BITS))
+    }
+
+    /// About which share of the largest `K` the slope at a compression is.
+    fn share(&self, compression: &Number) -> f64 {
+        let double = |number: &Number| number.ball(BITS).to_double().0;
+        let exponent = self.exponent.to_f64().unwrap_or(1.0);
+        let ratio = (double(compression) / double(&self.compression)).max(0.0);
+        let share = exponent / STIFFEST as f64 * ratio.powf(exponent - 1.0);
+        if share.is_nan() { 1.0 } else { share.clamp(LEAST_SHARE, 1.0) }
+    }
+
     /// The compression at which the force is a `2^(−bits)` of `F`, or a little less; but none that is not told from zero
     /// with so many bits.
     fn light(&self, bits: u64) -> Magnitude {
@@ -96,16 +128,21 @@ pub struct Pressed {
     /// Where its compression stands in the state, and its force in the input.
     pub state: usize,
     pub input: usize,
-    /// `K`, the stiffness that it is compared with.
+    /// `K`, the stiffness of the spring that it is compared with, and its share of the largest.
     pub stiffness: Number,
+    share: f64,
 }
 
 impl Pressed {
-    /// All of a node.
+    /// All of a node, each with a spring that is as stiff as it is itself at a state; without one, as stiff as may be.
     ///
     /// # Errors
     /// As [`PowerLaw::at`].
-    pub fn all(node: &Node<Number>, system: &System<Number>) -> Result<Vec<Pressed>, BallError> {
+    pub fn all(
+        node: &Node<Number>,
+        system: &System<Number>,
+        now: Option<&[Number]>,
+    ) -> Result<Vec<Pressed>, BallError> {
         let mut all = Vec::new();
         for ((own, kept), driven) in node.elements.iter().zip(&system.kept).zip(&system.driven) {
             let ElementLaw::LocalContact { force, compression, exponent } = &own.law else {
@@ -113,11 +150,18 @@ impl Pressed {
             };
             let (Some(state), Some(input)) = (*kept, *driven) else { continue };
             let (force, compression) = (force.clone(), compression.clone());
-            let stiffness = force.multiply(&compression.reciprocal(BITS)?, BITS);
             let law = PowerLaw { force, compression, exponent: exponent.clone() };
-            all.push(Pressed { law, state, input, stiffness });
+            let share = now.map_or(1.0, |now| law.share(&now[state]));
+            let part = Number::Exact(Rational::from_float(share).expect("a share is finite"));
+            let stiffness = law.stiffest_spring()?.multiply(&part, BITS);
+            all.push(Pressed { law, state, input, stiffness, share });
         }
         Ok(all)
+    }
+
+    /// Whether its spring is about as stiff as it is itself at a state.
+    pub fn is_near(&self, now: &[Number]) -> bool {
+        (self.law.share(&now[self.state]) / self.share - 1.0).abs() <= NEAR
     }
 }
 
@@ -291,9 +335,10 @@ impl Pressing<'_> {
         let mut light: Vec<usize> = Vec::new();
         loop {
             let contacts = self.compressed(&start, &at_start, &light)?;
+            let slopes = self.slopes(&start, &contacts)?;
             let radius = norm.length.scale(REACH);
-            let Some(picard) = self.picard(&start, &contacts, &radius) else {
-                return Err(self.shorter(&start, &contacts, radius));
+            let Some(picard) = self.picard(&slopes, &contacts, &radius) else {
+                return Err(self.shorter(&slopes, &contacts, radius));
             };
             let distance = self.distance(&contacts, &picard);
             let (columns, forces) = self.coefficients(&start, &contacts, &picard, &distance)?;
@@ -350,7 +395,8 @@ impl Pressing<'_> {
                 || from < largest.scale(LIGHT_AT_START)
                 || off.scale(6) > from;
             let (most, force, stiffest) = if is_light {
-                (largest.max(from.scale(3)).max(off.scale(3)), Magnitude::ZERO, Magnitude::ZERO)
+                // Far enough for a cell to go on to the end of the contact.
+                (largest.max(from.scale(4)).max(off.scale(4)), Magnitude::ZERO, Magnitude::ZERO)
             } else {
                 let most = from.multiply(&Magnitude::from_u64(7)).scale(-3);
                 let ends = [&from.scale(-4), &from.scale(1)];
@@ -376,19 +422,38 @@ impl Pressing<'_> {
         contacts.iter().zip(&self.block.pressed)
     }
 
-    /// A box in which the motion for the polynomials of the inputs stays on a disc of times, where it is found: one
-    /// with `radius · |y'| ≤ size` for each member.
-    fn picard(
+    /// `|y'|` of each member at the start.
+    fn slopes(
         &self,
         start: &[Number],
+        contacts: &[Compressed],
+    ) -> Result<Vec<Magnitude>, TooLong> {
+        let mut both = vec![Number::zero(); self.system.states()];
+        for (member, value) in self.block.members.iter().zip(start) {
+            both[*member] = value.clone();
+        }
+        both.extend(self.given.coefficients(0));
+        for (own, law) in self.each(contacts).filter(|(own, _)| !own.is_light) {
+            let force = law.law.value(&start[own.place], BITS).map_err(|_| self.unknown())?;
+            both[self.system.states() + law.input] = force;
+        }
+        let rows = self.block.members.iter().map(|member| &self.system.change[*member]);
+        Ok(rows.map(|row| dot(row, &both, BITS).magnitude()).collect())
+    }
+
+    /// A box in which the motion for the polynomials of the inputs stays on a disc of times, where it is found: one
+    /// with `radius · |y'| ≤ size` for each member, where `y'` is what it is at the start and what the box may change.
+    fn picard(
+        &self,
+        slopes: &[Magnitude],
         contacts: &[Compressed],
         radius: &Magnitude,
     ) -> Option<Picard> {
         let states = self.system.states();
-        let mut inputs: Vec<Magnitude> =
-            self.given.settled.iter().map(|series| series.size_from(0, radius)).collect();
-        for (own, law) in self.each(contacts) {
-            inputs[law.input] = own.force;
+        let changes_of = |series: &Series| series.size_from(1, radius).multiply(radius);
+        let mut inputs: Vec<Magnitude> = self.given.settled.iter().map(changes_of).collect();
+        for own in &self.block.pressed {
+            inputs[own.input] = Magnitude::ZERO;
         }
         let product = |row: &[Number], column: &[Magnitude]| {
             let terms = row.iter().zip(column).map(|(a, x)| a.magnitude().multiply(x));
@@ -396,16 +461,20 @@ impl Pressing<'_> {
         };
         let rows: Vec<&Vec<Number>> =
             self.block.members.iter().map(|member| &self.system.change[*member]).collect();
-        let pushed: Vec<Magnitude> =
-            rows.iter().map(|row| product(&row[states..], &inputs)).collect();
-        let mut sizes = vec![Magnitude::ZERO; start.len()];
+        let given: Vec<Magnitude> = (rows.iter().zip(slopes))
+            .map(|(row, slope)| slope.add(&product(&row[states..], &inputs)))
+            .collect();
+        let mut sizes = vec![Magnitude::ZERO; slopes.len()];
         for _ in 0..MOST_BOXES {
-            let mut reached = vec![Magnitude::ZERO; states];
-            for ((member, from), size) in self.block.members.iter().zip(start).zip(&sizes) {
-                reached[*member] = from.magnitude().add(size);
+            let mut moved = vec![Magnitude::ZERO; states + inputs.len()];
+            for (member, size) in self.block.members.iter().zip(&sizes) {
+                moved[*member] = *size;
             }
-            let changes: Vec<Magnitude> = (rows.iter().zip(&pushed))
-                .map(|(row, pushed)| product(&row[..states], &reached).add(pushed).multiply(radius))
+            for (own, law) in self.each(contacts) {
+                moved[states + law.input] = own.stiffest.multiply(&sizes[own.place]);
+            }
+            let changes: Vec<Magnitude> = (rows.iter().zip(&given))
+                .map(|(row, given)| product(row, &moved).add(given).multiply(radius))
                 .collect();
             if contacts.iter().any(|own| changes[own.place] > own.most) {
                 return None;
@@ -419,8 +488,13 @@ impl Pressing<'_> {
     }
 
     /// A length of which a disc is small enough.
-    fn shorter(&self, start: &[Number], contacts: &[Compressed], radius: Magnitude) -> TooLong {
-        let is_kept = |radius: &Magnitude| self.picard(start, contacts, radius).is_some();
+    fn shorter(
+        &self,
+        slopes: &[Magnitude],
+        contacts: &[Compressed],
+        radius: Magnitude,
+    ) -> TooLong {
+        let is_kept = |radius: &Magnitude| self.picard(slopes, contacts, radius).is_some();
         let mut radius = radius;
         for _ in 0..MOST_DISCS {
             radius = radius.scale(-1);
@@ -521,6 +595,28 @@ impl Pressing<'_> {
         terms
     }
 
+    /// `max |S − K|`, as long as the error of a compression is at most a `2^−5` of it, as that of a heavy contact is.
+    fn mismatch(
+        &self,
+        own: &Compressed,
+        law: &Pressed,
+        picard: &Picard,
+    ) -> Result<Magnitude, BallError> {
+        if own.is_light {
+            return Ok(law.stiffness.magnitude());
+        }
+        let start = Rational::from(&own.start);
+        let rounded = own.start.scale(-20);
+        let moved = picard.sizes[own.place].scale(-REACH).add(&own.start.scale(-5)).add(&rounded);
+        let moved = Rational::from(&moved);
+        let mut largest = Magnitude::ZERO;
+        for end in [&start - &moved, &start + &moved] {
+            let off = law.law.slope(&end)?.subtract(&law.stiffness, BITS);
+            largest = largest.max(off.magnitude());
+        }
+        Ok(largest)
+    }
+
     /// The bounds of errors, by that of the state at the start and what of it comes from rounding now.
     fn bounds(
         &self,
@@ -535,8 +631,8 @@ impl Pressing<'_> {
         // Between two bars a contact takes errors up.
         if self.block.members.len() > 1 {
             for (own, law) in self.each(contacts) {
-                let stiffness = law.stiffness.magnitude().max(own.stiffest);
-                rate = rate.add(&self.pushed_back(law, &stiffness));
+                let off = self.mismatch(own, law, picard).map_err(|_| self.unknown())?;
+                rate = rate.add(&self.pushed_back(law, &off));
             }
         }
         // e^z ≤ 1 + z + z² for z ≤ 1.

@@ -1,7 +1,7 @@
 //! Checks of a scene: signs of its properties, ends and lengths that agree, elements that can do something
 //! where they stand, and measures that fit their places.
 
-use wavestep_polynomial::{Rational, Symbol};
+use wavestep_polynomial::{Integer, Rational, Symbol};
 
 use crate::expression::{Assumptions, Condition, Fraction};
 use crate::limits::MAX_CONTACT_EXPONENT;
@@ -12,7 +12,7 @@ use crate::scene::{
 };
 
 impl Scene {
-    /// The assumptions of the scene, and that `pi` is greater than 3.
+    /// The assumptions of the scene, and between which numbers `pi` lies.
     pub fn known(&self) -> Assumptions {
         with_pi(self.assumptions.clone())
     }
@@ -41,10 +41,15 @@ impl Scene {
     }
 }
 
-/// The assumptions, and that `pi` is greater than 3.
+/// The assumptions, and between which numbers `pi` lies: less than 2⁻⁶⁰ apart.
 pub(crate) fn with_pi(mut assumptions: Assumptions) -> Assumptions {
     let pi = Symbol::new(PI).expect("a plain name");
-    assumptions.declare_symbol(pi, Some(Condition::above(3)));
+    let [lower, upper] =
+        [7_244_019_458_077_122_842_i64, 7_244_019_458_077_122_843].map(|numerator| {
+            Rational::new(numerator.into(), Integer::from(1) << 61_u32)
+        });
+    assumptions.declare_symbol(pi.clone(), Some(Condition::above(3)));
+    assumptions.declare_bounds(pi, lower, upper);
     assumptions
 }
 
