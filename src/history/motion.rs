@@ -140,14 +140,14 @@ impl System<Number> {
         let given = Given::new(input, norm, cut);
         let blocks = passivity.blocks.iter().zip(errors);
         let courses = blocks.map(|(block, error)| self.course(block, state, error, &given));
-        self.motion(passivity, courses.collect(), input, cut)
+        self.motion(passivity, (state, courses.collect()), input, cut)
     }
 
-    /// What a node does, by the courses of its blocks.
+    /// What a node does from a state on, by the courses of its blocks.
     pub(super) fn motion(
         &self,
         passivity: &Passivity,
-        courses: Vec<Course>,
+        (start, courses): (&[Number], Vec<Course>),
         input: &[Series],
         cut: &Truncation,
     ) -> Motion {
@@ -157,9 +157,14 @@ impl System<Number> {
             for (place, member) in block.members.iter().enumerate() {
                 let own = course.columns.iter().map(|column| column[place].clone()).collect();
                 let entry = |size: &Magnitude| block.entry(place, size);
+                // A gap that closes is zero then, whatever else is known of its node.
+                let at_start = match start[*member].is_zero() {
+                    true => Magnitude::ZERO,
+                    false => entry(&course.at_start),
+                };
                 states[*member] = Series::new(own, entry(&course.rest))
                     .with_error(entry(&course.error), entry(&course.fresh))
-                    .with_error_at_start(entry(&course.at_start))
+                    .with_error_at_start(at_start)
                     .of_roughness(course.roughness);
             }
             added.push(course.added);

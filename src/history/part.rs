@@ -173,7 +173,7 @@ impl Engine {
     }
 
     /// Whether a part is known to be exactly zero just before an instant: the force of a contact that
-    /// opens since it came to zero, and the compression of a local one.
+    /// opens since it came to zero; and the compression of a local one, minus its gap, that opens or closes.
     pub fn vanishes_before(&self, part: &Part, moment: &Moment) -> bool {
         let Source::Node { node, quantity } = part.source else { return false };
         let own = &self.nodes[node];
@@ -183,8 +183,11 @@ impl Engine {
             NodeQuantity::Velocity(_) | NodeQuantity::Displacement(_) => false,
         });
         let Some(((contact, _), _)) = contact else { return false };
+        let is_gap = matches!(quantity, NodeQuantity::Compression(_));
         let mut happenings = self.happenings.iter().filter(|own| own.contact == contact);
-        happenings.any(|own| own.cause == Cause::Crossing && !own.closes && own.moment == *moment)
+        happenings.any(|own| {
+            own.cause == Cause::Crossing && (is_gap || !own.closes) && own.moment == *moment
+        })
     }
 
     /// What the derivative of a part is a multiple of, where that is the force of one contact: of the

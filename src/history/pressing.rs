@@ -293,7 +293,7 @@ impl System<Number> {
         for (place, force) in forces {
             input[place] = force;
         }
-        Ok(self.motion(passivity, courses, input, cut))
+        Ok(self.motion(passivity, (state, courses), input, cut))
     }
 }
 
@@ -351,7 +351,12 @@ impl Pressing<'_> {
             let heavy = contacts.iter().filter(|own| !own.is_light);
             let doubtful: Vec<usize> = heavy.filter(is_doubtful).map(|own| own.place).collect();
             if doubtful.is_empty() {
-                let forces = self.forces(&contacts, forces, &bounds, &at_start);
+                let off = |contact: &Compressed| match own[contact.place].is_zero() {
+                    true => Magnitude::ZERO,
+                    false => self.block.entry(contact.place, &at_start),
+                };
+                let offs = contacts.iter().map(off).collect();
+                let forces = self.forces(&contacts, forces, &bounds, offs);
                 let Bounds { rest, added, roughness, .. } = bounds;
                 let (error, fresh) = (rest, rest);
                 let course = Course { columns, rest, error, fresh, at_start, added, roughness };
@@ -688,23 +693,23 @@ impl Pressing<'_> {
         })
     }
 
-    /// The forces of the contacts. A contact that stays closed pushes, which is proven of the cell before it is taken
+    /// The forces of the contacts, whose compressions are off by so much at the start. A contact that stays closed pushes, which is proven of the cell before it is taken
     /// over.
     fn forces(
         &self,
         contacts: &[Compressed],
         forces: Vec<Vec<Number>>,
         bounds: &Bounds,
-        at_start: &Magnitude,
+        offs: Vec<Magnitude>,
     ) -> Vec<Series> {
-        let each = self.each(contacts).zip(forces).zip(&bounds.light);
+        let each = self.each(contacts).zip(forces).zip(bounds.light.iter().zip(&offs));
+        type Known<'a> = (&'a Magnitude, &'a Magnitude);
         let force =
-            |(((own, law), force), light): (((&Compressed, &Pressed), Vec<Number>), &Magnitude)| {
-                let off = self.block.entry(own.place, at_start);
+            |(((own, law), force), (light, off)): (((&Compressed, &Pressed), Vec<Number>), Known<'_>)| {
                 let at_ends = [own.is_compressed, true];
                 let signed = Some(Signed { sign: Ordering::Greater, at_ends });
                 if own.is_light {
-                    let first = law.law.bound(&own.start.add(&off)).unwrap_or(*light).min(*light);
+                    let first = law.law.bound(&own.start.add(off)).unwrap_or(*light).min(*light);
                     let roughness = (!light.is_zero()).then_some(Roughness::Values);
                     return Series::new(Vec::new(), *light)
                         .with_error_at_start(first)
@@ -713,7 +718,7 @@ impl Pressing<'_> {
                 }
                 let rest = own.stiffest.multiply(&self.block.entry(own.place, &bounds.rest));
                 Series::new(force, rest.add(&own.force.multiply(&bounds.left_out)))
-                    .with_error_at_start(own.stiffest.multiply(&off))
+                    .with_error_at_start(own.stiffest.multiply(off))
                     .of_roughness(bounds.roughness)
                     .of_sign(signed)
             };

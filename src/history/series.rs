@@ -231,6 +231,8 @@ pub struct Series {
     pub error: Magnitude,
     pub fresh: Magnitude,
     error_at_start: Magnitude,
+    /// Of an integral `|e'(x)| ≤ slope` on the cell: the integrand is known better than by `rest` where it is rough.
+    slope: Option<Magnitude>,
     pub roughness: Option<Roughness>,
     /// Its sign on the cell, where that is known otherwise.
     pub signed: Option<Signed>,
@@ -265,7 +267,8 @@ impl Series {
             coefficients.pop();
         }
         let (error, fresh, error_at_start) = (rest, rest, rest);
-        Series { coefficients, rest, error, fresh, error_at_start, roughness: None, signed: None }
+        let (slope, roughness, signed) = (None, None, None);
+        Series { coefficients, rest, error, fresh, error_at_start, slope, roughness, signed }
     }
 
     /// The same function, of whose error less is known to be at the start.
@@ -281,7 +284,8 @@ impl Series {
 
     /// The same polynomial with other coefficients, as far as its errors go.
     fn with_coefficients(&self, coefficients: Vec<Number>) -> Series {
-        Series { roughness: self.roughness, ..Series::new(coefficients, self.rest) }
+        let (slope, roughness) = (self.slope, self.roughness);
+        Series { slope, roughness, ..Series::new(coefficients, self.rest) }
             .with_error(self.error, self.fresh)
     }
 
@@ -336,6 +340,11 @@ impl Series {
         }
     }
 
+    /// A bound of the slope of its error, where one is known beside `rest`.
+    fn slope_error(&self) -> Option<Magnitude> {
+        self.slope.or(self.rest.is_zero().then_some(Magnitude::ZERO))
+    }
+
     /// Whether it is known to be zero.
     pub fn is_zero(&self) -> bool {
         self.coefficients.is_empty() && self.rest.is_zero()
@@ -380,7 +389,9 @@ impl Series {
         let sum = |own: &Magnitude, other: &Magnitude| {
             own.multiply(&sizes[0]).add(&other.multiply(&sizes[1]))
         };
-        Series::new((0..length).map(term).collect(), sum(&self.rest, &other.rest))
+        let slope = self.slope_error().zip(other.slope_error());
+        let slope = slope.map(|(own, other)| sum(&own, &other));
+        Series { slope, ..Series::new((0..length).map(term).collect(), sum(&self.rest, &other.rest)) }
             .with_error(sum(&self.error, &other.error), sum(&self.fresh, &other.fresh))
             .with_error_at_start(sum(&self.error_at_start, &other.error_at_start))
             .of_roughness(self.roughness.max(other.roughness))
@@ -478,7 +489,8 @@ impl Series {
     pub fn extended(&self, by: &Magnitude, cut: &Truncation) -> Series {
         let rest = self.bound_beyond(&self.rest, by, cut);
         let error = if by.is_zero() { self.error } else { rest };
-        Series { rest, error, ..self.clone() }
+        let slope = self.slope.filter(|_| by.is_zero() || self.roughness.is_some());
+        Series { rest, error, slope, ..self.clone() }
     }
 
     /// The first coefficients of a polynomial in `ξ`, and a bound of its distance from `f(a + ξ)` for all
@@ -558,15 +570,16 @@ impl Series {
         integral.polynomial(x, bits).widened(&self.error.multiply(&x.magnitude()), bits)
     }
 
-    /// The same on a cell of at most this length.
+    /// The same on a cell of at most this length: `|∫e| ≤ h sup |e|`.
     pub fn integral_over(&self, start: Number, length: &Magnitude, cut: &Truncation) -> Series {
         let mut coefficients = vec![start];
         for (k, c) in self.coefficients.iter().enumerate() {
             coefficients.push(c.over(k as u64 + 1, cut.bits));
         }
         let longest = (*length).max(Magnitude::power_of_two(-cut.rate));
-        Series::new(coefficients, self.rest.multiply(&longest))
-            .with_error(self.error.multiply(&longest), self.fresh.multiply(&longest))
+        let slope = Some(self.error);
+        Series { slope, ..Series::new(coefficients, self.rest.multiply(&longest)) }
+            .with_error(self.error.multiply(length), self.fresh.multiply(length))
             .with_error_at_start(Magnitude::ZERO)
             .of_roughness(self.roughness)
     }
@@ -576,6 +589,9 @@ impl Series {
         let terms = self.coefficients.iter().enumerate().skip(1);
         let slopes = terms.map(|(k, c)| c.multiply(&Number::integer(k as i64), cut.bits));
         let rest = self.bound_of_derivative(&self.rest, 1, cut);
-        Series::new(slopes.collect(), rest).of_roughness(self.roughness.map(Roughness::halved))
+        let error = self.slope.unwrap_or(rest);
+        Series::new(slopes.collect(), rest)
+            .with_error(error, error)
+            .of_roughness(self.roughness.map(Roughness::halved))
     }
 }
