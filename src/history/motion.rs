@@ -155,10 +155,12 @@ impl System<Number> {
         let mut added = Vec::with_capacity(passivity.blocks.len());
         for (block, course) in passivity.blocks.iter().zip(courses) {
             for (place, member) in block.members.iter().enumerate() {
-                let own = course.columns.iter().map(|column| column[place].clone()).collect();
+                let own: Vec<Number> =
+                    course.columns.iter().map(|column| column[place].clone()).collect();
                 let entry = |size: &Magnitude| block.entry(place, size);
                 // A gap that closes is zero then, whatever else is known of its node.
-                let at_start = match start[*member].is_zero() {
+                let begins_there = own.first().is_none_or(Number::is_zero);
+                let at_start = match begins_there && start[*member].is_zero() {
                     true => Magnitude::ZERO,
                     false => entry(&course.at_start),
                 };

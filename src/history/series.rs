@@ -488,8 +488,9 @@ impl Series {
     /// The same function so much beyond the ends of the cell.
     pub fn extended(&self, by: &Magnitude, cut: &Truncation) -> Series {
         let rest = self.bound_beyond(&self.rest, by, cut);
-        let error = if by.is_zero() { self.error } else { rest };
-        let slope = self.slope.filter(|_| by.is_zero() || self.roughness.is_some());
+        let goes_on = by.is_zero() || self.roughness.is_some();
+        let error = if goes_on { self.error } else { rest };
+        let slope = self.slope.filter(|_| goes_on);
         Series { rest, error, slope, ..self.clone() }
     }
 

@@ -315,6 +315,51 @@ fn a_force_is_zero_from_the_end_of_a_contact_on() {
     }
 }
 
+/// A ball that falls on a rod with a fixed far end, and falls again.
+const BALL: &str = "mass ball { mass = 1, velocity = 1 }\nhertz tip { stiffness = 4, exponent = 3/2 }\n\
+    bar rod { impedance = 1/2, travel = 2 }\nload weight { force = 1/5 }\n\
+    line free - weight - ball - tip - rod - fixed\nobserve force = force(tip)\n\
+    observe compression = compression(tip)\nobserve displacement = displacement(ball)";
+
+/// The spring that stands for a contact follows its stiffness, so that errors hardly grow while it is pressed: the
+/// bits that do for the first contact do for later ones.
+#[test]
+fn a_contact_that_is_pressed_for_long_needs_no_more_bits() {
+    let ball = problem(BALL);
+    let history = ball.events_until(20, 12).unwrap();
+    assert_eq!(history.bits, 112);
+    let instants: Vec<String> =
+        history.events.iter().map(|event| event.time.to_string()).collect();
+    assert_eq!(instants, ["0", "9.96522682338", "18.7073223504"]);
+}
+
+/// The instants at which a gap closes and opens are roots of the compression, and end the times without a force. Of a
+/// displacement that is zero at the touch it is known that it rises, though the force there is below the precision.
+#[test]
+fn contacts_begin_and_end_with_roots() {
+    let ball = problem(&BALL.replace("bar rod { impedance = 1/2, travel = 2 }\n", "").replace("rod - ", ""));
+    let events = ball.events_until(20, 12).unwrap().events;
+    let [_, opens, closes, ..] = &events[..] else { panic!("{events:?}") };
+    let instants = [opens, closes].map(|event| event.time.to_string());
+    let roots = |name: &str| ball.signal(name).unwrap().roots(0..=13, 12).unwrap().all;
+    match &roots("compression")[..] {
+        [
+            Root::End { .. },
+            Root::Arrival { time: opens, before: true, after: true },
+            Root::Arrival { time: closes, before: true, after: true },
+        ] => assert_eq!([opens, closes].map(|time| time.to_string()), instants),
+        other => panic!("{other:?}"),
+    }
+    match &roots("force")[..] {
+        [Root::End { .. }, Root::Interval { from, to, closed: true }] => {
+            assert_eq!([from, to].map(|time| time.to_string()), instants);
+        }
+        other => panic!("{other:?}"),
+    }
+    let rises = problem(BALL).signal("displacement").unwrap().roots(0..=1, 12).unwrap();
+    assert!(matches!(rises.all[..], [Root::End { .. }]), "{:?}", rises.all);
+}
+
 /// A bar that moves with the other, and one that moves away, are never pressed.
 #[test]
 fn what_does_not_meet_has_no_force() {

@@ -26,6 +26,7 @@ fn exact(value: &Rational) -> Number {
 
 /// The node with the local contact of a line.
 struct Contact {
+    node: Node<Number>,
     system: System<Number>,
     passivity: Passivity,
     cut: Truncation,
@@ -59,7 +60,8 @@ impl Contact {
         let passivity = Passivity::of(&node, &system).unwrap();
         let longest = Magnitude::power_of_two(2);
         let top = passivity.rate().top().unwrap_or(0).max(8);
-        Contact { system, passivity, cut: Truncation { longest, ..Truncation::new(BITS, top) } }
+        let cut = Truncation { longest, ..Truncation::new(BITS, top) };
+        Contact { node, system, passivity, cut }
     }
 
     /// The motion from a state, where this wave arrives from the left, with the force in the contact.
@@ -241,4 +243,32 @@ fn cells_hold_the_motion_of_a_mass_or_are_too_long() {
         }
     }
     assert!(told[0] > 4 && told[1] > 2, "{told:?}");
+}
+
+/// Passivity at these compressions of a contact whose law is `X = α^m`.
+fn at_compressions(contact: &Contact, compressions: [&Rational; 2]) -> [Passivity; 2] {
+    compressions.map(|own| {
+        let state = [Number::zero(), exact(own)];
+        Passivity::at(&contact.node, &contact.system, &state).unwrap()
+    })
+}
+
+/// In the norm of a stiffer spring an error is as large as it was, and no larger than it has to be.
+#[test]
+fn errors_are_carried_to_other_springs() {
+    let contact = Contact::new("endless - a - m - tip - fixed", &ratio(3, 2), 0);
+    for (from, to) in [(ratio(1, 16), ratio(1, 1)), (ratio(1, 1), ratio(1, 16))] {
+        let [before, after] = at_compressions(&contact, [&from, &to]);
+        assert!(before.is_near(&[Number::zero(), exact(&from)]));
+        assert!(!before.is_near(&[Number::zero(), exact(&to)]));
+        let off = Magnitude::power_of_two(-20);
+        for offs in [[off, Magnitude::ZERO], [Magnitude::ZERO, off], [off, off]] {
+            let size = |passivity: &Passivity| passivity.blocks[0].size(offs.into_iter());
+            let errors = [StateError::new(size(&before))];
+            let carried = after.carried(&before, &errors)[0].size();
+            assert!(size(&after) <= carried, "{offs:?} from {from} to {to}");
+            // `X' = 3/2 √α`: four times as stiff.
+            assert!(carried <= errors[0].size().multiply(&Magnitude::from_u64(9)).scale(-2));
+        }
+    }
 }
