@@ -92,7 +92,8 @@ impl PowerLaw {
     /// `X'` at a positive compression.
     fn slope(&self, compression: &Rational) -> Result<Number, BallError> {
         let inverse = Number::Exact(compression.recip());
-        let secant = self.value(&Number::Exact(compression.clone()), BITS)?.multiply(&inverse, BITS);
+        let secant =
+            self.value(&Number::Exact(compression.clone()), BITS)?.multiply(&inverse, BITS);
         Ok(secant.multiply(&Number::Exact(self.exponent.clone()), BITS))
     }
 
@@ -428,11 +429,7 @@ impl Pressing<'_> {
     }
 
     /// `|y'|` of each member at the start.
-    fn slopes(
-        &self,
-        start: &[Number],
-        contacts: &[Compressed],
-    ) -> Result<Vec<Magnitude>, TooLong> {
+    fn slopes(&self, start: &[Number], contacts: &[Compressed]) -> Result<Vec<Magnitude>, TooLong> {
         let mut both = vec![Number::zero(); self.system.states()];
         for (member, value) in self.block.members.iter().zip(start) {
             both[*member] = value.clone();
@@ -493,12 +490,7 @@ impl Pressing<'_> {
     }
 
     /// A length of which a disc is small enough.
-    fn shorter(
-        &self,
-        slopes: &[Magnitude],
-        contacts: &[Compressed],
-        radius: Magnitude,
-    ) -> TooLong {
+    fn shorter(&self, slopes: &[Magnitude], contacts: &[Compressed], radius: Magnitude) -> TooLong {
         let is_kept = |radius: &Magnitude| self.picard(slopes, contacts, radius).is_some();
         let mut radius = radius;
         for _ in 0..MOST_DISCS {
@@ -704,24 +696,26 @@ impl Pressing<'_> {
     ) -> Vec<Series> {
         let each = self.each(contacts).zip(forces).zip(bounds.light.iter().zip(&offs));
         type Known<'a> = (&'a Magnitude, &'a Magnitude);
-        let force =
-            |(((own, law), force), (light, off)): (((&Compressed, &Pressed), Vec<Number>), Known<'_>)| {
-                let at_ends = [own.is_compressed, true];
-                let signed = Some(Signed { sign: Ordering::Greater, at_ends });
-                if own.is_light {
-                    let first = law.law.bound(&own.start.add(off)).unwrap_or(*light).min(*light);
-                    let roughness = (!light.is_zero()).then_some(Roughness::Values);
-                    return Series::new(Vec::new(), *light)
-                        .with_error_at_start(first)
-                        .of_roughness(roughness)
-                        .of_sign(signed.filter(|_| !light.is_zero()));
-                }
-                let rest = own.stiffest.multiply(&self.block.entry(own.place, &bounds.rest));
-                Series::new(force, rest.add(&own.force.multiply(&bounds.left_out)))
-                    .with_error_at_start(own.stiffest.multiply(off))
-                    .of_roughness(bounds.roughness)
-                    .of_sign(signed)
-            };
+        let force = |(((own, law), force), (light, off)): (
+            ((&Compressed, &Pressed), Vec<Number>),
+            Known<'_>,
+        )| {
+            let at_ends = [own.is_compressed, true];
+            let signed = Some(Signed { sign: Ordering::Greater, at_ends });
+            if own.is_light {
+                let first = law.law.bound(&own.start.add(off)).unwrap_or(*light).min(*light);
+                let roughness = (!light.is_zero()).then_some(Roughness::Values);
+                return Series::new(Vec::new(), *light)
+                    .with_error_at_start(first)
+                    .of_roughness(roughness)
+                    .of_sign(signed.filter(|_| !light.is_zero()));
+            }
+            let rest = own.stiffest.multiply(&self.block.entry(own.place, &bounds.rest));
+            Series::new(force, rest.add(&own.force.multiply(&bounds.left_out)))
+                .with_error_at_start(own.stiffest.multiply(off))
+                .of_roughness(bounds.roughness)
+                .of_sign(signed)
+        };
         each.map(force).collect()
     }
 }

@@ -391,11 +391,14 @@ impl Series {
         };
         let slope = self.slope_error().zip(other.slope_error());
         let slope = slope.map(|(own, other)| sum(&own, &other));
-        Series { slope, ..Series::new((0..length).map(term).collect(), sum(&self.rest, &other.rest)) }
-            .with_error(sum(&self.error, &other.error), sum(&self.fresh, &other.fresh))
-            .with_error_at_start(sum(&self.error_at_start, &other.error_at_start))
-            .of_roughness(self.roughness.max(other.roughness))
-            .of_sign(sign_of_sum([(self, a), (other, b)]))
+        Series {
+            slope,
+            ..Series::new((0..length).map(term).collect(), sum(&self.rest, &other.rest))
+        }
+        .with_error(sum(&self.error, &other.error), sum(&self.fresh, &other.fresh))
+        .with_error_at_start(sum(&self.error_at_start, &other.error_at_start))
+        .of_roughness(self.roughness.max(other.roughness))
+        .of_sign(sign_of_sum([(self, a), (other, b)]))
     }
 
     pub fn add(&self, other: &Series, bits: u64) -> Series {

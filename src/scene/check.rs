@@ -44,10 +44,8 @@ impl Scene {
 /// The assumptions, and between which numbers `pi` lies: less than 2⁻⁶⁰ apart.
 pub(crate) fn with_pi(mut assumptions: Assumptions) -> Assumptions {
     let pi = Symbol::new(PI).expect("a plain name");
-    let [lower, upper] =
-        [7_244_019_458_077_122_842_i64, 7_244_019_458_077_122_843].map(|numerator| {
-            Rational::new(numerator.into(), Integer::from(1) << 61_u32)
-        });
+    let [lower, upper] = [7_244_019_458_077_122_842_i64, 7_244_019_458_077_122_843]
+        .map(|numerator| Rational::new(numerator.into(), Integer::from(1) << 61_u32));
     assumptions.declare_symbol(pi.clone(), Some(Condition::above(3)));
     assumptions.declare_bounds(pi, lower, upper);
     assumptions

@@ -328,8 +328,7 @@ fn a_contact_that_is_pressed_for_long_needs_no_more_bits() {
     let ball = problem(BALL);
     let history = ball.events_until(20, 12).unwrap();
     assert_eq!(history.bits, 112);
-    let instants: Vec<String> =
-        history.events.iter().map(|event| event.time.to_string()).collect();
+    let instants: Vec<String> = history.events.iter().map(|event| event.time.to_string()).collect();
     assert_eq!(instants, ["0", "9.96522682338", "18.7073223504"]);
 }
 
@@ -337,7 +336,9 @@ fn a_contact_that_is_pressed_for_long_needs_no_more_bits() {
 /// displacement that is zero at the touch it is known that it rises, though the force there is below the precision.
 #[test]
 fn contacts_begin_and_end_with_roots() {
-    let ball = problem(&BALL.replace("bar rod { impedance = 1/2, travel = 2 }\n", "").replace("rod - ", ""));
+    let ball = problem(
+        &BALL.replace("bar rod { impedance = 1/2, travel = 2 }\n", "").replace("rod - ", ""),
+    );
     let events = ball.events_until(20, 12).unwrap().events;
     let [_, opens, closes, ..] = &events[..] else { panic!("{events:?}") };
     let instants = [opens, closes].map(|event| event.time.to_string());

@@ -1,5 +1,6 @@
 //! One cell beside a pressed local contact: what is told of it holds for exact motions, or the cell is too long.
 
+use num_traits::ToPrimitive as _;
 use wavestep::ball::{Ball, Magnitude, Number};
 use wavestep::enclosure::Numbers;
 use wavestep::history::motion::Motion;
@@ -38,7 +39,7 @@ impl Contact {
         let elements = [
             ("a", "bar a { impedance = 2, velocity = 1 }"),
             ("b", "bar b { impedance = 2 }"),
-            ("m", "mass m { mass = 1 }"),
+            ("m", "mass m { mass = 1, velocity = 1 }"),
         ];
         let used = |name: &str| line.split(' ').any(|own| own == name);
         let used = elements.iter().filter(|(name, _)| used(name));
@@ -178,11 +179,23 @@ fn what_a_light_contact_pushes_is_an_error() {
     assert!(encloses(&force, &length, &there.multiply(&there, 4 * BITS), &contact.cut));
 }
 
-/// A mass that a bar pulls away from a wall, `α' = v`, `v' = 4 w − 2 v − α^m`, by small steps.
-fn beside_a_wall([mut v, mut a]: [f64; 2], wave: f64, time: f64) -> [f64; 2] {
+/// A mass that a bar pulls away from a wall, `α' = v`, `v' = 4 w − 2 v − α^m`.
+fn beside_a_wall(start: [f64; 2], wave: f64, time: f64) -> [f64; 2] {
+    by_small_steps(start, time, |[v, a]| [4.0 * wave - 2.0 * v - a * a.sqrt(), v])
+}
+
+/// The same without the bar.
+fn beside_a_wall_alone(start: [f64; 2], time: f64) -> [f64; 2] {
+    by_small_steps(start, time, |[v, a]| [-a * a.sqrt(), v])
+}
+
+fn by_small_steps(
+    [mut v, mut a]: [f64; 2],
+    time: f64,
+    slope: impl Fn([f64; 2]) -> [f64; 2],
+) -> [f64; 2] {
     let steps = 4000;
     let h = time / f64::from(steps);
-    let slope = |[v, a]: [f64; 2]| [4.0 * wave - 2.0 * v - a * a.sqrt(), v];
     for _ in 0..steps {
         let after = |by: f64, [dv, da]: [f64; 2]| slope([v + by * dv, a + by * da]);
         let k1 = slope([v, a]);
@@ -225,7 +238,7 @@ fn cells_hold_the_motion_of_a_mass_or_are_too_long() {
                 &contact.cut,
             );
             for (dv, da) in [(off, off), (off, -off), (-off, off), (-off, -off)] {
-                let time = num_traits::ToPrimitive::to_f64(&length).unwrap();
+                let time = length.to_f64().unwrap();
                 let there = beside_a_wall([dv, 1.0 + da], wave, time);
                 for (place, value) in there.into_iter().enumerate() {
                     // As far as small steps tell.
@@ -271,4 +284,27 @@ fn errors_are_carried_to_other_springs() {
             assert!(carried <= errors[0].size().multiply(&Magnitude::from_u64(9)).scale(-2));
         }
     }
+}
+
+/// A spring that is much stiffer than the contact underestimates how far a velocity leads: what it differs by counts.
+#[test]
+fn errors_grow_beside_a_spring_that_is_too_stiff() {
+    let contact = Contact::new("free - m - tip - fixed", &ratio(3, 2), 0);
+    let (off, start) = (power_of_two(-20), ratio(1, 64));
+    let still = Number::Exact(Rational::default());
+    let mut state = vec![still.widened(&Magnitude::from_rational(&off), BITS), exact(&start)];
+    let mut errors = contact.passivity.errors(&state);
+    let (mut now, end) = (Rational::default(), ratio(2, 1));
+    while now < end {
+        let length = power_of_two(-5).min(&end - &now);
+        let (motion, _) = contact.press(&state, &errors, (&Rational::default(), &length)).unwrap();
+        let known = (&errors[..], &mut None);
+        (state, errors) =
+            contact.system.ended(&contact.passivity, &motion, known, &exact(&length), &contact.cut);
+        now += length;
+    }
+    let moved = |velocity: f64| beside_a_wall_alone([velocity, 1.0 / 64.0], 2.0)[1];
+    let spread = moved(off.to_f64().unwrap()) - moved(-off.to_f64().unwrap());
+    let told = state[1].ball(BITS).radius().to_double();
+    assert!(2.0 * told >= spread && told < 40.0 * spread, "{told} {spread}");
 }

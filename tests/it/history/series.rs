@@ -3,7 +3,7 @@
 use super::squares::{exponentials, truncation};
 use proptest::prelude::*;
 use wavestep::ball::{Ball, Magnitude, Number};
-use wavestep::history::series::{CellNorm, Series, Truncation};
+use wavestep::history::series::{CellNorm, Roughness, Series, Truncation};
 use wavestep_polynomial::Rational;
 
 fn rational(numerator: i64, denominator: i64) -> Rational {
@@ -169,4 +169,44 @@ fn polynomials_with_rational_coefficients_stay_exact() {
     assert_eq!(value, Number::Exact(rational(8, 3)));
     assert!(f.subtract(&f, 64).is_zero());
     assert_eq!(f.settled(&CellNorm::new(cut.longest, &cut), &cut), f);
+}
+
+/// An integral holds that of the error itself, and its slope no more than that error, whatever is known of
+/// derivatives: also shifted, as a part of a sum, and a little beyond the cell.
+#[test]
+fn errors_are_integrated() {
+    let cut = Truncation { longest: Magnitude::power_of_two(0), ..Truncation::new(128, 2) };
+    let (off, length) = (rational(1, 1000), Magnitude::power_of_two(0));
+    for roughness in [None, Some(Roughness::Within(12)), Some(Roughness::Values)] {
+        let polynomial = vec![Number::integer(2), Number::integer(-3)];
+        let rest = Magnitude::from_rational(&off);
+        let f = Series::new(polynomial, rest).of_roughness(roughness);
+        let integral = f.integral_over(Number::integer(1), &length, &cut);
+        let twice = integral.add(&integral.shift(&Number::zero(), &cut), cut.bits);
+        for x in [rational(1, 4), rational(1, 2), rational(7, 8)] {
+            let at = Number::Exact(x.clone());
+            for sign in [-1, 1] {
+                let error = &off * rational(sign, 1);
+                let slope = rational(2, 1) - &x * rational(3, 1) + &error;
+                let value = rational(1, 1) + &x * (rational(2, 1) - &x * rational(3, 2) + error);
+                let holds = |series: &Series, wanted: &Rational, times: i64| {
+                    let wanted = Ball::from_rational(&(wanted * rational(times, 1)), 300);
+                    let off = series.value(&at, &cut).ball(128).subtract(&wanted, 300);
+                    off.contains_zero() && off.magnitude().to_double() < 0.01
+                };
+                assert!(holds(&integral, &value, 1) && holds(&twice, &value, 2), "{roughness:?}");
+                for series in
+                    [integral.derivative(&cut), integral.shift(&at, &cut).derivative(&cut)]
+                {
+                    let start = series.error.to_double();
+                    assert!(start >= 0.001 && (roughness.is_none() || start < 0.002), "{start}");
+                }
+                assert!(holds(&integral.derivative(&cut), &slope, 1), "{roughness:?} at {x}");
+                assert!(holds(&twice.derivative(&cut), &slope, 2), "{roughness:?} at {x}");
+            }
+        }
+        let beyond = integral.derivative(&cut).extended(&Magnitude::power_of_two(-6), &cut);
+        assert!(beyond.error.to_double() >= 0.001);
+        assert!(roughness.is_none() || beyond.error.to_double() < 0.002, "{roughness:?}");
+    }
 }
