@@ -387,6 +387,19 @@ impl Engine {
         Ok(())
     }
 
+    /// The springs that stand for pressed local contacts become as stiff as these are now.
+    pub fn follow_stiffness(&mut self, node: usize) -> Outcome<()> {
+        let state = &self.states[node];
+        if state.passivity.is_near(&state.state) {
+            return Ok(());
+        }
+        let passivity = Passivity::at(&self.nodes[node], &state.system, &state.state)?;
+        let errors = passivity.carried(&state.passivity, &state.errors);
+        let state = &mut self.states[node];
+        (state.passivity, state.errors) = (passivity, errors);
+        Ok(())
+    }
+
     /// Contacts that press from the start close then.
     pub fn tell_impacts(&mut self, node: usize, guards: &[Guard]) {
         for (guard, (contact, _)) in guards.iter().zip(self.nodes[node].contacts()) {

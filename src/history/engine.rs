@@ -569,19 +569,6 @@ impl Engine {
         Ok(())
     }
 
-    /// The springs that stand for pressed local contacts become as stiff as these are now.
-    fn follow_stiffness(&mut self, node: usize) -> Outcome<()> {
-        let state = &self.states[node];
-        if state.passivity.is_near(&state.state) {
-            return Ok(());
-        }
-        let passivity = Passivity::at(&self.nodes[node], &state.system, &state.state)?;
-        let errors = passivity.carried(&state.passivity, &state.errors);
-        let state = &mut self.states[node];
-        (state.passivity, state.errors) = (passivity, errors);
-        Ok(())
-    }
-
     /// The precision that is of use for the next cell of a node: errors that have come together since the start hide
     /// what is far below them, but for what the terms of series lose where they cancel. A local contact begins below any of them.
     fn bits_of(&self, node: usize) -> u64 {
