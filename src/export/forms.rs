@@ -41,8 +41,8 @@ impl<'a> Writer<'a> {
         let statement = recurrence.statement();
         let stated = statement.equations.iter();
         let lags = forms.chain(stated).flat_map(|form| form.operators());
-        let most = lags.map(|(_, operator)| operator.value.len().max(operator.slope.len()));
-        let forced = |form: &LinearForm| form.forcing_terms().len();
+        let most = lags.map(|(_, operator)| operator.reach());
+        let forced = |form: &LinearForm| form.forcing_terms().reach();
         let loads = statement.equations.iter().map(forced).max().unwrap_or(0);
         let most = most.max().unwrap_or(0).max(loads) + 1;
         for wave in 0..recurrence.wave_count() {
@@ -67,22 +67,17 @@ impl<'a> Writer<'a> {
     fn terms(&self, form: &LinearForm) -> Vec<Term> {
         let mut terms = Vec::new();
         for slope in [true, false] {
-            let reach = form.operators().map(|(_, o)| o.value.len().max(o.slope.len()));
+            let reach = form.operators().map(|(_, operator)| operator.reach());
             for lag in 0..reach.max().unwrap_or(0) {
                 for (wave, operator) in form.operators() {
                     let row = if slope { &operator.slope } else { &operator.value };
-                    let Some(factor) = row.get(lag).filter(|factor| !factor.is_zero()) else {
-                        continue;
-                    };
+                    let Some(factor) = row.get(lag) else { continue };
                     let symbol = Expression::symbol(&stand_in(wave, lag, slope));
                     terms.extend(arrange(&(&symbol * factor), None));
                 }
             }
         }
-        for (lag, function) in form.forcing_terms().iter().enumerate() {
-            if function.is_zero() {
-                continue;
-            }
+        for (lag, function) in form.forcing_terms().iter() {
             let Statement { time, period, .. } = self.recurrence.statement();
             let late = period.scale(&Rational::from_integer(lag.into()));
             let function = function.substitute(time, &(&Fraction::symbol(time) - &late));

@@ -228,8 +228,8 @@ pub fn operator_of(recurrence: &Recurrence, unknown: &Unknown) -> String {
         let text = write_flat(&arrange(&sum, Some(&q)), Text);
         parts.push(format!("({text})*{}", recurrence.wave_name(wave)));
     }
-    let forcing = unknown.equation.forcing_terms().iter().any(|function| !function.is_zero());
-    parts.extend(forcing.then(|| "forcing".to_owned()));
+    let forced = !unknown.equation.forcing_terms().is_empty();
+    parts.extend(forced.then(|| "forcing".to_owned()));
     format!("{} = 0", parts.join(" + "))
 }
 

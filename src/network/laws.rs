@@ -434,7 +434,7 @@ impl Laws {
     /// A form that is continuous and starts at 0; a constant in it from time 0 on is its start.
     fn start(&mut self, mut form: LinearForm) {
         let mut start = Expression::zero();
-        if let Some(constant) = form.forcing_terms().first().cloned() {
+        if let Some(constant) = form.forcing_terms().get(0).cloned() {
             form.add_scaled(&LinearForm::forcing(constant.clone()), &-&one(), 0);
             start -= &constant;
         }

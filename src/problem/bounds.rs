@@ -33,7 +33,7 @@ fn constants_in_equations(recurrence: &Recurrence) -> usize {
             let mut rows = step
                 .equation
                 .operators()
-                .flat_map(|(_, operator)| operator.value.iter().chain(&operator.slope));
+                .flat_map(|(_, operator)| operator.value.values().chain(operator.slope.values()));
             rows.any(|value| value.contains(symbol))
         })
     };

@@ -2,7 +2,7 @@
 
 use crate::expression::{Expression, Fraction};
 use crate::recurrence::WaveIndex;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Neg;
 use wavestep_polynomial::Symbol;
 
@@ -13,31 +13,85 @@ use wavestep_polynomial::Symbol;
 /// ```
 ///
 /// # Invariants
-/// - coefficients are free of time; trailing zeros are dropped.
+/// - coefficients are free of time.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Operator {
     /// The coefficients of `w[n−j]`.
-    pub value: Vec<Expression>,
+    pub value: Lags,
     /// The coefficients of `w'[n−j]`.
-    pub slope: Vec<Expression>,
+    pub slope: Lags,
     /// The coefficients of `Σ_{i<n−j} w[i]`.
-    pub sum: Vec<Expression>,
+    pub sum: Lags,
 }
 
-fn add_at(row: &mut Vec<Expression>, lag: usize, coefficient: &Expression) {
-    if row.len() <= lag {
-        row.resize(lag + 1, Expression::zero());
+/// Expressions by lag. On a lattice of several periods lags are large numbers, and few of them occur.
+///
+/// # Invariants
+/// - lags ascend; no expression is zero.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Lags(Vec<(usize, Expression)>);
+
+impl Lags {
+    fn add(&mut self, lag: usize, value: &Expression) {
+        match self.0.binary_search_by_key(&lag, |(own, _)| *own) {
+            Ok(place) => {
+                self.0[place].1 += value;
+                if self.0[place].1.is_zero() {
+                    self.0.remove(place);
+                }
+            }
+            Err(_) if value.is_zero() => {}
+            Err(place) => self.0.insert(place, (lag, value.clone())),
+        }
     }
-    row[lag] += coefficient;
-    while row.last().is_some_and(Expression::is_zero) {
-        row.pop();
+
+    /// That of a lag, where it is not zero.
+    pub fn get(&self, lag: usize) -> Option<&Expression> {
+        let place = self.0.binary_search_by_key(&lag, |(own, _)| *own).ok()?;
+        Some(&self.0[place].1)
+    }
+
+    /// Those that are not zero, by lag.
+    pub fn iter(&self) -> impl Iterator<Item = (usize, &Expression)> {
+        self.0.iter().map(|(lag, value)| (*lag, value))
+    }
+
+    /// The same up to a lag.
+    pub fn until(&self, last: usize) -> impl Iterator<Item = (usize, &Expression)> {
+        self.iter().take_while(move |(lag, _)| *lag <= last)
+    }
+
+    /// Those that are not zero.
+    pub fn values(&self) -> impl Iterator<Item = &Expression> {
+        self.0.iter().map(|(_, value)| value)
+    }
+
+    /// One more than the largest lag.
+    pub fn reach(&self) -> usize {
+        self.0.last().map_or(0, |(lag, _)| lag + 1)
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// All up to the largest lag, as the coefficients of a polynomial.
+    pub(crate) fn dense(&self) -> Vec<Expression> {
+        (0..self.reach()).map(|lag| self.get(lag).cloned().unwrap_or_default()).collect()
     }
 }
 
 impl Operator {
     /// One more than the largest lag of a value or a slope.
     pub(crate) fn reach(&self) -> usize {
-        self.value.len().max(self.slope.len())
+        self.value.reach().max(self.slope.reach())
+    }
+
+    /// The lags of values and slopes, each once, ascending.
+    pub(crate) fn lags(&self) -> impl Iterator<Item = usize> {
+        let lags: BTreeSet<usize> =
+            self.value.iter().chain(self.slope.iter()).map(|(lag, _)| lag).collect();
+        lags.into_iter()
     }
 
     /// The coefficient of `w[n−lag]`.
@@ -62,11 +116,11 @@ impl Operator {
         self.value.is_empty() && self.slope.is_empty() && self.sum.is_empty()
     }
 
-    fn rows(&self) -> [&Vec<Expression>; 3] {
+    pub(crate) fn rows(&self) -> [&Lags; 3] {
         [&self.value, &self.slope, &self.sum]
     }
 
-    fn rows_mut(&mut self) -> [&mut Vec<Expression>; 3] {
+    fn rows_mut(&mut self) -> [&mut Lags; 3] {
         [&mut self.value, &mut self.slope, &mut self.sum]
     }
 }
@@ -81,7 +135,7 @@ impl Operator {
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct LinearForm {
     pub(crate) operators: BTreeMap<WaveIndex, Operator>,
-    pub(crate) forcing: Vec<Expression>,
+    pub(crate) forcing: Lags,
 }
 
 impl LinearForm {
@@ -92,28 +146,28 @@ impl LinearForm {
     /// A function of scene time.
     pub fn forcing(function: Expression) -> LinearForm {
         let mut form = LinearForm::zero();
-        add_at(&mut form.forcing, 0, &function);
+        form.forcing.add(0, &function);
         form
     }
 
     /// The wave `w[n−lag]`.
     pub fn wave(wave: WaveIndex, lag: usize) -> LinearForm {
         let mut form = LinearForm::zero();
-        add_at(&mut form.operators.entry(wave).or_default().value, lag, &Expression::one());
+        form.operators.entry(wave).or_default().value.add(lag, &Expression::one());
         form
     }
 
     /// The derivative `w'[n−lag]`.
     pub fn slope(wave: WaveIndex, lag: usize) -> LinearForm {
         let mut form = LinearForm::zero();
-        add_at(&mut form.operators.entry(wave).or_default().slope, lag, &Expression::one());
+        form.operators.entry(wave).or_default().slope.add(lag, &Expression::one());
         form
     }
 
     /// The sum `Σ_{i<n−lag} w[i]`.
     pub fn sum(wave: WaveIndex, lag: usize) -> LinearForm {
         let mut form = LinearForm::zero();
-        add_at(&mut form.operators.entry(wave).or_default().sum, lag, &Expression::one());
+        form.operators.entry(wave).or_default().sum.add(lag, &Expression::one());
         form
     }
 
@@ -125,8 +179,8 @@ impl LinearForm {
         self.operators.get(&wave).cloned().unwrap_or_default()
     }
 
-    /// The forcing by lag: `forcing_terms()[j]`, as a function of `t − jD`, acts from `t = jD` on.
-    pub fn forcing_terms(&self) -> &[Expression] {
+    /// The forcing by lag: that of lag `j`, as a function of `t − jD`, acts from `t = jD` on.
+    pub fn forcing_terms(&self) -> &Lags {
         &self.forcing
     }
 
@@ -143,7 +197,7 @@ impl LinearForm {
     }
 
     pub(crate) fn waves_now(&self) -> impl Iterator<Item = WaveIndex> + '_ {
-        let now = |row: &Vec<Expression>| row.first().is_some_and(|c| !c.is_zero());
+        let now = |row: &Lags| row.get(0).is_some();
         let occurs = move |operator: &Operator| now(&operator.value) || now(&operator.slope);
         self.operators().filter(move |(_, operator)| occurs(operator)).map(|(wave, _)| wave)
     }
@@ -153,14 +207,14 @@ impl LinearForm {
         for (wave, operator) in &other.operators {
             let own = self.operators.entry(*wave).or_default();
             for (own, other) in own.rows_mut().into_iter().zip(operator.rows()) {
-                for (lag, coefficient) in other.iter().enumerate() {
-                    add_at(own, lag + delay, &(coefficient * factor));
+                for (lag, coefficient) in other.iter() {
+                    own.add(lag + delay, &(coefficient * factor));
                 }
             }
         }
         self.operators.retain(|_, operator| !operator.is_zero());
-        for (lag, function) in other.forcing.iter().enumerate() {
-            add_at(&mut self.forcing, lag + delay, &(function * factor));
+        for (lag, function) in other.forcing.iter() {
+            self.forcing.add(lag + delay, &(function * factor));
         }
     }
 
@@ -177,10 +231,10 @@ impl LinearForm {
         if !operator.slope.is_empty() && by.has_slopes() {
             return false;
         }
-        for (lag, value) in operator.value.iter().enumerate() {
+        for (lag, value) in operator.value.iter() {
             self.add_scaled(by, value, lag);
         }
-        for (lag, slope) in operator.slope.iter().enumerate() {
+        for (lag, slope) in operator.slope.iter() {
             self.add_scaled(&by.derivative(time), slope, lag);
         }
         true
@@ -195,10 +249,10 @@ impl LinearForm {
         };
         let mut form = LinearForm {
             operators: self.operators.iter().map(derive).collect(),
-            forcing: Vec::new(),
+            forcing: Lags::default(),
         };
-        for (lag, function) in self.forcing.iter().enumerate() {
-            add_at(&mut form.forcing, lag, &function.derivative(time));
+        for (lag, function) in self.forcing.iter() {
+            form.forcing.add(lag, &function.derivative(time));
         }
         form
     }
@@ -212,7 +266,7 @@ impl LinearForm {
         let mut rest = self.clone();
         let mut differenced = LinearForm::zero();
         for (wave, operator) in &mut rest.operators {
-            for (lag, coefficient) in std::mem::take(&mut operator.sum).iter().enumerate() {
+            for (lag, coefficient) in std::mem::take(&mut operator.sum).iter() {
                 differenced.add_scaled(&LinearForm::wave(*wave, lag + 1), coefficient, 0);
             }
         }

@@ -16,7 +16,7 @@ mod recurrence;
 mod roots;
 mod statement;
 
-pub use form::{LinearForm, Operator};
+pub use form::{Lags, LinearForm, Operator};
 pub use notation::SourceNotation;
 pub(crate) use notation::SourceProduct;
 pub use ordering::{Coupled, Start, Step};

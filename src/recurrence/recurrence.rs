@@ -2,7 +2,7 @@
 
 use crate::expression::{Constant, Expression, Fraction};
 use crate::recurrence::WaveIndex;
-use crate::recurrence::form::LinearForm;
+use crate::recurrence::form::{Lags, LinearForm};
 use crate::recurrence::ordering::{self, Coupled, Ordered, Step};
 use crate::recurrence::statement::{
     Clause, Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave, Statement,
@@ -106,7 +106,8 @@ impl Recurrence {
                 || [Some(&step.equation), start.map(|s| &s.continuous)].into_iter().flatten();
             growth += forms().map(coefficient_degree).max().unwrap_or(0);
             growth += start.map_or(0, |_| period);
-            forcing += forms().flat_map(|f| f.forcing_terms()).map(degree).max().unwrap_or(0);
+            forcing +=
+                forms().flat_map(|f| f.forcing_terms().values()).map(degree).max().unwrap_or(0);
         }
         let start = continuity.iter().map(|rule| degree(&rule.start)).max().unwrap_or(0);
         start + forcing * period + (order as u64 + 1).saturating_mul(growth)
@@ -143,10 +144,10 @@ fn check_forms(statement: &Statement) -> Result<(), InvalidRecurrence> {
     let timeless = |value: &Expression| !value.contains(time) && !value.contains(local);
     let well_formed = |form: &LinearForm| {
         let operators = form.operators().all(|(wave, operator)| {
-            let rows = [&operator.value, &operator.slope, &operator.sum];
-            wave < waves.len() && rows.into_iter().flatten().all(timeless)
+            let mut values = operator.rows().into_iter().flat_map(Lags::values);
+            wave < waves.len() && values.all(timeless)
         });
-        let forcing = form.forcing_terms().iter().all(|function| {
+        let forcing = form.forcing_terms().values().all(|function| {
             !function.contains(local)
                 && function.terms().all(|(exponent, p)| {
                     !exponent.derivative(time).contains(time)
@@ -168,10 +169,8 @@ fn check_forms(statement: &Statement) -> Result<(), InvalidRecurrence> {
 
 /// The largest degree of a coefficient of a wave in a form.
 pub(crate) fn coefficient_degree(form: &LinearForm) -> u64 {
-    let rows = form.operators().flat_map(|(_, operator)| {
-        [&operator.value, &operator.slope, &operator.sum].into_iter().flatten()
-    });
-    rows.map(degree).max().unwrap_or(0)
+    let rows = form.operators().flat_map(|(_, operator)| operator.rows());
+    rows.flat_map(Lags::values).map(degree).max().unwrap_or(0)
 }
 
 /// The largest degree of a coefficient of an expression, its denominator counted as well.

@@ -1,7 +1,7 @@
 //! Whether a relation between waves follows from a recurrence, for every n at once.
 
 use crate::expression::Expression;
-use crate::recurrence::{LinearForm, Step};
+use crate::recurrence::{Lags, LinearForm, Step};
 use crate::solution::elimination::reduce;
 use crate::solution::solved::Solution;
 
@@ -52,7 +52,7 @@ impl Solution {
             if own.is_empty() {
                 continue;
             }
-            if law.first().is_none_or(Expression::is_zero) {
+            if law.get(0).is_none() {
                 return false;
             }
             let mut eliminated = times(&law, &rest);
@@ -64,9 +64,9 @@ impl Solution {
 }
 
 /// `c(q) form`.
-fn times(coefficients: &[Expression], form: &LinearForm) -> LinearForm {
+fn times(coefficients: &Lags, form: &LinearForm) -> LinearForm {
     let mut product = LinearForm::zero();
-    for (lag, coefficient) in coefficients.iter().enumerate() {
+    for (lag, coefficient) in coefficients.iter() {
         product.add_scaled(form, coefficient, lag);
     }
     product

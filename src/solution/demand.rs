@@ -65,12 +65,7 @@ impl Demand {
 /// The echoes that a form names for the coefficient of `q^k`.
 fn named(form: &LinearForm, k: usize) -> impl Iterator<Item = (WaveIndex, usize)> + '_ {
     form.operators().flat_map(move |(wave, operator)| {
-        let holds = move |lag: &usize| {
-            let at = |row: &[crate::expression::Expression]| {
-                row.get(*lag).is_some_and(|value| !value.is_zero())
-            };
-            at(&operator.value) || at(&operator.slope)
-        };
-        (0..operator.reach().min(k + 1)).filter(holds).map(move |lag| (wave, k - lag))
+        let lags = operator.value.until(k).chain(operator.slope.until(k));
+        lags.map(move |(lag, _)| (wave, k - lag))
     })
 }

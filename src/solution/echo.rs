@@ -116,7 +116,7 @@ impl<'a, F: Field> EchoByEcho<'a, F> {
                 right.add_product(field, &echo.differentiated(field)?, slope);
             }
         }
-        if let Some(forcing) = step.equation.forcing.get(k) {
+        if let Some(forcing) = step.equation.forcing.get(&k) {
             right.add(field, forcing);
         }
         let Some((pole, continuous, initial)) = &step.start else { return Ok(right) };
@@ -127,7 +127,7 @@ impl<'a, F: Field> EchoByEcho<'a, F> {
                 field.add_product(&mut jump, &echo.initial(field), value);
             }
         }
-        if let Some(forcing) = continuous.forcing.get(k) {
+        if let Some(forcing) = continuous.forcing.get(&k) {
             field.add(&mut jump, &forcing.initial(field));
         }
         let mut echo = right.over_pole(field, pole)?;

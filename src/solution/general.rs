@@ -101,7 +101,7 @@ fn sequence(step: &Step, form: &LinearForm, recurrence: &Recurrence) -> Option<G
     let one_minus_q = [Expression::one(), Expression::integer(-1)];
     let base = Generating {
         numerator: forcing.iter().map(|value| -value).collect(),
-        denominator: product(&operator.value, &one_minus_q),
+        denominator: product(&operator.value.dense(), &one_minus_q),
     };
     let constants = constant_forcing(form.forcing_terms(), time)?;
     let combined = base.combined(&multiplier(form, step.wave)?, &constants);
@@ -118,7 +118,7 @@ fn echoes(
     let (assumptions, time) = context(recurrence);
     let pole = OnePole::of(step, assumptions, time)?;
     let (template, from) = pole.template(&multiplier(form, step.wave)?)?;
-    let count = from.max(form.forcing_terms().len());
+    let count = from.max(form.forcing_terms().reach());
     if count > MAX_FIRST {
         return None;
     }

@@ -1,6 +1,7 @@
 //! Sequences `Σ_i c_i n^{j_i} λ_i^n`: the general form of algebraic recurrences.
 
 use crate::expression::{Assumptions, Expression};
+use crate::recurrence::Lags;
 use num_integer::Integer as _;
 use num_traits::{One, Signed, ToPrimitive};
 use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol};
@@ -266,7 +267,7 @@ fn solve_linear(mut rows: Vec<LinearRow>, assumptions: &Assumptions) -> Option<V
 }
 
 /// The forcing of a form where it does not depend on time, by lag.
-pub(crate) fn constant_forcing(forcing: &[Expression], time: &Symbol) -> Option<Vec<Expression>> {
-    let constant = forcing.iter().all(|function| !function.contains(time));
-    constant.then(|| forcing.to_vec())
+pub(crate) fn constant_forcing(forcing: &Lags, time: &Symbol) -> Option<Vec<Expression>> {
+    let constant = forcing.values().all(|function| !function.contains(time));
+    constant.then(|| forcing.dense())
 }

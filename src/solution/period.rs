@@ -139,12 +139,10 @@ impl<'a> PeriodByPeriod<'a> {
     fn earlier(&self, form: &LinearForm, wave: WaveIndex, n: usize) -> Vec<Earlier<'_>> {
         let mut earlier = Vec::new();
         for (other, operator) in form.operators() {
-            for lag in usize::from(other == wave)..operator.reach().min(n + 1) {
+            let is_known = |lag: &usize| *lag <= n && (*lag > 0 || other != wave);
+            for lag in operator.lags().filter(is_known) {
                 let (value, slope) = (operator.value_at(lag), operator.slope_at(lag));
-                if !(value.is_zero() && slope.is_zero()) {
-                    let piece = &self.waves[other][n - lag];
-                    earlier.push(Earlier { piece, value, slope });
-                }
+                earlier.push(Earlier { piece: &self.waves[other][n - lag], value, slope });
             }
         }
         earlier
@@ -167,8 +165,7 @@ impl<'a> PeriodByPeriod<'a> {
         let mut sum = self.forcing_at(form, n, &self.arrival(n))?;
         for (other, operator) in form.operators() {
             let first = usize::from(other == wave);
-            let values = operator.value.iter().enumerate().take(n + 1).skip(first);
-            for (lag, value) in values.filter(|(_, value)| !value.is_zero()) {
+            for (lag, value) in operator.value.until(n).filter(|(lag, _)| *lag >= first) {
                 let start = self.waves[other][n - lag].at_zero(&self.recurrence.statement().local);
                 sum.add_scaled(&start, value);
             }
@@ -180,10 +177,7 @@ impl<'a> PeriodByPeriod<'a> {
     fn end_of_form(&mut self, form: &LinearForm, n: usize) -> Result<Expression, Unsolvable> {
         let mut sum = self.forcing_at(form, n, &self.arrival(n + 1))?;
         for (wave, operator) in form.operators() {
-            for (lag, value) in operator.value.iter().enumerate().take(n + 1) {
-                if value.is_zero() {
-                    continue;
-                }
+            for (lag, value) in operator.value.until(n) {
                 let place = &mut self.ends[wave][n - lag];
                 if place.is_none() {
                     let Statement { local, period, .. } = self.recurrence.statement();
@@ -204,7 +198,7 @@ impl<'a> PeriodByPeriod<'a> {
         time: &Fraction,
     ) -> Result<Expression, Unsolvable> {
         let mut sum = Expression::zero();
-        for (lag, function) in form.forcing_terms().iter().enumerate().take(n + 1) {
+        for (lag, function) in form.forcing_terms().until(n) {
             let since = time - &self.arrival(lag);
             sum += &function.substitute(&self.recurrence.statement().time, &since)?;
         }

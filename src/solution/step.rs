@@ -1,7 +1,8 @@
 //! Steps of a recurrence with their coefficients in a field: what both ways of solving read.
 
-use crate::expression::{Expression, Field, Fraction, Transform};
-use crate::recurrence::{LinearForm, Recurrence, Step, WaveIndex};
+use crate::expression::{Field, Fraction, Transform};
+use crate::recurrence::{Lags, LinearForm, Recurrence, Step, WaveIndex};
+use std::collections::BTreeMap;
 
 /// A step with its coefficients in a field.
 pub(crate) struct FieldStep<V> {
@@ -15,7 +16,7 @@ pub(crate) struct FieldStep<V> {
 pub(crate) struct FieldForm<V> {
     pub terms: Vec<FieldTerm<V>>,
     /// Forcing by lag.
-    pub forcing: Vec<Transform<V>>,
+    pub forcing: BTreeMap<usize, Transform<V>>,
 }
 
 /// `value · w[n−lag] + slope · w'[n−lag]`, with a zero left out.
@@ -60,26 +61,22 @@ impl<V: Clone> FieldForm<V> {
         field: &F,
     ) -> Result<FieldForm<V>, F::Error> {
         let statement = recurrence.statement();
-        let coefficient = |row: &[Expression], lag: usize| {
-            let value = row.get(lag).filter(|value| !value.is_zero());
-            value.map(|value| field.embed(&-value)).transpose()
-        };
+        let coefficient =
+            |row: &Lags, lag: usize| row.get(lag).map(|value| field.embed(&-value)).transpose();
         let mut terms = Vec::new();
         for (wave, operator) in form.operators() {
-            for lag in usize::from(wave == own)..operator.reach() {
+            for lag in operator.lags().filter(|lag| *lag > 0 || wave != own) {
                 let value = coefficient(&operator.value, lag)?;
                 let slope = coefficient(&operator.slope, lag)?;
-                if value.is_some() || slope.is_some() {
-                    terms.push(FieldTerm { wave, lag, value, slope });
-                }
+                terms.push(FieldTerm { wave, lag, value, slope });
             }
         }
-        let mut forcing = Vec::new();
-        for function in form.forcing_terms() {
+        let mut forcing = BTreeMap::new();
+        for (lag, function) in form.forcing_terms().iter() {
             let local = Fraction::symbol(&statement.local);
             let function = (-function).substitute(&statement.time, &local)?;
             let exact = Transform::of(&function, &statement.local);
-            forcing.push(Transform::<V>::embedded(&exact, field)?);
+            forcing.insert(lag, Transform::<V>::embedded(&exact, field)?);
         }
         Ok(FieldForm { terms, forcing })
     }

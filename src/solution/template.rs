@@ -278,17 +278,17 @@ impl WeightedLags {
 fn source(step: &Step, time: &Symbol) -> Option<Vec<(Expression, Transform)>> {
     let start = step.start.as_ref()?;
     let mut jumps = vec![start.initial.clone()];
-    for (lag, function) in start.continuous.forcing_terms().iter().enumerate() {
+    for (lag, function) in start.continuous.forcing_terms().iter() {
         let mut row = vec![Expression::zero(); lag];
         row.push(-&function.at_zero(time));
         jumps = sum(&jumps, &row);
     }
     let operator = step.equation.operator(step.wave);
-    let numerator = product(&operator.slope, &jumps);
-    let constants = divide(&numerator, &start.continuous.operator(step.wave).value)?;
+    let numerator = product(&operator.slope.dense(), &jumps);
+    let constants = divide(&numerator, &start.continuous.operator(step.wave).value.dense())?;
     let forcing = step.equation.forcing_terms();
     let mut source = Vec::new();
-    for lag in 0..constants.len().max(forcing.len()) {
+    for lag in 0..constants.len().max(forcing.reach()) {
         let forced = |function: &Expression| Transform::of(&-function, time);
         let transform = forcing.get(lag).map_or_else(Transform::zero, forced);
         source.push((constants.get(lag).cloned().unwrap_or_default(), transform));
@@ -315,5 +315,5 @@ fn divide(p: &[Expression], d: &[Expression]) -> Option<Vec<Expression>> {
 pub(crate) fn multiplier(form: &LinearForm, wave: WaveIndex) -> Option<Vec<Expression>> {
     let operator = form.operator(wave);
     let alone = form.operators().all(|(other, _)| other == wave);
-    (alone && operator.slope.is_empty()).then_some(operator.value)
+    (alone && operator.slope.is_empty()).then(|| operator.value.dense())
 }

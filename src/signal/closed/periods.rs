@@ -213,7 +213,7 @@ impl Periods {
             }
         }
         // Forcing is continuous but for what begins now.
-        if let Some(forcing) = continuous.forcing.get(n) {
+        if let Some(forcing) = continuous.forcing.get(&n) {
             field.add(&mut start, &forcing.initial(&field));
         }
         Ok(start)
@@ -227,7 +227,7 @@ impl Periods {
     ) -> Result<Transform<ComplexBall>, EvaluateError> {
         let field = self.numbers.field(self.bits);
         let mut sum = Transform::zero();
-        for (lag, function) in form.forcing.iter().enumerate().take(n + 1) {
+        for (lag, function) in form.forcing.range(..=n) {
             let periods = Rational::from_integer((n - lag).into());
             let since = self.period.multiply_rational(&periods, self.bits);
             sum.add(&field, &later(function, &since, &self.numbers, self.bits)?);

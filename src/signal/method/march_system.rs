@@ -155,9 +155,9 @@ impl<'a> SystemBuilder<'a> {
     /// What acts from outside, by waves.
     fn forcing(&mut self, form: &FieldForm<ComplexBall>) -> Result<Weights, EnclosureError> {
         let mut weights = Weights::new();
-        for (lag, function) in form.forcing.iter().enumerate() {
+        for (lag, function) in &form.forcing {
             for (wave, weight) in self.source(function)? {
-                add(&mut weights, (wave, lag), &weight);
+                add(&mut weights, (wave, *lag), &weight);
             }
         }
         Ok(weights)

@@ -41,17 +41,17 @@ fn form_on_period(
     let mut total = Expression::zero();
     for (wave, operator) in form.operators() {
         let piece = |lag: usize| n.checked_sub(lag).map(|m| &pieces[wave][m]);
-        for (lag, coefficient) in operator.value.iter().enumerate() {
+        for (lag, coefficient) in operator.value.iter() {
             if let Some(piece) = piece(lag) {
                 total += &(piece * coefficient);
             }
         }
-        for (lag, coefficient) in operator.slope.iter().enumerate() {
+        for (lag, coefficient) in operator.slope.iter() {
             if let Some(piece) = piece(lag) {
                 total += &(&piece.derivative(&statement.local) * coefficient);
             }
         }
-        for (lag, coefficient) in operator.sum.iter().enumerate() {
+        for (lag, coefficient) in operator.sum.iter() {
             for earlier in &pieces[wave][..n.saturating_sub(lag)] {
                 total += &(earlier * coefficient);
             }
@@ -59,7 +59,7 @@ fn form_on_period(
     }
     let start = statement.period.scale(&Rational::from_integer(n.into()));
     let now = &Fraction::symbol(&statement.local) + &start;
-    for (lag, function) in form.forcing_terms().iter().enumerate().take(n + 1) {
+    for (lag, function) in form.forcing_terms().until(n) {
         let late = statement.period.scale(&Rational::from_integer(lag.into()));
         let since = &now - &late;
         total += &function.substitute(&statement.time, &since).expect("time is in no denominator");

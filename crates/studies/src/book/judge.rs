@@ -58,7 +58,7 @@ impl Stage {
             let rows: [(_, Of); 2] =
                 [(&operator.value, LinearForm::wave), (&operator.slope, LinearForm::slope)];
             for (row, of) in rows {
-                for (lag, factor) in row.iter().enumerate().filter(|(_, c)| !c.is_zero()) {
+                for (lag, factor) in row.iter() {
                     let lag = lag.checked_sub(AHEAD).filter(|lag| *lag <= 1)?;
                     form.add_scaled(&of(wave, lag), factor, 0);
                 }
@@ -92,7 +92,7 @@ impl Stage {
     /// A relation between waves: its first periods one by one, then every n at once.
     fn relation(&self, form: &LinearForm, sides: [&Meaning; 2]) -> Result<Finding, Refusal> {
         // A wave from many periods ago is zero on the first ones.
-        let reach = form.operators().map(|(_, o)| o.value.len().max(o.slope.len()));
+        let reach = form.operators().map(|(_, o)| o.value.reach().max(o.slope.reach()));
         let last = LAST + reach.max().unwrap_or(0).saturating_sub(AHEAD + 1);
         for n in 0..=last {
             if !self.on_period(form, n)?.is_zero() {
@@ -151,10 +151,7 @@ impl Stage {
             if !operator.slope.is_empty() || !operator.sum.is_empty() {
                 return Ok(None);
             }
-            for (lag, factor) in operator.value.iter().enumerate() {
-                if factor.is_zero() {
-                    continue;
-                }
+            for (lag, factor) in operator.value.iter() {
                 // The wave on period n + AHEAD − lag is the sum where that is at least as many as
                 // come first; the periods before have been compared one by one.
                 if sequence.first.len() + lag > AHEAD + LAST {
@@ -172,7 +169,7 @@ impl Stage {
             }
         }
         let time = &self.solution().recurrence().statement().time;
-        for (lag, function) in form.forcing_terms().iter().enumerate() {
+        for (lag, function) in form.forcing_terms().iter() {
             if function.contains(time) || lag > AHEAD + LAST {
                 return Ok(None);
             }
@@ -185,7 +182,7 @@ impl Stage {
         let start = start.as_expression()?;
         let lead = |form: &LinearForm| {
             let (_, operator) = form.operators().next()?;
-            operator.value.iter().find(|value| !value.is_zero()).cloned()
+            operator.value.values().next().cloned()
         };
         let own = lead(&form.waves).ok_or(Refusal::DependsOnPeriod)?;
         for step in self.solution().recurrence().steps() {

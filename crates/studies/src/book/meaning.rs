@@ -181,7 +181,7 @@ impl<'a> Interpreter<'a> {
         if self.summed == Some(base.value.as_str()) {
             // Σ_{i<n} of values alone.
             for (own, operator) in form.operators() {
-                for (j, factor) in operator.value.iter().enumerate() {
+                for (j, factor) in operator.value.iter() {
                     waves.add_scaled(&LinearForm::sum(own, j + lag), factor, 0);
                 }
             }

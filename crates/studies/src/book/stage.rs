@@ -154,7 +154,7 @@ impl Stage {
         let (wave, operator) = operators.next()?;
         let alone = operators.next().is_none() && operator.slope.is_empty();
         let unit = operator.value.get(AHEAD)?;
-        let here = operator.value.iter().filter(|value| !value.is_zero()).count() == 1;
+        let here = operator.value.iter().count() == 1;
         (alone && here).then(|| (wave, unit.clone()))
     }
 
@@ -217,24 +217,20 @@ impl Stage {
         let n = n + AHEAD;
         let mut value = Expression::zero();
         for (wave, operator) in form.operators() {
-            for (lag, factor) in operator.value.iter().enumerate().take(n + 1) {
-                if !factor.is_zero() {
-                    value += &(factor * &self.piece(wave, n - lag)?);
-                }
+            for (lag, factor) in operator.value.until(n) {
+                value += &(factor * &self.piece(wave, n - lag)?);
             }
-            for (lag, factor) in operator.slope.iter().enumerate().take(n + 1) {
-                if !factor.is_zero() {
-                    let slope = self.piece(wave, n - lag)?.derivative(&statement.local);
-                    value += &(factor * &slope);
-                }
+            for (lag, factor) in operator.slope.until(n) {
+                let slope = self.piece(wave, n - lag)?.derivative(&statement.local);
+                value += &(factor * &slope);
             }
-            for (lag, factor) in operator.sum.iter().enumerate().take(n + 1) {
+            for (lag, factor) in operator.sum.until(n) {
                 for earlier in 0..n - lag {
                     value += &(factor * &self.piece(wave, earlier)?);
                 }
             }
         }
-        for (lag, function) in form.forcing_terms().iter().enumerate().take(n + 1) {
+        for (lag, function) in form.forcing_terms().until(n) {
             // The function of t − lag D at t = n D + s.
             let since = statement.period.scale(&Rational::from_integer((n - lag).into()));
             let time = &Fraction::symbol(&statement.local) + &since;
