@@ -237,7 +237,9 @@ fn for_network(error: &NetworkError) -> Option<&'static str> {
             "give values with --set; or state the elements by their rates a and b, or sigma and \
              omega, as docs/scene-language.md shows"
         }
-        NetworkError::NotLinear(_) => "ask for values, with `eval`",
+        NetworkError::NotLinear(_) => {
+            "ask for values, with `eval`: its methods certified, compiled and steps serve such a scene"
+        }
         NetworkError::Division(_) => VALUES,
         _ => return None,
     })
