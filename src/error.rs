@@ -248,10 +248,12 @@ fn remedy(error: &ProblemError) -> Option<String> {
         ProblemError::NotBuiltIn(_) => {
             format!("the built-in scenes are {}", SCENES.map(|scene| scene.name).join(", "))
         }
-        ProblemError::Unknown { names, .. } if names.is_empty() => {
+        ProblemError::Unknown { names, .. } | ProblemError::UnknownThere { names, .. }
+            if names.is_empty() =>
+        {
             "nothing is observed here: add a line such as `observe v = velocity(NAME)`".to_owned()
         }
-        ProblemError::Unknown { name, names } => {
+        ProblemError::Unknown { name, names } | ProblemError::UnknownThere { name, names, .. } => {
             match closest(name, names.iter().map(String::as_str)) {
                 Some(name) => format!("did you mean `{name}`?"),
                 None => format!("ask for one of {}", names.join(", ")),
@@ -298,6 +300,7 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
             "ask for an observable, or leave out `contacts open`"
         }
         ProblemError::Equations(_) => DESCRIBE,
+        ProblemError::Apart { .. } => "compare scenes with the same units",
         ProblemError::NoClosedForm { .. } => {
             "ask for values of its observables, which any line has"
         }

@@ -12,7 +12,9 @@ use crate::expression::{Fraction, Root};
 use crate::history::{self, FollowedSignal, Follower, HistoryError};
 use crate::network::{FieldBars, Network, Observed, ObservedValue, Squared, Term};
 use crate::recurrence::Observation;
-use crate::signal::{ClosedForm, ClosedSignal, EvaluateError, Signal, Taps};
+use crate::signal::{
+    ClosedForm, ClosedSignal, Difference, EvaluateError, Operation, Scale, Signal, Taps,
+};
 use num_traits::Zero as _;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
@@ -91,6 +93,17 @@ pub fn of_scene<'a>(
     purpose: Purpose,
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
     chosen(network, observed, window, purpose).map(|(_, signal)| signal)
+}
+
+/// How far a signal of one scene is from one of another, both on this window and in one unit.
+pub(crate) fn difference<'a>(
+    networks: [&'a Network; 2],
+    operands: [Box<dyn Signal + 'a>; 2],
+    window: [&Rational; 2],
+) -> Box<dyn Signal + 'a> {
+    let scales = networks.map(Scale::of);
+    let (scale, unit) = (Rc::clone(&scales[0]), Root::from(Fraction::one()));
+    Box::new(Operation::new(&scale, Difference { scales, operands }, unit, window))
 }
 
 /// The same, with the source that it comes from.

@@ -44,6 +44,10 @@ pub enum ProblemError {
     Unknown { name: String, names: Vec<String> },
     #[error("{0} is a wave of the closed contacts, which open in this scene")]
     WaveOfClosedContacts(String),
+    #[error("`{name}` is neither a wave nor an observable of \"{title}\"")]
+    UnknownThere { name: String, title: String, names: Vec<String> },
+    #[error("`{name}` has another unit in \"{title}\"")]
+    Apart { name: String, title: String },
     #[error("\"{0}\" states equations, and no bars along which to look")]
     Equations(String),
     #[error("{}", NetworkError::NotLinear(contact.clone()))]

@@ -3,6 +3,7 @@
 mod answers;
 mod ball;
 mod derivations;
+mod differences;
 mod enclosure;
 mod energies;
 mod entering_waves;

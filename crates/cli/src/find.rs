@@ -23,9 +23,17 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     let window = problem.window(("--from", &options.from), ("--to", to.unwrap_or_default()))?;
     // What is given wrongly is told before any work is done.
     let level = problem.quantity("--level", written, wanted.dimension)?;
+    let other = options.minus.as_deref().map(|scene| other(scene, options)).transpose()?;
+    let signal = match &other {
+        None => problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?,
+        Some(other) => problem.difference_on(other, &wanted, window.each_ref(), Purpose::Search)?,
+    };
+    let name = &match &options.minus {
+        None => name.to_owned(),
+        Some(scene) => format!("{name} - {name} of {scene}"),
+    };
     let told =
         Told { options, name, level: written, problem: &problem, wanted: &wanted, window: &window };
-    let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?;
     let search = Search::new(&*signal)?;
     let progress = progress::spinner("searching");
     let (digits, limit_bits) = (options.digits, options.max_bits);
@@ -45,8 +53,19 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     };
     if found.is_ok() {
         validity::note_pulling(&problem, &window[1]);
+        if let Some(other) = &other {
+            validity::note_pulling(other, &window[1]);
+        }
     }
     found
+}
+
+/// The scene that is compared with, with those of the values that it has symbols for.
+fn other(scene: &str, options: &Find) -> Result<input::Asked, Failure> {
+    let symbols = input::problem_with(scene, &Default::default())?;
+    let mut values = input::values(&options.scene.set)?;
+    values.retain(|name, _| symbols.symbols().contains(&name.as_str()));
+    input::problem_with(scene, &values)
 }
 
 /// What was found, as a failure where some of it stays undecided.

@@ -40,6 +40,9 @@ const HALVINGS: usize = 6;
 /// The length of polynomials.
 const TERMS: usize = 20;
 
+/// The same for a long cell on which a function is small.
+const LONG_TERMS: [usize; 2] = [64, 192];
+
 /// A remainder has to be smaller than what is left of a polynomial by so many bits.
 const REMAINDER_BITS: i64 = 8;
 
@@ -49,6 +52,9 @@ const RELATIVE_BITS: i64 = 64;
 
 /// What is smaller than the waves it is the sum of by so many bits may be zero.
 const CANCELLED_BITS: i64 = 100;
+
+/// Where nothing is told from zero, no shorter cell tells more of what is smaller than its terms by so many bits.
+const NOISE_BITS: i64 = 56;
 
 /// What is proven of a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -119,6 +125,8 @@ struct Cover<'a, 's, 'b> {
     flatness: [OnceCell<usize>; 2],
     /// The largest coefficient seen.
     scale: Magnitude,
+    /// What is not told from zero, and as small as this, stays so.
+    noise: Magnitude,
     /// How many times polynomials were worked out.
     expansions: usize,
     cells: Vec<Cell>,
@@ -144,7 +152,8 @@ impl Search<'_> {
             Ok::<_, EvaluateError>(Attempt::of(size, error.scale(RELATIVE_BITS) <= size))
         };
         let size = self.precisions(target).raise(attempt)?.best();
-        let (scale, cells) = (size.scale(-CANCELLED_BITS), Vec::new());
+        let (scale, noise) = (size.scale(-CANCELLED_BITS), size.scale(-NOISE_BITS));
+        let cells = Vec::new();
         let (bounds, flatness) = ([from.clone(), to.clone()], Default::default());
         let search = self;
         let mut cover = Cover {
@@ -155,6 +164,7 @@ impl Search<'_> {
             bounds,
             flatness,
             scale,
+            noise,
             expansions: 0,
             cells,
         };
@@ -211,6 +221,26 @@ impl Search<'_> {
         let (middle, half) = middle_and_half(from, to);
         Ok(range_of(&self.expand(stretch, target, (&middle, &half), 8, bits)?))
     }
+
+    /// The same where a cell may be long and the values on it small: with as many terms as it takes.
+    pub(crate) fn range_of_small(
+        &self,
+        stretch: usize,
+        target: Target<'_>,
+        (from, to): (&Rational, &Rational),
+        bits: u64,
+    ) -> Result<Ball, EvaluateError> {
+        let (middle, half) = middle_and_half(from, to);
+        let of = |terms| self.expand(stretch, target, (&middle, &half), terms, bits);
+        let mut taylor = of(TERMS)?;
+        for terms in LONG_TERMS {
+            if is_sharp(&taylor) {
+                break;
+            }
+            taylor = of(terms)?;
+        }
+        Ok(range_of(&taylor))
+    }
 }
 
 impl Cover<'_, '_, '_> {
@@ -255,8 +285,9 @@ impl Cover<'_, '_, '_> {
             return Ok(());
         }
         let sharp = expansion.polynomials.iter().all(is_sharp);
-        let hopeless =
-            sharp && expansion.polynomials[0].coefficients.iter().all(Ball::contains_zero);
+        let own = &expansion.polynomials[0];
+        let hopeless = own.coefficients.iter().all(Ball::contains_zero)
+            && (sharp || range_of(own).magnitude() <= self.noise);
         if hopeless || depth >= DEPTH {
             self.push(from, to, Finding::Open);
             return Ok(());

@@ -291,7 +291,7 @@ impl Contenders<'_, '_> {
                 range_of(&search.expand(root.stretch, target, (&middle, &half), 8, working)?)
             }
             Candidate::Open { stretch, from, to } => {
-                search.range(*stretch, target, (from, to), working)?
+                search.range_of_small(*stretch, target, (from, to), working)?
             }
         };
         Ok(self.signed(value))

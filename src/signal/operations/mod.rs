@@ -1,4 +1,4 @@
-//! Operations on signals of one scene: sums of products, and integrals.
+//! Operations on signals: sums of products and integrals of those of one scene, differences of those of two.
 //!
 //! The stretches of the result are cut where an operand breaks. Breaks of two operands that are the same
 //! exact instant are one, whatever their enclosures tell; others are put in order by enclosures that are
@@ -8,11 +8,13 @@
 mod balanced;
 mod combination;
 mod constant;
+mod difference;
 mod integral;
 
 pub(crate) use balanced::Balanced;
 pub(crate) use combination::{Combination, Product};
 pub(crate) use constant::Constant;
+pub(crate) use difference::Difference;
 pub(crate) use integral::Integral;
 
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};

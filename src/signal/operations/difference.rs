@@ -1,0 +1,135 @@
+//! The difference of two signals of two scenes: how far one is from the other.
+//!
+//! Each scene has a scale of its own. A delay of the second is told in the scale of the first where it holds but numbers,
+//! `pi` and square roots, which mean the same everywhere; so what happens in both scenes at once is one break.
+
+use super::{Mark, Outcome, Rule, Scale, value_at};
+use crate::ball::Ball;
+use crate::expression::{Expression, Fraction};
+use crate::scene::PI;
+use crate::signal::{Effort, Enclosure, Instant, Known, Limit, Signal, Taylor};
+use std::ops::Range;
+use std::rc::Rc;
+use wavestep_polynomial::Rational;
+
+/// # Invariants
+/// - both operands have the window of the difference, and values in one unit.
+pub(crate) struct Difference<'a> {
+    pub scales: [Rc<Scale<'a>>; 2],
+    pub operands: [Box<dyn Signal + 'a>; 2],
+}
+
+/// Whether it means the same in every scene.
+fn is_common(time: &Fraction) -> bool {
+    let symbols = Expression::from(time.clone()).symbols();
+    symbols.iter().all(|symbol| symbol.square().is_some() || symbol.name() == PI)
+}
+
+impl<'a> Difference<'a> {
+    /// A time in the scale of one scene, in that of the other.
+    fn rescaled(&self, time: &Fraction, [from, to]: [usize; 2]) -> Option<Fraction> {
+        let inverse = self.scales[from].slowness().inverse().ok()?;
+        let time = &(time * &inverse) * self.scales[to].slowness();
+        is_common(&time).then_some(time)
+    }
+
+    fn both<T>(
+        &self,
+        places: &[usize],
+        ask: impl Fn(&(dyn Signal + 'a), usize) -> Outcome<T>,
+    ) -> Outcome<[T; 2]> {
+        let [own, other] = &self.operands;
+        Ok([ask(&**own, places[0])?, ask(&**other, places[1])?])
+    }
+}
+
+impl Rule for Difference<'_> {
+    fn ranges(&self) -> Outcome<Vec<Range<usize>>> {
+        self.operands.iter().map(|operand| Ok(0..operand.count()?)).collect()
+    }
+
+    fn mark(&self, operand: usize, place: usize) -> Mark<'_> {
+        let mark = Mark::of(&*self.operands[operand], place);
+        let known = match (operand, &mark.instant) {
+            (0, _) => return mark,
+            (_, Some(Instant { event: None, delay, .. })) => self.rescaled(delay, [1, 0]),
+            _ => None,
+        };
+        Mark { instant: known.map(|delay| self.scales[0].instant(delay)), ..mark }
+    }
+
+    fn is_instant(&self, operand: usize, place: usize) -> bool {
+        self.operands[operand].is_instant(place)
+    }
+
+    fn is_zero(&self, places: &[usize]) -> bool {
+        self.operands.iter().zip(places).all(|(operand, place)| operand.is_zero(*place))
+    }
+
+    fn terms(
+        &self,
+        places: &[usize],
+        order: usize,
+        at: &Mark<'_>,
+        bits: u64,
+    ) -> Outcome<Vec<Ball>> {
+        let [own, other] =
+            self.both(places, |operand, place| value_at(operand, place, order, at, bits))?;
+        Ok(vec![own, other.negate()])
+    }
+
+    fn taylor(
+        &self,
+        places: &[usize],
+        order: usize,
+        around: (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Outcome<Taylor> {
+        let [mut own, other] =
+            self.both(places, |operand, place| operand.taylor(place, order, around, terms, bits))?;
+        own.add(other.scaled(&Ball::from_integer(&(-1).into()), bits), bits);
+        Ok(own)
+    }
+
+    /// Numbers alone mean the same in both scenes.
+    fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {
+        let times = [at.clone(), self.rescaled(at, [0, 1])?];
+        let number = |operand: usize| {
+            let value = &self.operands[operand];
+            value.exact_at(places[operand], &times[operand], effort)?.as_constant()
+        };
+        Some(Expression::constant(&(number(0)? - number(1)?)))
+    }
+
+    fn slope_vanishes(&self, places: &[usize], end: Limit) -> Outcome<bool> {
+        let vanish = self.both(places, |operand, place| operand.slope_vanishes(place, end))?;
+        Ok(vanish == [true; 2])
+    }
+
+    fn flatness(&self, places: &[usize], end: Limit, order: usize) -> Outcome<usize> {
+        let [own, other] =
+            self.both(places, |operand, place| operand.flatness(place, end, order))?;
+        Ok(own.min(other))
+    }
+
+    fn point(&self, at: &Rational, side: Limit) -> Outcome<(Known, Enclosure<'_>, u64)> {
+        let [own, other] = self.operands.each_ref().map(|operand| operand.point(at, side));
+        let (own, other) = (own?, other?);
+        let most_bits = own.most_bits.min(other.most_bits);
+        let known = match (&own.known, &other.known) {
+            (Known::Rational(own), Known::Rational(other)) => Known::Rational(own - other),
+            _ => Known::Unknown,
+        };
+        let enclose = move |bits| Ok((own.enclose)(bits)?.subtract(&(other.enclose)(bits)?, bits));
+        Ok((known, Box::new(enclose), most_bits))
+    }
+
+    fn most_bits(&self) -> u64 {
+        self.operands.iter().map(|operand| operand.most_bits()).min().unwrap_or(u64::MAX)
+    }
+
+    fn echoes(&self) -> Option<(usize, usize)> {
+        None
+    }
+}

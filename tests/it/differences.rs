@@ -1,0 +1,110 @@
+//! How far a scene is from a simpler one: the proven distance against samples, and instants that are one in both.
+
+use wavestep::planner::Purpose;
+use wavestep::signal::{Search, Signal};
+use wavestep::{Goal, Problem, Value};
+use wavestep_polynomial::Rational;
+
+const ROD: &str = "scene \"A mass on a fixed rod\"\nsymbol mu > 0\nbar rod { impedance = 1, travel = 1 }\n\
+    mass m { mass = 1/mu, velocity = 1 }\nline free - m - rod - fixed\nobserve v = velocity(m)";
+
+/// The rod as a spring, and a third of its mass moving with the other.
+const THIRD: &str = "scene \"A third of its mass\"\nsymbol mu > 0\nspring rod { stiffness = 1 }\n\
+    mass m { mass = 1/mu + 1/3, velocity = 1/(1 + mu/3) }\nline free - m - rod - fixed\nobserve v = velocity(m)";
+
+fn read(text: &str, mu: &str) -> Problem {
+    Problem::read("test.wave", text).unwrap().with("mu", mu).unwrap()
+}
+
+/// Asks the difference of a quantity on a window that begins at 0.
+fn ask<T>(
+    [own, other]: [&Problem; 2],
+    name: &str,
+    to: Rational,
+    ask: impl FnOnce(&dyn Signal) -> T,
+) -> T {
+    let (wanted, from) = (own.wanted(name).unwrap(), Rational::default());
+    ask(&*own.difference_on(other, &wanted, [&from, &to], Purpose::Search).unwrap())
+}
+
+fn extremes(problems: [&Problem; 2], name: &str, to: Rational) -> [Value; 2] {
+    ask(problems, name, to, |signal| {
+        let search = Search::new(signal).unwrap();
+        [Goal::Smallest, Goal::Largest]
+            .map(|goal| search.extremum(goal, 12, 1 << 12).unwrap().value)
+    })
+}
+
+fn whole(number: i64) -> Rational {
+    Rational::from_integer(number.into())
+}
+
+/// The largest differences hold all samples, and are hardly larger than the largest of these.
+#[test]
+fn a_distance_is_that_of_samples() {
+    for mu in ["1/100", "1/10", "1", "10"] {
+        let [rod, third] = [ROD, THIRD].map(|text| read(text, mu));
+        let [least, most] = extremes([&rod, &third], "v", whole(12)).map(|value| value.to_f64());
+        let times: Vec<f64> = (0..=120_000).map(|i| f64::from(i) / 1e4).collect();
+        let values = [&rod, &third].map(|problem| {
+            let found = problem.signal("v").unwrap().values(&times, "abs:1e-12".parse().unwrap());
+            found.unwrap().values
+        });
+        let differences = values[0].iter().zip(&values[1]).map(|(own, other)| own - other);
+        let ends = differences.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], own| {
+            [low.min(own), high.max(own)]
+        });
+        assert!(
+            least <= ends[0] + 2e-12 && ends[1] - 2e-12 <= most,
+            "{mu}: {least} {most} {ends:?}"
+        );
+        assert!(ends[0] - least < 1e-6 && most - ends[1] < 1e-6, "{mu}: {least} {most} {ends:?}");
+    }
+}
+
+/// The same motion in two scales: the difference is zero to all digits, and their breaks are one.
+#[test]
+fn a_scene_is_no_distance_from_itself() {
+    let other = ROD.replace("impedance = 1", "impedance = 7").replace("1/mu", "7/mu");
+    let [rod, other] = [ROD, &other].map(|text| read(text, "2/3"));
+    for value in extremes([&rod, &other], "v", whole(7)) {
+        assert!(value.to_f64().abs() < 1e-30, "{value:?}");
+    }
+    let counts = [[&rod, &other], [&rod, &rod]]
+        .map(|both| ask(both, "v", whole(7), |signal| signal.count().unwrap()));
+    assert_eq!(counts, [4; 2]);
+}
+
+/// With units the times of echoes are no rational numbers; those of the same bars are still one break.
+#[test]
+fn breaks_of_the_same_bars_are_one() {
+    let text = include_str!("../../scenes/hopkinson.wave");
+    let own = Problem::read("hopkinson.wave", text).unwrap();
+    let softer = text.replace("stiffness = 40 kN/mm", "stiffness = 30 kN/mm");
+    assert_ne!(text, softer);
+    let softer = Problem::read("softer.wave", softer).unwrap();
+    let to = Rational::new(1.into(), 2000.into());
+    let stretches = |both| ask(both, "force", to.clone(), |signal| signal.count().unwrap());
+    assert_eq!(stretches([&own, &softer]), stretches([&own, &own]));
+    let [least, most] = extremes([&own, &softer], "force", to).map(|value| value.to_f64());
+    assert!(least <= 0.0 && most > 1000.0, "{least} {most}");
+}
+
+/// What no difference is asked of is told.
+#[test]
+fn what_has_no_difference_is_told() {
+    let told = |other: Problem| {
+        let rod = read(ROD, "1");
+        let (wanted, window) = (rod.wanted("v").unwrap(), [&whole(0), &whole(1)]);
+        let found = rod.difference_on(&other, &wanted, window, Purpose::Search);
+        wavestep::Error::from(found.err().expect("they have no difference")).to_string()
+    };
+    let spring = read(&THIRD.replace("observe v", "observe w"), "1");
+    assert!(told(spring).contains("neither a wave nor an observable of \"A third of its mass\""));
+    let with_units = Problem::read(
+        "units.wave",
+        "scene \"U\"\nbar rod { impedance = 1 kg/s, travel = 1 s }\nmass m { mass = 1 kg, velocity = 1 m/s }\n\
+         line free - m - rod - fixed\nobserve v = velocity(m)",
+    );
+    assert!(told(with_units.unwrap()).contains("has another unit"));
+}
