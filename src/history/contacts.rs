@@ -387,7 +387,8 @@ impl Engine {
         Ok(())
     }
 
-    /// The springs that stand for pressed local contacts become as stiff as these are now.
+    /// Replaces the springs that stand for the local contacts of a node by ones about as stiff as these are now, if
+    /// they differ much.
     pub fn follow_stiffness(&mut self, node: usize) -> Outcome<()> {
         let state = &self.states[node];
         if state.passivity.is_near(&state.state) {

@@ -158,9 +158,9 @@ impl System<Number> {
                 let own: Vec<Number> =
                     course.columns.iter().map(|column| column[place].clone()).collect();
                 let entry = |size: &Magnitude| block.entry(place, size);
-                // A gap that closes is zero then, whatever else is known of its node.
-                let begins_there = own.first().is_none_or(Number::is_zero);
-                let at_start = match begins_there && start[*member].is_zero() {
+                // What is exactly zero at the start has no error there, however large that of its block.
+                let starts_at_zero = own.first().is_none_or(Number::is_zero);
+                let at_start = match starts_at_zero && start[*member].is_zero() {
                     true => Magnitude::ZERO,
                     false => entry(&course.at_start),
                 };
@@ -323,7 +323,7 @@ impl System<Number> {
     }
 
     /// The next coefficients of a block after those of x^k.
-    fn next(
+    pub(super) fn next(
         &self,
         block: &Block,
         column: &[Number],

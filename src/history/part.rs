@@ -172,8 +172,8 @@ impl Engine {
         }
     }
 
-    /// Whether a part is known to be exactly zero just before an instant: the force of a contact that
-    /// opens since it came to zero; and the compression of a local one, minus its gap, that opens or closes.
+    /// Whether a part is known to be exactly zero just before an instant: the force of a contact that opens because it
+    /// came to zero; the compression of a local contact, while open its negative gap, that opens or closes by itself.
     pub fn vanishes_before(&self, part: &Part, moment: &Moment) -> bool {
         let Source::Node { node, quantity } = part.source else { return false };
         let own = &self.nodes[node];
@@ -183,10 +183,10 @@ impl Engine {
             NodeQuantity::Velocity(_) | NodeQuantity::Displacement(_) => false,
         });
         let Some(((contact, _), _)) = contact else { return false };
-        let is_gap = matches!(quantity, NodeQuantity::Compression(_));
+        let is_compression = matches!(quantity, NodeQuantity::Compression(_));
         let mut happenings = self.happenings.iter().filter(|own| own.contact == contact);
         happenings.any(|own| {
-            own.cause == Cause::Crossing && (is_gap || !own.closes) && own.moment == *moment
+            own.cause == Cause::Crossing && (is_compression || !own.closes) && own.moment == *moment
         })
     }
 

@@ -6,8 +6,8 @@
 //! bounded by one number, which grows with what arrives and dies out as the motion itself does, however
 //! many cells the time is cut into.
 //!
-//! A local contact that is pressed counts as the spring that it is where a cell begins; `pressing` adds what it
-//! differs from that.
+//! A local contact that is pressed counts as a spring about as stiff as it is where a cell begins; `pressing` adds what
+//! it differs from that.
 
 use crate::ball::{Ball, BallError, Magnitude, Number};
 use crate::history::pressing::Pressed;
@@ -74,15 +74,16 @@ pub struct Passivity {
 }
 
 impl Passivity {
-    /// Local contacts count as springs that are as stiff as may be.
+    /// With the largest spring for each local contact: its rate bounds that of every softer one, which scales the
+    /// matrix of the norm down.
     ///
     /// # Errors
     /// [`BallError::DivisorMayBeZero`] for a mass or a stiffness of which it is not known.
     pub fn of(node: &Node<Number>, system: &System<Number>) -> Result<Passivity, BallError> {
-        Passivity::beside(Pressed::all(node, system, None)?, node, system)
+        Passivity::with_springs(Pressed::all(node, system, None)?, node, system)
     }
 
-    /// Local contacts count as springs that are as stiff as they are at this state.
+    /// With springs about as stiff as the local contacts are at this state.
     ///
     /// # Errors
     /// As [`Passivity::of`].
@@ -91,10 +92,10 @@ impl Passivity {
         system: &System<Number>,
         now: &[Number],
     ) -> Result<Passivity, BallError> {
-        Passivity::beside(Pressed::all(node, system, Some(now))?, node, system)
+        Passivity::with_springs(Pressed::all(node, system, Some(now))?, node, system)
     }
 
-    fn beside(
+    fn with_springs(
         pressed: Vec<Pressed>,
         node: &Node<Number>,
         system: &System<Number>,
@@ -143,7 +144,8 @@ impl Passivity {
         self.blocks.iter().flat_map(|block| &block.pressed).all(|pressed| pressed.is_near(now))
     }
 
-    /// Errors in the norms of other springs: they are larger at most by the root of how much stiffer these are.
+    /// The same errors in the norms of these springs, of the same system: larger by at most the root of the ratio of
+    /// stiffnesses.
     pub fn carried(&self, before: &Passivity, errors: &[StateError]) -> Vec<StateError> {
         let both = self.blocks.iter().zip(&before.blocks).zip(errors);
         both.map(|((block, before), error)| match block.pressed.is_empty() {
@@ -227,7 +229,7 @@ impl Block {
         self
     }
 
-    /// How much larger sizes are at most than with other weights.
+    /// The largest ratio of a size in these weights to that in others, at least one.
     fn stretch_of(&self, before: &Block) -> Magnitude {
         let both = self.roots.iter().zip(&before.inverse_roots);
         let stretches = both.map(|(root, inverse)| root.multiply(inverse));

@@ -17,7 +17,7 @@ use crate::ball::{BallError, Magnitude, Number};
 use crate::history::motion::{Added, Course, Given, Motion};
 use crate::history::passivity::{Block, Passivity, StateError};
 use crate::history::series::{CellNorm, Roughness, Series, Truncation};
-use crate::network::{ElementLaw, Node, System, dot};
+use crate::network::{ElementLaw, Node, System};
 use crate::signal::Signed;
 use num_traits::ToPrimitive as _;
 use std::cmp::Ordering;
@@ -35,12 +35,12 @@ const MOST_DISCS: usize = 4096;
 /// So often a box is made larger before its disc is taken to be too large.
 const MOST_BOXES: usize = 24;
 
-/// `K` is this many times the force over the compression of the law at most, and so large a share of that at least: the
-/// softer it becomes between two times at which it is pressed, the more errors grow in its norm as it is pressed again.
-const STIFFEST: u64 = 2;
+/// `K` is at most this many times `F/α₁`, and at least this share of that. Each time a contact is pressed again the norm
+/// of errors grows by up to the root of the ratio of the two, four bits.
+const LARGEST_SPRING: i64 = 2;
 const LEAST_SHARE: f64 = 1.0 / 256.0;
 
-/// `K` is left as it is while `X'` is as near to it as this.
+/// `K` is kept while `X'`, within these limits, is within this fraction of it.
 const NEAR: f64 = 1.0 / 16.0;
 
 /// A contact is light at the start of a cell whose compression is this power of two times the largest light one.
@@ -80,13 +80,9 @@ impl PowerLaw {
     }
 
     /// A bound of `|X'|` between two positive compressions: it is a power, and largest at one end.
-    fn stiffest(&self, ends: [&Magnitude; 2]) -> Result<Magnitude, BallError> {
-        let mut largest = Magnitude::ZERO;
-        for end in ends {
-            let inverse = Number::Exact(Rational::from(end)).reciprocal(BITS)?.magnitude();
-            largest = largest.max(self.bound(end)?.multiply(&inverse));
-        }
-        Ok(largest.multiply(&Magnitude::from_rational(&self.exponent)))
+    fn stiffest(&self, [lower, upper]: [&Magnitude; 2]) -> Result<Magnitude, BallError> {
+        let slope = |end: &Magnitude| self.slope(&Rational::from(end));
+        Ok(slope(lower)?.magnitude().max(slope(upper)?.magnitude()))
     }
 
     /// `X'` at a positive compression.
@@ -98,9 +94,9 @@ impl PowerLaw {
     }
 
     /// The largest `K`.
-    fn stiffest_spring(&self) -> Result<Number, BallError> {
+    fn largest_spring(&self) -> Result<Number, BallError> {
         let secant = self.force.multiply(&self.compression.reciprocal(BITS)?, BITS);
-        Ok(secant.multiply(&Number::integer(STIFFEST as i64), BITS))
+        Ok(secant.multiply(&Number::integer(LARGEST_SPRING), BITS))
     }
 
     /// About which share of the largest `K` the slope at a compression is.
@@ -108,7 +104,7 @@ impl PowerLaw {
         let double = |number: &Number| number.ball(BITS).to_double().0;
         let exponent = self.exponent.to_f64().unwrap_or(1.0);
         let ratio = (double(compression) / double(&self.compression)).max(0.0);
-        let share = exponent / STIFFEST as f64 * ratio.powf(exponent - 1.0);
+        let share = exponent / LARGEST_SPRING as f64 * ratio.powf(exponent - 1.0);
         if share.is_nan() { 1.0 } else { share.clamp(LEAST_SHARE, 1.0) }
     }
 
@@ -135,7 +131,7 @@ pub struct Pressed {
 }
 
 impl Pressed {
-    /// All of a node, each with a spring that is as stiff as it is itself at a state; without one, as stiff as may be.
+    /// The pressed contacts of a node, each with its spring: `K` about `X'` at the state `now`, the largest without one.
     ///
     /// # Errors
     /// As [`PowerLaw::at`].
@@ -154,7 +150,7 @@ impl Pressed {
             let law = PowerLaw { force, compression, exponent: exponent.clone() };
             let share = now.map_or(1.0, |now| law.share(&now[state]));
             let part = Number::Exact(Rational::from_float(share).expect("a share is finite"));
-            let stiffness = law.stiffest_spring()?.multiply(&part, BITS);
+            let stiffness = law.largest_spring()?.multiply(&part, BITS);
             all.push(Pressed { law, state, input, stiffness, share });
         }
         Ok(all)
@@ -230,6 +226,8 @@ struct Compressed {
     place: usize,
     /// The compression at the start, without its error.
     start: Magnitude,
+    /// That error; none where it is exactly zero.
+    off: Magnitude,
     /// Whether it is known to be compressed then.
     is_compressed: bool,
     is_light: bool,
@@ -335,11 +333,11 @@ impl Pressing<'_> {
         let at_start = error.size().add(&rounding);
         let mut light: Vec<usize> = Vec::new();
         loop {
-            let contacts = self.compressed(&start, &at_start, &light)?;
-            let slopes = self.slopes(&start, &contacts)?;
+            let contacts = self.compressed((own, &start), &at_start, &light)?;
+            let rates = self.rates_at_start(&start, &contacts)?;
             let radius = norm.length.scale(REACH);
-            let Some(picard) = self.picard(&slopes, &contacts, &radius) else {
-                return Err(self.shorter(&slopes, &contacts, radius));
+            let Some(picard) = self.picard(&rates, &contacts, &radius) else {
+                return Err(self.shorter(&rates, &contacts, radius));
             };
             let distance = self.distance(&contacts, &picard);
             let (columns, forces) = self.coefficients(&start, &contacts, &picard, &distance)?;
@@ -352,12 +350,7 @@ impl Pressing<'_> {
             let heavy = contacts.iter().filter(|own| !own.is_light);
             let doubtful: Vec<usize> = heavy.filter(is_doubtful).map(|own| own.place).collect();
             if doubtful.is_empty() {
-                let off = |contact: &Compressed| match own[contact.place].is_zero() {
-                    true => Magnitude::ZERO,
-                    false => self.block.entry(contact.place, &at_start),
-                };
-                let offs = contacts.iter().map(off).collect();
-                let forces = self.forces(&contacts, forces, &bounds, offs);
+                let forces = self.forces(&contacts, forces, &bounds);
                 let Bounds { rest, added, roughness, .. } = bounds;
                 let (error, fresh) = (rest, rest);
                 let course = Course { columns, rest, error, fresh, at_start, added, roughness };
@@ -385,15 +378,15 @@ impl Pressing<'_> {
     /// What the contacts are on the cell; those in these places are light.
     fn compressed(
         &self,
-        start: &[Number],
+        (own, start): (&[Number], &[Number]),
         error: &Magnitude,
         light: &[usize],
     ) -> Result<Vec<Compressed>, TooLong> {
         let mut all = Vec::new();
-        for own in &self.block.pressed {
-            let place = self.place_of(own);
+        for pressed in &self.block.pressed {
+            let place = self.place_of(pressed);
             let (from, off) = (start[place].magnitude(), self.block.entry(place, error));
-            let largest = own.law.light(self.given.cut.bits);
+            let largest = pressed.law.light(self.given.cut.bits);
             let is_positive = start[place].sign() == Some(Ordering::Greater);
             let is_compressed = is_positive && off < from;
             let is_light = light.contains(&place)
@@ -401,16 +394,26 @@ impl Pressing<'_> {
                 || from < largest.scale(LIGHT_AT_START)
                 || off.scale(6) > from;
             let (most, force, stiffest) = if is_light {
-                // Far enough for a cell to go on to the end of the contact.
+                // The disc reaches `2^REACH` cells: room for a cell in which the compression falls to zero.
                 (largest.max(from.scale(4)).max(off.scale(4)), Magnitude::ZERO, Magnitude::ZERO)
             } else {
                 let most = from.multiply(&Magnitude::from_u64(7)).scale(-3);
                 let ends = [&from.scale(-4), &from.scale(1)];
-                let force = own.law.bound(ends[1]).map_err(|_| self.unknown())?;
-                (most, force, own.law.stiffest(ends).map_err(|_| self.unknown())?)
+                let force = pressed.law.bound(ends[1]).map_err(|_| self.unknown())?;
+                (most, force, pressed.law.stiffest(ends).map_err(|_| self.unknown())?)
             };
             let start = from;
-            all.push(Compressed { place, start, is_compressed, is_light, most, force, stiffest });
+            let off = if own[place].is_zero() { Magnitude::ZERO } else { off };
+            all.push(Compressed {
+                place,
+                start,
+                off,
+                is_compressed,
+                is_light,
+                most,
+                force,
+                stiffest,
+            });
         }
         Ok(all)
     }
@@ -429,25 +432,26 @@ impl Pressing<'_> {
     }
 
     /// `|y'|` of each member at the start.
-    fn slopes(&self, start: &[Number], contacts: &[Compressed]) -> Result<Vec<Magnitude>, TooLong> {
-        let mut both = vec![Number::zero(); self.system.states()];
-        for (member, value) in self.block.members.iter().zip(start) {
-            both[*member] = value.clone();
-        }
-        both.extend(self.given.coefficients(0));
+    fn rates_at_start(
+        &self,
+        start: &[Number],
+        contacts: &[Compressed],
+    ) -> Result<Vec<Magnitude>, TooLong> {
+        let mut input = self.given.coefficients(0);
         for (own, law) in self.each(contacts).filter(|(own, _)| !own.is_light) {
-            let force = law.law.value(&start[own.place], BITS).map_err(|_| self.unknown())?;
-            both[self.system.states() + law.input] = force;
+            input[law.input] =
+                law.law.value(&start[own.place], BITS).map_err(|_| self.unknown())?;
         }
-        let rows = self.block.members.iter().map(|member| &self.system.change[*member]);
-        Ok(rows.map(|row| dot(row, &both, BITS).magnitude()).collect())
+        let rates = self.system.next(self.block, start, (0, input), BITS);
+        Ok(rates.iter().map(Number::magnitude).collect())
     }
 
-    /// A box in which the motion for the polynomials of the inputs stays on a disc of times, where it is found: one
-    /// with `radius · |y'| ≤ size` for each member, where `y'` is what it is at the start and what the box may change.
+    /// A box in which the motion for the polynomials of the inputs stays on a disc of times, where it is found: one with
+    /// `radius · |y'| ≤ size` for each member, where `|y'|` is at most its value at the start plus what moving within
+    /// the box adds.
     fn picard(
         &self,
-        slopes: &[Magnitude],
+        rates: &[Magnitude],
         contacts: &[Compressed],
         radius: &Magnitude,
     ) -> Option<Picard> {
@@ -463,10 +467,10 @@ impl Pressing<'_> {
         };
         let rows: Vec<&Vec<Number>> =
             self.block.members.iter().map(|member| &self.system.change[*member]).collect();
-        let given: Vec<Magnitude> = (rows.iter().zip(slopes))
-            .map(|(row, slope)| slope.add(&product(&row[states..], &inputs)))
+        let given: Vec<Magnitude> = (rows.iter().zip(rates))
+            .map(|(row, rate)| rate.add(&product(&row[states..], &inputs)))
             .collect();
-        let mut sizes = vec![Magnitude::ZERO; slopes.len()];
+        let mut sizes = vec![Magnitude::ZERO; rates.len()];
         for _ in 0..MOST_BOXES {
             let mut moved = vec![Magnitude::ZERO; states + inputs.len()];
             for (member, size) in self.block.members.iter().zip(&sizes) {
@@ -490,8 +494,8 @@ impl Pressing<'_> {
     }
 
     /// A length of which a disc is small enough.
-    fn shorter(&self, slopes: &[Magnitude], contacts: &[Compressed], radius: Magnitude) -> TooLong {
-        let is_kept = |radius: &Magnitude| self.picard(slopes, contacts, radius).is_some();
+    fn shorter(&self, rates: &[Magnitude], contacts: &[Compressed], radius: Magnitude) -> TooLong {
+        let is_kept = |radius: &Magnitude| self.picard(rates, contacts, radius).is_some();
         let mut radius = radius;
         for _ in 0..MOST_DISCS {
             radius = radius.scale(-1);
@@ -545,7 +549,7 @@ impl Pressing<'_> {
         picard: &Picard,
         distance: &Magnitude,
     ) -> Result<Columns, TooLong> {
-        let (bits, states) = (self.given.cut.bits, self.system.states());
+        let bits = self.given.cut.bits;
         let mut powers = Vec::new();
         for (own, law) in self.each(contacts) {
             let power = || PowerSeries::new(&law.law, &start[own.place], bits);
@@ -556,18 +560,13 @@ impl Pressing<'_> {
         let mut columns: Vec<Vec<Number>> = Vec::new();
         let mut column = start.to_vec();
         for k in 0..self.terms(contacts, picard, &reach) {
-            let mut both = vec![Number::zero(); states];
-            for (member, value) in self.block.members.iter().zip(&column) {
-                both[*member] = value.clone();
-            }
-            both.extend(self.given.coefficients(k));
+            let mut input = self.given.coefficients(k);
             for ((own, law), power) in self.each(contacts).zip(&mut powers) {
                 if let Some(power) = power {
-                    both[states + law.input] = power.next(&column[own.place], bits);
+                    input[law.input] = power.next(&column[own.place], bits);
                 }
             }
-            let rows = self.block.members.iter().map(|i| &self.system.change[*i]);
-            let next = rows.map(|row| dot(row, &both, bits).over(k as u64 + 1, bits)).collect();
+            let next = self.system.next(self.block, &column, (k, input), bits);
             columns.push(std::mem::replace(&mut column, next));
         }
         let forces = powers.into_iter().map(|power| power.map_or(Vec::new(), |own| own.values));
@@ -592,7 +591,9 @@ impl Pressing<'_> {
         terms
     }
 
-    /// `max |S − K|`, as long as the error of a compression is at most a `2^−5` of it, as that of a heavy contact is.
+    /// `max |S − K|`; of a light contact `K`, since its force is counted as a push. Within the cell `|y − y₀| ≤ h
+    /// sup |y'|`, a `2^−REACH` of the box. The error of a compression is assumed to be below a `2^−5` of it: `course`
+    /// checks that with the bound that follows, so that there is no first time at which it is not.
     fn mismatch(
         &self,
         own: &Compressed,
@@ -625,7 +626,7 @@ impl Pressing<'_> {
     ) -> Result<Bounds, TooLong> {
         let (norm, cut) = (self.given.norm, self.given.cut);
         let mut rate = Magnitude::ZERO;
-        // Between two bars a contact takes errors up.
+        // A compression that is the only state, as between two bars, has errors that the contact only damps.
         if self.block.members.len() > 1 {
             for (own, law) in self.each(contacts) {
                 let off = self.mismatch(own, law, picard).map_err(|_| self.unknown())?;
@@ -685,38 +686,36 @@ impl Pressing<'_> {
         })
     }
 
-    /// The forces of the contacts, whose compressions are off by so much at the start. A contact that stays closed pushes, which is proven of the cell before it is taken
+    /// The forces of the contacts. A contact that stays closed pushes, which is proven of the cell before it is taken
     /// over.
     fn forces(
         &self,
         contacts: &[Compressed],
         forces: Vec<Vec<Number>>,
         bounds: &Bounds,
-        offs: Vec<Magnitude>,
     ) -> Vec<Series> {
-        let each = self.each(contacts).zip(forces).zip(bounds.light.iter().zip(&offs));
-        type Known<'a> = (&'a Magnitude, &'a Magnitude);
-        let force = |(((own, law), force), (light, off)): (
-            ((&Compressed, &Pressed), Vec<Number>),
-            Known<'_>,
-        )| {
+        let mut all = Vec::new();
+        for (((own, law), force), light) in self.each(contacts).zip(forces).zip(&bounds.light) {
             let at_ends = [own.is_compressed, true];
             let signed = Some(Signed { sign: Ordering::Greater, at_ends });
             if own.is_light {
-                let first = law.law.bound(&own.start.add(off)).unwrap_or(*light).min(*light);
+                let first = law.law.bound(&own.start.add(&own.off)).unwrap_or(*light);
                 let roughness = (!light.is_zero()).then_some(Roughness::Values);
-                return Series::new(Vec::new(), *light)
-                    .with_error_at_start(first)
+                let series = Series::new(Vec::new(), *light)
+                    .with_error_at_start(first.min(*light))
                     .of_roughness(roughness)
                     .of_sign(signed.filter(|_| !light.is_zero()));
+                all.push(series);
+                continue;
             }
             let rest = own.stiffest.multiply(&self.block.entry(own.place, &bounds.rest));
-            Series::new(force, rest.add(&own.force.multiply(&bounds.left_out)))
-                .with_error_at_start(own.stiffest.multiply(off))
+            let series = Series::new(force, rest.add(&own.force.multiply(&bounds.left_out)))
+                .with_error_at_start(own.stiffest.multiply(&own.off))
                 .of_roughness(bounds.roughness)
-                .of_sign(signed)
-        };
-        each.map(force).collect()
+                .of_sign(signed);
+            all.push(series);
+        }
+        all
     }
 }
 

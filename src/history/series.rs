@@ -223,6 +223,8 @@ fn moved(sizes: &[Magnitude], j: usize, r: &Magnitude) -> Magnitude {
 /// - `coefficients` hold `c_0, c_1, …`, the last one not zero;
 /// - `‖e‖ ≤ rest` in the norm of the cell, and so on every part of it; where it is rough, in the norm of its roughness;
 /// - `|e(x)| ≤ error` on the cell, and `|e(0)| ≤ error_at_start`;
+/// - `|e'(x)| ≤ slope` on the cell, where known: of an integral the error of the integrand, often far below what `rest`
+///   tells of a rough function;
 /// - `|e(x)| ≤ fresh` if what arrived at the node, and its state at the start of the cell, had been free of errors.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Series {
@@ -231,7 +233,6 @@ pub struct Series {
     pub error: Magnitude,
     pub fresh: Magnitude,
     error_at_start: Magnitude,
-    /// Of an integral `|e'(x)| ≤ slope` on the cell: the integrand is known better than by `rest` where it is rough.
     slope: Option<Magnitude>,
     pub roughness: Option<Roughness>,
     /// Its sign on the cell, where that is known otherwise.
@@ -282,10 +283,15 @@ impl Series {
         Series { error, fresh, error_at_start, ..self }
     }
 
+    fn with_slope(self, slope: Option<Magnitude>) -> Series {
+        Series { slope, ..self }
+    }
+
     /// The same polynomial with other coefficients, as far as its errors go.
     fn with_coefficients(&self, coefficients: Vec<Number>) -> Series {
-        let (slope, roughness) = (self.slope, self.roughness);
-        Series { slope, roughness, ..Series::new(coefficients, self.rest) }
+        Series::new(coefficients, self.rest)
+            .of_roughness(self.roughness)
+            .with_slope(self.slope)
             .with_error(self.error, self.fresh)
     }
 
@@ -340,7 +346,7 @@ impl Series {
         }
     }
 
-    /// A bound of the slope of its error, where one is known beside `rest`.
+    /// A bound of `|e'|`, where `slope` or a rest of zero gives one.
     fn slope_error(&self) -> Option<Magnitude> {
         self.slope.or(self.rest.is_zero().then_some(Magnitude::ZERO))
     }
@@ -389,16 +395,13 @@ impl Series {
         let sum = |own: &Magnitude, other: &Magnitude| {
             own.multiply(&sizes[0]).add(&other.multiply(&sizes[1]))
         };
-        let slope = self.slope_error().zip(other.slope_error());
-        let slope = slope.map(|(own, other)| sum(&own, &other));
-        Series {
-            slope,
-            ..Series::new((0..length).map(term).collect(), sum(&self.rest, &other.rest))
-        }
-        .with_error(sum(&self.error, &other.error), sum(&self.fresh, &other.fresh))
-        .with_error_at_start(sum(&self.error_at_start, &other.error_at_start))
-        .of_roughness(self.roughness.max(other.roughness))
-        .of_sign(sign_of_sum([(self, a), (other, b)]))
+        let slopes = self.slope_error().zip(other.slope_error());
+        Series::new((0..length).map(term).collect(), sum(&self.rest, &other.rest))
+            .with_slope(slopes.map(|(own, other)| sum(&own, &other)))
+            .with_error(sum(&self.error, &other.error), sum(&self.fresh, &other.fresh))
+            .with_error_at_start(sum(&self.error_at_start, &other.error_at_start))
+            .of_roughness(self.roughness.max(other.roughness))
+            .of_sign(sign_of_sum([(self, a), (other, b)]))
     }
 
     pub fn add(&self, other: &Series, bits: u64) -> Series {
@@ -491,9 +494,9 @@ impl Series {
     /// The same function so much beyond the ends of the cell.
     pub fn extended(&self, by: &Magnitude, cut: &Truncation) -> Series {
         let rest = self.bound_beyond(&self.rest, by, cut);
-        let goes_on = by.is_zero() || self.roughness.is_some();
-        let error = if goes_on { self.error } else { rest };
-        let slope = self.slope.filter(|_| goes_on);
+        let keeps_bounds = by.is_zero() || self.roughness.is_some();
+        let error = if keeps_bounds { self.error } else { rest };
+        let slope = self.slope.filter(|_| keeps_bounds);
         Series { rest, error, slope, ..self.clone() }
     }
 
@@ -581,14 +584,14 @@ impl Series {
             coefficients.push(c.over(k as u64 + 1, cut.bits));
         }
         let longest = (*length).max(Magnitude::power_of_two(-cut.rate));
-        let slope = Some(self.error);
-        Series { slope, ..Series::new(coefficients, self.rest.multiply(&longest)) }
+        Series::new(coefficients, self.rest.multiply(&longest))
+            .with_slope(Some(self.error))
             .with_error(self.error.multiply(length), self.fresh.multiply(length))
             .with_error_at_start(Magnitude::ZERO)
             .of_roughness(self.roughness)
     }
 
-    /// `f'`: `‖e'‖ ≤ γ ‖e‖`; of a rough function `(j+1)! 2^(r(j+1)) ≤ 2^r · j! 2^((r+1)j)`.
+    /// `f'`, its error below `slope` where that is known: `‖e'‖ ≤ γ ‖e‖`; of a rough function `(j+1)! 2^(r(j+1)) ≤ 2^r · j! 2^((r+1)j)`.
     pub fn derivative(&self, cut: &Truncation) -> Series {
         let terms = self.coefficients.iter().enumerate().skip(1);
         let slopes = terms.map(|(k, c)| c.multiply(&Number::integer(k as i64), cut.bits));

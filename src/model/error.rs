@@ -31,6 +31,14 @@ pub enum ModelError {
     NotSmooth { model: &'static str, period: i64 },
 }
 
+impl ModelError {
+    /// Whether the method of steps refuses travel times without a common measure.
+    #[doc(hidden)]
+    pub fn is_of_measure(&self) -> bool {
+        matches!(self, ModelError::Refused { reason: NotRepresented::NoCommonMeasure(_), .. })
+    }
+}
+
 /// What a model cannot represent. Elements are given by their names.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]

@@ -27,28 +27,22 @@ pub struct Operator {
 /// Expressions by lag. On a lattice of several periods lags are large numbers, and few of them occur.
 ///
 /// # Invariants
-/// - lags ascend; no expression is zero.
+/// - no expression is zero.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct Lags(Vec<(usize, Expression)>);
+pub struct Lags(BTreeMap<usize, Expression>);
 
 impl Lags {
     fn add(&mut self, lag: usize, value: &Expression) {
-        match self.0.binary_search_by_key(&lag, |(own, _)| *own) {
-            Ok(place) => {
-                self.0[place].1 += value;
-                if self.0[place].1.is_zero() {
-                    self.0.remove(place);
-                }
-            }
-            Err(_) if value.is_zero() => {}
-            Err(place) => self.0.insert(place, (lag, value.clone())),
+        let sum = self.0.entry(lag).or_default();
+        *sum += value;
+        if sum.is_zero() {
+            self.0.remove(&lag);
         }
     }
 
-    /// That of a lag, where it is not zero.
+    /// The expression at a lag; `None` for zero.
     pub fn get(&self, lag: usize) -> Option<&Expression> {
-        let place = self.0.binary_search_by_key(&lag, |(own, _)| *own).ok()?;
-        Some(&self.0[place].1)
+        self.0.get(&lag)
     }
 
     /// Those that are not zero, by lag.
@@ -56,19 +50,19 @@ impl Lags {
         self.0.iter().map(|(lag, value)| (*lag, value))
     }
 
-    /// The same up to a lag.
-    pub fn until(&self, last: usize) -> impl Iterator<Item = (usize, &Expression)> {
-        self.iter().take_while(move |(lag, _)| *lag <= last)
+    /// Those up to and including a lag.
+    pub fn up_to(&self, last: usize) -> impl Iterator<Item = (usize, &Expression)> {
+        self.0.range(..=last).map(|(lag, value)| (*lag, value))
     }
 
     /// Those that are not zero.
     pub fn values(&self) -> impl Iterator<Item = &Expression> {
-        self.0.iter().map(|(_, value)| value)
+        self.0.values()
     }
 
     /// One more than the largest lag.
     pub fn reach(&self) -> usize {
-        self.0.last().map_or(0, |(lag, _)| lag + 1)
+        self.0.last_key_value().map_or(0, |(lag, _)| lag + 1)
     }
 
     pub fn is_empty(&self) -> bool {
@@ -83,7 +77,7 @@ impl Lags {
 
 impl Operator {
     /// One more than the largest lag of a value or a slope.
-    pub(crate) fn reach(&self) -> usize {
+    pub fn reach(&self) -> usize {
         self.value.reach().max(self.slope.reach())
     }
 

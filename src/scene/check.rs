@@ -41,7 +41,7 @@ impl Scene {
     }
 }
 
-/// The assumptions, and between which numbers `pi` lies: less than 2⁻⁶⁰ apart.
+/// The assumptions, with `pi` between two rational numbers that are 2⁻⁶¹ apart.
 pub(crate) fn with_pi(mut assumptions: Assumptions) -> Assumptions {
     let pi = Symbol::new(PI).expect("a plain name");
     let [lower, upper] = [7_244_019_458_077_122_842_i64, 7_244_019_458_077_122_843]

@@ -65,7 +65,6 @@ impl Demand {
 /// The echoes that a form names for the coefficient of `q^k`.
 fn named(form: &LinearForm, k: usize) -> impl Iterator<Item = (WaveIndex, usize)> + '_ {
     form.operators().flat_map(move |(wave, operator)| {
-        let lags = operator.value.until(k).chain(operator.slope.until(k));
-        lags.map(move |(lag, _)| (wave, k - lag))
+        operator.lags().take_while(move |lag| *lag <= k).map(move |lag| (wave, k - lag))
     })
 }

@@ -165,7 +165,7 @@ impl<'a> PeriodByPeriod<'a> {
         let mut sum = self.forcing_at(form, n, &self.arrival(n))?;
         for (other, operator) in form.operators() {
             let first = usize::from(other == wave);
-            for (lag, value) in operator.value.until(n).filter(|(lag, _)| *lag >= first) {
+            for (lag, value) in operator.value.up_to(n).filter(|(lag, _)| *lag >= first) {
                 let start = self.waves[other][n - lag].at_zero(&self.recurrence.statement().local);
                 sum.add_scaled(&start, value);
             }
@@ -177,7 +177,7 @@ impl<'a> PeriodByPeriod<'a> {
     fn end_of_form(&mut self, form: &LinearForm, n: usize) -> Result<Expression, Unsolvable> {
         let mut sum = self.forcing_at(form, n, &self.arrival(n + 1))?;
         for (wave, operator) in form.operators() {
-            for (lag, value) in operator.value.until(n) {
+            for (lag, value) in operator.value.up_to(n) {
                 let place = &mut self.ends[wave][n - lag];
                 if place.is_none() {
                     let Statement { local, period, .. } = self.recurrence.statement();
@@ -198,7 +198,7 @@ impl<'a> PeriodByPeriod<'a> {
         time: &Fraction,
     ) -> Result<Expression, Unsolvable> {
         let mut sum = Expression::zero();
-        for (lag, function) in form.forcing_terms().until(n) {
+        for (lag, function) in form.forcing_terms().up_to(n) {
             let since = time - &self.arrival(lag);
             sum += &function.substitute(&self.recurrence.statement().time, &since)?;
         }

@@ -327,13 +327,13 @@ const BALL: &str = "mass ball { mass = 1, velocity = 1 }\nhertz tip { stiffness 
 fn a_contact_that_is_pressed_for_long_needs_no_more_bits() {
     let ball = problem(BALL);
     let history = ball.events_until(20, 12).unwrap();
-    assert_eq!(history.bits, 112);
+    assert_eq!(history.bits, ball.events_until(1, 12).unwrap().bits);
     let instants: Vec<String> = history.events.iter().map(|event| event.time.to_string()).collect();
     assert_eq!(instants, ["0", "9.96522682338", "18.7073223504"]);
 }
 
-/// The instants at which a gap closes and opens are roots of the compression, and end the times without a force. Of a
-/// displacement that is zero at the touch it is known that it rises, though the force there is below the precision.
+/// The instants at which a gap closes and opens are roots of the compression, and end the times without a force. A
+/// displacement that is zero at the touch has no other root near it, though the force there is below the precision.
 #[test]
 fn contacts_begin_and_end_with_roots() {
     let ball = problem(

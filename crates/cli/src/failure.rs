@@ -190,6 +190,7 @@ fn usual(cause: &ProblemError) -> Option<&'static str> {
             FieldError::Undecided { .. } => return None,
             _ => "see `wavestep field --help`",
         },
+        ProblemError::ModelOfLocalContact(error) if error.is_of_measure() => "leave out --method",
         ProblemError::ModelOfLocalContact(_) => STEPS,
         ProblemError::NoClosedForm { .. } => "ask for values, with `eval`, which follows any line",
         ProblemError::NoCommonPeriods(_) => "evaluate it with `wavestep eval`, or derive its waves",

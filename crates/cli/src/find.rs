@@ -16,14 +16,13 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     if options.equal.is_some() {
         return find_equal::run(options);
     }
-    let problem = input::problem(&options.scene)?;
+    let (problem, other) = scenes(options)?;
     let (name, written) = quantity(options)?;
     let wanted = problem.wanted(name)?;
     let to = options.to.as_deref();
     let window = problem.window(("--from", &options.from), ("--to", to.unwrap_or_default()))?;
     // What is given wrongly is told before any work is done.
     let level = problem.quantity("--level", written, wanted.dimension)?;
-    let other = options.minus.as_deref().map(|scene| other(scene, options)).transpose()?;
     let signal = match &other {
         None => problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?,
         Some(other) => problem.difference_on(other, &wanted, window.each_ref(), Purpose::Search)?,
@@ -60,12 +59,19 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     found
 }
 
-/// The scene that is compared with, with those of the values that it has symbols for.
-fn other(scene: &str, options: &Find) -> Result<input::Asked, Failure> {
-    let symbols = input::problem_with(scene, &Default::default())?;
-    let mut values = input::values(&options.scene.set)?;
-    values.retain(|name, _| symbols.symbols().contains(&name.as_str()));
-    input::problem_with(scene, &values)
+/// The scene, and that which is taken from it; each with the values that it has symbols for. A value for a symbol of
+/// neither is given to the first, which says so.
+fn scenes(options: &Find) -> Result<(input::Asked, Option<input::Asked>), Failure> {
+    let Some(minus) = &options.minus else { return Ok((input::problem(&options.scene)?, None)) };
+    let values = input::values(&options.scene.set)?;
+    let scene = &options.scene.scene;
+    let [own, other] = [scene, minus].map(|scene| input::problem_with(scene, &Default::default()));
+    let (own, other) = (own?, other?);
+    let of = |problem: &input::Asked, name: &str| problem.symbols().contains(&name);
+    let (mut owns, mut others) = (values.clone(), values);
+    owns.retain(|name, _| of(&own, name) || !of(&other, name));
+    others.retain(|name, _| of(&other, name));
+    Ok((input::problem_with(scene, &owns)?, Some(input::problem_with(minus, &others)?)))
 }
 
 /// What was found, as a failure where some of it stays undecided.

@@ -266,7 +266,7 @@ fn at_compressions(contact: &Contact, compressions: [&Rational; 2]) -> [Passivit
     })
 }
 
-/// In the norm of a stiffer spring an error is as large as it was, and no larger than it has to be.
+/// In the norm of another spring an error is as large as it was, and no larger than it has to be.
 #[test]
 fn errors_are_carried_to_other_springs() {
     let contact = Contact::new("endless - a - m - tip - fixed", &ratio(3, 2), 0);
@@ -280,13 +280,16 @@ fn errors_are_carried_to_other_springs() {
             let errors = [StateError::new(size(&before))];
             let carried = after.carried(&before, &errors)[0].size();
             assert!(size(&after) <= carried, "{offs:?} from {from} to {to}");
-            // `X' = 3/2 √α`: four times as stiff.
-            assert!(carried <= errors[0].size().multiply(&Magnitude::from_u64(9)).scale(-2));
+            // `X' = 3/2 √α`: four times as stiff, or no stiffer.
+            let most = if from < to { 9 } else { 5 };
+            assert!(carried <= errors[0].size().multiply(&Magnitude::from_u64(most)).scale(-2));
+            assert!(after.rate() <= contact.passivity.rate());
         }
     }
 }
 
-/// A spring that is much stiffer than the contact underestimates how far a velocity leads: what it differs by counts.
+/// A spring much stiffer than the contact would understate how far an error of velocity carries: the mismatch makes up
+/// for it.
 #[test]
 fn errors_grow_beside_a_spring_that_is_too_stiff() {
     let contact = Contact::new("free - m - tip - fixed", &ratio(3, 2), 0);

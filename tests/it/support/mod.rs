@@ -59,7 +59,7 @@ fn form_on_period(
     }
     let start = statement.period.scale(&Rational::from_integer(n.into()));
     let now = &Fraction::symbol(&statement.local) + &start;
-    for (lag, function) in form.forcing_terms().until(n) {
+    for (lag, function) in form.forcing_terms().up_to(n) {
         let late = statement.period.scale(&Rational::from_integer(lag.into()));
         let since = &now - &late;
         total += &function.substitute(&statement.time, &since).expect("time is in no denominator");

@@ -46,6 +46,27 @@ fn answers_look_as_recorded() {
     assert_eq!(told["roots"][1]["time"]["exact"], "4");
 }
 
+/// Which scene is at fault is told, and values go to the scenes that have a symbol for them.
+#[test]
+fn differences_of_two_scenes_are_told() {
+    // One bar is fixed, the other free, which a mass feels when the first front is back, at 2 of its time.
+    let line = "find mass-on-fixed-bar --minus mass-on-free-bar --max velocity --to 3 --set mu=1/4 --set m=1/4";
+    let (code, text, errors) = run(anywhere(), &words(line));
+    assert_eq!((code, errors.as_str()), (0, ""), "{text}{errors}");
+    assert!(text.starts_with("largest velocity - velocity of mass-on-free-bar = "), "{text}");
+    for (line, reason, remedy) in [
+        ("--minus hopkinson --max velocity", "neither a wave nor an observable of", "gauge"),
+        ("--minus rigid-mass --max velocity", "states equations, and no bars", "describe it"),
+        ("--minus nowhere --max velocity", "the scene `nowhere` cannot be read", "name a file"),
+        ("--minus saint-venant --max velocity --set nu=1", "nu", "mu"),
+    ] {
+        let line = format!("find mass-on-fixed-bar {line} --to 1 --set mu=1/4");
+        let (code, text, errors) = run(anywhere(), &words(&line));
+        assert!(code == 2 && text.is_empty(), "{line}: {code} {text} {errors}");
+        assert!(errors.contains(reason) && errors.contains(remedy), "{line}: {errors}");
+    }
+}
+
 /// `e^{−2μ} = 4μ` where the largest strains at the fixed end in two periods are equal.
 #[test]
 fn equal_extrema_meet_where_the_formula_says() {

@@ -92,7 +92,7 @@ impl Stage {
     /// A relation between waves: its first periods one by one, then every n at once.
     fn relation(&self, form: &LinearForm, sides: [&Meaning; 2]) -> Result<Finding, Refusal> {
         // A wave from many periods ago is zero on the first ones.
-        let reach = form.operators().map(|(_, o)| o.value.reach().max(o.slope.reach()));
+        let reach = form.operators().map(|(_, operator)| operator.reach());
         let last = LAST + reach.max().unwrap_or(0).saturating_sub(AHEAD + 1);
         for n in 0..=last {
             if !self.on_period(form, n)?.is_zero() {

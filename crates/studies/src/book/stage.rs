@@ -217,20 +217,20 @@ impl Stage {
         let n = n + AHEAD;
         let mut value = Expression::zero();
         for (wave, operator) in form.operators() {
-            for (lag, factor) in operator.value.until(n) {
+            for (lag, factor) in operator.value.up_to(n) {
                 value += &(factor * &self.piece(wave, n - lag)?);
             }
-            for (lag, factor) in operator.slope.until(n) {
+            for (lag, factor) in operator.slope.up_to(n) {
                 let slope = self.piece(wave, n - lag)?.derivative(&statement.local);
                 value += &(factor * &slope);
             }
-            for (lag, factor) in operator.sum.until(n) {
+            for (lag, factor) in operator.sum.up_to(n) {
                 for earlier in 0..n - lag {
                     value += &(factor * &self.piece(wave, earlier)?);
                 }
             }
         }
-        for (lag, function) in form.forcing_terms().until(n) {
+        for (lag, function) in form.forcing_terms().up_to(n) {
             // The function of t − lag D at t = n D + s.
             let since = statement.period.scale(&Rational::from_integer((n - lag).into()));
             let time = &Fraction::symbol(&statement.local) + &since;
