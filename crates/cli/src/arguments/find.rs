@@ -29,7 +29,7 @@ pub struct Find {
     /// All times at which it has this value
     #[arg(long, value_name = "QUANTITY=VALUE", allow_hyphen_values = true)]
     pub level: Option<String>,
-    /// All this of the quantity less that of the same name in this scene: how far two scenes are apart
+    /// Subtract the quantity of the same name in this scene: how far two scenes are apart
     #[arg(long, value_name = "SCENE", conflicts_with = "equal")]
     pub minus: Option<String>,
     /// The first time of the window
