@@ -148,8 +148,8 @@ proptest! {
         for one in [&kept, &direct.ball(128)] {
             prop_assert!(one.subtract(&exact, 600).contains_zero(), "{one} {exact}");
         }
-        // Up to two bits: the order of roundings differs.
-        let allowed = direct.ball(128).radius().scale(2);
+        // Up to two bits, since the order of roundings differs; and the result is rounded once itself.
+        let allowed = direct.ball(128).radius().scale(2).add(&exact.magnitude().scale(-127));
         prop_assert!(*kept.radius() <= allowed, "{kept} {direct:?}");
     }
 }
