@@ -8,7 +8,7 @@ use crate::ball::Ball;
 use crate::enclosure::enclose_expression;
 use crate::expression::{Expression, Fraction};
 use crate::network::Network;
-use crate::scene::{Joint, Kind, Measure, Observable, Place, Scene, Seen};
+use crate::scene::{Dimension, Joint, Kind, Measure, Observable, Place, Scene, Seen};
 use crate::solution::Solution;
 use num_traits::ToPrimitive as _;
 use wavestep_polynomial::{Rational, Symbol};
@@ -29,7 +29,8 @@ pub fn opening(network: &Network, joint: usize, instant: &Ball) -> Option<Expres
         return None;
     }
     let place = beside(scene, joint)?;
-    let seen = Seen { coefficient: Fraction::one(), measure: Measure::Force, place };
+    let (coefficient, dimension) = (Fraction::one(), Dimension::NONE);
+    let seen = Seen { coefficient, dimension, measure: Measure::Force, place };
     let mut scene = scene.clone();
     scene.contacts_open = false;
     scene.observables = vec![Observable { name: FORCE.to_owned(), terms: vec![seen] }];

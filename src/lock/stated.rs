@@ -87,7 +87,7 @@ fn line(scene: &Scene) -> String {
     text
 }
 
-fn term_text(scene: &Scene, Seen { coefficient, measure, place }: &Seen) -> String {
+fn term_text(scene: &Scene, Seen { coefficient, measure, place, .. }: &Seen) -> String {
     let name = |element: &usize| &scene.elements[*element].name;
     let metre = if scene.dimensional { " m" } else { "" };
     let place = match place {

@@ -117,7 +117,7 @@ impl<'a> Table<'a> {
                 _ if !self.scene.dimensional => Some(unit),
                 Some((first, _)) => Some(unit.over(first)?),
                 None => {
-                    first = Some((unit, seen.measure.dimension()));
+                    first = Some((unit, seen.dimension()));
                     None
                 }
             };

@@ -7,8 +7,8 @@ use crate::expression::{Assumptions, Condition, Fraction};
 use crate::limits::MAX_CONTACT_EXPONENT;
 use crate::scene::fault::{Fault, Mistake, Part, Property};
 use crate::scene::{
-    Bar, Body, Drive, ElementIndex, End, Hertz, Joint, Kind, LEAST_EXPONENT_INVERSE, Load, Measure,
-    PI, Place, Position, Scene, Seen, Spring,
+    Bar, Body, Drive, ElementIndex, End, Hertz, Ideal, Joint, Kind, LEAST_EXPONENT_INVERSE, Load,
+    Measure, PI, Place, Position, Scene, Seen, Spring,
 };
 
 impl Scene {
@@ -123,6 +123,7 @@ impl Check<'_> {
     }
 
     fn bar(&mut self, index: ElementIndex, bar: &Bar) {
+        self.ideal(index, bar);
         match &bar.body {
             Body::Impedance { impedance, travel } => {
                 self.positive(index, Property::Impedance, impedance);
@@ -145,6 +146,26 @@ impl Check<'_> {
                 }
             }
         }
+    }
+
+    /// A bar without waves is finite and not strained at the start, and something of it can move.
+    fn ideal(&mut self, index: ElementIndex, bar: &Bar) {
+        let Some(ideal) = &bar.ideal else { return };
+        let held = self.scene.is_held(index);
+        let refuse = |mistake| (mistake, vec![Part::Property(index, Property::As)]);
+        if let Ideal::Spring { share: Some(share) } = ideal {
+            self.positive(index, Property::Share, share);
+        }
+        let mistake = match ideal {
+            _ if bar.is_endless() => refuse(Mistake::IdealEndless),
+            _ if !bar.strain.is_zero() => {
+                (Mistake::IdealStrained, vec![Part::Property(index, Property::Strain)])
+            }
+            Ideal::Rigid if held != [false; 2] => refuse(Mistake::IdealHeld),
+            Ideal::Spring { .. } if held == [true; 2] => refuse(Mistake::IdealHeld),
+            _ => return,
+        };
+        self.fault(mistake.0, mistake.1);
     }
 
     fn spring(&mut self, index: ElementIndex, Spring { stiffness, damping }: &Spring) {
@@ -341,7 +362,7 @@ impl Check<'_> {
                 }
                 let first = &seen.terms[0];
                 let energy = |seen: &Seen| seen.measure == Measure::Energy;
-                let differ = part.measure.dimension() != first.measure.dimension();
+                let differ = part.dimension() != first.dimension();
                 if (scene.dimensional && differ) || energy(part) != energy(first) {
                     let parts = [here, Part::Term { observable, term: 0 }];
                     self.fault(Mistake::MixedDimensions, parts);
@@ -358,6 +379,11 @@ impl Check<'_> {
             return Some(Mistake::NotMeasurable);
         }
         let Kind::Bar(bar) = kind else { return None };
+        if bar.ideal == Some(Ideal::Rigid)
+            && matches!(measure, Measure::Force | Measure::Strain | Measure::Stress)
+        {
+            return Some(Mistake::NoForceInRigid);
+        }
         if matches!(place, Place::Element(_)) {
             return self.infinite_bar(seen).map(|_| Mistake::Infinite);
         }

@@ -32,6 +32,14 @@ impl Dimension {
         Dimension { length, mass, time }
     }
 
+    pub const fn times(self, other: Dimension) -> Dimension {
+        Dimension::new(self.length + other.length, self.mass + other.mass, self.time + other.time)
+    }
+
+    pub const fn inverse(self) -> Dimension {
+        Dimension::new(-self.length, -self.mass, -self.time)
+    }
+
     /// Its unit in metres, kilograms and seconds: `N/m`; empty for plain numbers.
     pub fn unit(self) -> String {
         let units = self.units();

@@ -1,6 +1,7 @@
 //! Bars and lumped elements.
 
 use crate::expression::{Expression, Fraction};
+use crate::scene::Ideal;
 use wavestep_polynomial::Rational;
 
 /// The place of an element in [`Scene::elements`](crate::scene::Scene::elements).
@@ -35,6 +36,8 @@ pub struct Bar {
     pub velocity: Fraction,
     /// The strain at the start, positive where it pulls.
     pub strain: Fraction,
+    /// What it is where waves in it are left out; `None` where they run.
+    pub ideal: Option<Ideal>,
 }
 
 impl Bar {

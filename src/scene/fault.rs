@@ -56,6 +56,10 @@ pub enum Property {
     Length,
     /// The strain of a bar at the start.
     Strain,
+    /// What a bar is taken to be.
+    As,
+    /// The share of its mass at an end.
+    Share,
     Mass,
     Stiffness,
     Damping,
@@ -134,6 +138,15 @@ pub enum Mistake {
     OutsideBar,
     #[error("terms of different dimensions cannot be added")]
     MixedDimensions,
+    #[error("an endless bar is no mass and no spring")]
+    IdealEndless,
+    #[error("a bar without waves has no strain at the start")]
+    IdealStrained,
+    #[error("this bar cannot move")]
+    IdealHeld,
+    /// The force in a rigid bar.
+    #[error("what happens in a rigid bar is not known")]
+    NoForceInRigid,
     /// Energy or momentum of an endless bar that moves or is strained as a whole.
     #[error("what an endless bar holds from the start is infinite")]
     Infinite,
@@ -150,6 +163,8 @@ impl Property {
             Property::Density => ("the density", &["density"]),
             Property::Length => ("the length", &["length"]),
             Property::Strain => ("the strain", &["strain"]),
+            Property::As => ("what the bar is", &["as"]),
+            Property::Share => ("the share of the mass", &["share"]),
             Property::Mass => ("the mass", &["mass"]),
             Property::Stiffness => ("the stiffness", &["stiffness"]),
             Property::Damping => ("the damping", &["damping"]),

@@ -7,6 +7,7 @@ mod check;
 mod dimension;
 mod element;
 mod fault;
+mod ideal;
 mod observable;
 
 use crate::expression::Assumptions;
@@ -19,6 +20,7 @@ pub use element::{
     Spring,
 };
 pub use fault::{Fault, Mistake, Part, Property};
+pub use ideal::Ideal;
 pub use observable::{Measure, Observable, Place, Position, Seen};
 
 /// The name of the number π in the expressions of a scene.

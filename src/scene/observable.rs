@@ -15,10 +15,18 @@ pub struct Observable {
 /// One term of an observable: a coefficient times what is measured at a place.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Seen {
-    /// The coefficient, a plain number.
     pub coefficient: Fraction,
+    /// The dimension of the coefficient: none in texts, where it is a plain number.
+    pub dimension: Dimension,
     pub measure: Measure,
     pub place: Place,
+}
+
+impl Seen {
+    /// The dimension of the term.
+    pub fn dimension(&self) -> Dimension {
+        self.measure.dimension().times(self.dimension)
+    }
 }
 
 /// What is measured.

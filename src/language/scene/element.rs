@@ -7,7 +7,7 @@ use crate::expression::Fraction;
 use crate::language::diagnostic::Diagnostic;
 use crate::language::scope::{symbol, with_likely};
 use crate::language::syntax::{Declaration, Declared, Node, Property, SceneStatementKind, Span};
-use crate::scene::{Bar, Body, Dimension, Drive, Kind, Load, Mass, PI, Spring};
+use crate::scene::{Bar, Body, Dimension, Drive, Ideal, Kind, Load, Mass, PI, Spring};
 use wavestep_polynomial::Rational;
 
 /// What a value has to be at least.
@@ -47,8 +47,11 @@ const UNTIL: Form = ("until", "a time", Dimension::TIME);
 /// The most terms of a value that is squared.
 const MAX_TERMS_SQUARED: usize = 300;
 
-/// A name, not a quantity.
+const SHARE: Form = ("share", "a share of the mass", Dimension::NONE);
+
+/// Names, not quantities.
 const MATERIAL: &str = "material";
+const AS: &str = "as";
 
 /// The properties that a declaration may give.
 fn known(kind: Declared) -> Vec<&'static str> {
@@ -56,7 +59,7 @@ fn known(kind: Declared) -> Vec<&'static str> {
         Declared::Material => "modulus density wave_speed",
         Declared::Bar => {
             "material diameter length velocity strain area inner_diameter modulus density \
-             wave_speed impedance travel"
+             wave_speed impedance travel as share"
         }
         Declared::Mass => "mass velocity",
         Declared::Spring | Declared::Support => "stiffness damping",
@@ -279,11 +282,40 @@ impl<'a> Lowering<'a> {
     fn bar(&mut self, given: &Given<'_>) -> Option<Bar> {
         let velocity = self.or_zero(given, VELOCITY);
         let strain = self.or_zero(given, STRAIN);
+        let ideal = self.ideal(given);
         let body = match given.get("impedance").is_some() || given.get("travel").is_some() {
             true => self.body_by_impedance(given),
             false => self.solid(given),
         };
-        Some(Bar { body: body?, velocity: velocity?, strain: strain? })
+        Some(Bar { body: body?, velocity: velocity?, strain: strain?, ideal: ideal? })
+    }
+
+    /// What a bar is taken to be: `as = rigid`, `as = spring`, the latter with a `share` of its mass at each end.
+    fn ideal(&mut self, given: &Given<'_>) -> Option<Option<Ideal>> {
+        let share = self.optional(given, SHARE).ok()?;
+        let ideal = given.get(AS).map(|property| match &property.value.value {
+            Node::Name(name) if property.unit.is_none() => match name.as_str() {
+                "rigid" => Ok(Ideal::Rigid),
+                "spring" => Ok(Ideal::Spring { share: share.clone() }),
+                _ => Err(property),
+            },
+            _ => Err(property),
+        });
+        match (ideal, given.get(SHARE.0)) {
+            (Some(Err(property)), _) => {
+                let error =
+                    self.error("a bar is a spring or rigid", property.value.span, "neither");
+                let remedy = "write `as = spring` or `as = rigid`, or leave it out";
+                self.refuse(error.with_remedy(remedy))
+            }
+            (None | Some(Ok(Ideal::Rigid)), Some(share)) => {
+                let message = "a bar has a share of its mass at its ends where it is a spring";
+                let error = self.error(message, share.name.span, "a share of what?");
+                self.refuse(error.with_remedy("write `as = spring` too, or remove `share`"))
+            }
+            (Some(Ok(ideal)), _) => Some(Some(ideal)),
+            (None, None) => Some(None),
+        }
     }
 
     fn body_by_impedance(&mut self, given: &Given<'_>) -> Option<Body> {

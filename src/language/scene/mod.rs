@@ -75,7 +75,7 @@ pub(super) fn scene(
     };
     let faults = scene.faults();
     if faults.is_empty() {
-        return Ok(scene);
+        return Ok(scene.expanded().expect("lengths are positive"));
     }
     let refusals: Vec<Diagnostic> =
         faults.iter().take(MAX_MISTAKES).map(|fault| lowering.refusal(&scene, fault)).collect();

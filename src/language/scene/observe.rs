@@ -30,7 +30,8 @@ impl Lowering<'_> {
     fn seen(&self, term: &ObservedTerm) -> Outcome<Option<Seen>> {
         let coefficient = self.coefficient(term)?;
         let Some(place) = self.place(term)? else { return Ok(None) };
-        Ok(Some(Seen { coefficient, measure: term.measure.value, place }))
+        let (dimension, measure) = (Dimension::NONE, term.measure.value);
+        Ok(Some(Seen { coefficient, dimension, measure, place }))
     }
 
     fn coefficient(&self, term: &ObservedTerm) -> Outcome<Fraction> {

@@ -192,7 +192,7 @@ impl Lowering<'_> {
         let described = fault.parts.iter().filter_map(|part| match part {
             Part::Term { observable, term } => {
                 let seen = &scene.observables[*observable].terms[*term];
-                Some(seen.measure.dimension().described())
+                Some(seen.dimension().described())
             }
             _ => None,
         });
@@ -302,6 +302,20 @@ fn plain(mistake: Mistake) -> (&'static [&'static str], &'static str) {
         Mistake::OutsideBar => (
             &["not certainly inside"],
             "give a share from 0 to 1, or a distance from 0 to the length",
+        ),
+        Mistake::IdealEndless => {
+            (&["has no end"], "leave out `as`: what enters an endless bar does not return")
+        }
+        Mistake::IdealStrained => {
+            (&["strained"], "leave out the strain, or `as`: only waves can let it go")
+        }
+        Mistake::IdealHeld => (
+            &["fixed to the end of the line"],
+            "leave out `as`, or a rigid bar altogether; `as = spring` needs one end that can move",
+        ),
+        Mistake::NoForceInRigid => (
+            &["of a rigid bar"],
+            "observe its velocity, or the force in a spring or another bar beside it",
         ),
         Mistake::Infinite => (
             &["of an endless bar", "in motion or strained from the start"],
