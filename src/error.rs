@@ -8,12 +8,12 @@ use crate::ball::BallError;
 use crate::expression::{NotAUnit, NotInvertible};
 use crate::field::FieldError;
 use crate::history::HistoryError;
-use crate::language::{Diagnostic, closest};
+use crate::language::{ChangeError, Diagnostic, closest};
 use crate::limits::MAX_DIGITS;
 use crate::lock::LockError;
 use crate::model::ModelError;
 use crate::network::NetworkError;
-use crate::problem::{EqualError, LockRefusal, ProblemError};
+use crate::problem::{EqualError, LockRefusal, ProblemError, Simpler};
 use crate::scenes::SCENES;
 use crate::signal::{EvaluateError, MethodError};
 use crate::solution::{SolveError, Unsolvable};
@@ -265,6 +265,7 @@ fn remedy(error: &ProblemError) -> Option<String> {
         ProblemError::NotAnObservable { observables, .. } if !observables.is_empty() => {
             format!("the observables of this scene are {}", observables.join(", "))
         }
+        ProblemError::Change(ChangeError::Unknown(_)) => format!("it is one of {}", Simpler::FORMS),
         ProblemError::Digits(_) => format!("ask for 1 to {MAX_DIGITS} digits"),
         ProblemError::OutsidePeriod(times) => format!("give a time from 0 to below {}", times[1]),
         ProblemError::LocalContact { spring, .. } => {
@@ -300,6 +301,10 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
             "ask for an observable, or leave out `contacts open`"
         }
         ProblemError::Equations(_) => DESCRIBE,
+        ProblemError::Change(ChangeError::NoElement(_) | ChangeError::NotABar(_)) => {
+            "name an element of the line"
+        }
+        ProblemError::Change(_) => "leave something else out",
         ProblemError::Apart { .. } => "compare scenes with the same units",
         ProblemError::NoClosedForm { .. } => {
             "ask for values of its observables, which any line has"

@@ -9,6 +9,7 @@
 //! Parsing is linear in the length of the text. The parser does not recurse, and nothing that walks
 //! the tree recurses deeper than three times [`MAX_NESTING`](crate::limits::MAX_NESTING).
 
+mod change;
 mod constant;
 mod diagnostic;
 mod layout;
@@ -34,6 +35,7 @@ use crate::expression;
 use crate::recurrence;
 use crate::scene as physics;
 
+pub use change::{Beyond, Change, ChangeError, changed, elements};
 pub use constant::constant;
 pub use diagnostic::{Diagnostic, Label, closest};
 pub use lowering::ExactFormula;

@@ -14,6 +14,7 @@ use crate::model::error::{BadSetting, ModelError, NotRepresented, NotSeen};
 use crate::model::line::Line;
 use crate::model::shape::{Part, Shape, frequency};
 use crate::network::{ElementLaw, Face, Field, Lump, Reading, ScaledScene, Side};
+use crate::signal::Vibration;
 
 const NAME: &str = "modes of vibration";
 
@@ -113,6 +114,26 @@ impl Modes {
         self.modes.iter().map(|mode| mode.shape.frequency() * self.unit)
     }
 
+    /// An observable as a sum of modes, in the time and the unit of the user.
+    pub fn vibration(&self, observable: usize) -> Result<Vibration, ModelError> {
+        let observable = self.line.observable(NAME, observable)?;
+        let mut sum = Vibration::default();
+        for term in observable.terms() {
+            if let Reading::InBar(Field::Force, section) = &term.of {
+                sum.drift[0] += term.coefficient * self.line.bars[section.bar].force;
+            }
+        }
+        for mode in &self.modes {
+            let seen = |of: &_| self.seen(of, &mode.shape).ok_or(NotSeen::Other);
+            let factors = self.line.factors(NAME, observable, seen)?;
+            let ([constant, slope], swing) = mode.swing(factors);
+            sum.drift = [sum.drift[0] + constant, sum.drift[1] + slope * self.unit];
+            let swing = swing.filter(|[_, cosine, sine]| *cosine != 0.0 || *sine != 0.0);
+            sum.modes.extend(swing.map(|[frequency, a, b]| [frequency * self.unit, a, b]));
+        }
+        Ok(sum)
+    }
+
     /// A reading of a mode, as factors of `q` and `q'`; none for what modes do not have.
     fn seen(&self, reading: &Reading<f64>, shape: &Shape) -> Option<[f64; 2]> {
         let at = |lump: Lump| shape.left_of(self.part_of_node(lump.node) + lump.place);
@@ -180,16 +201,15 @@ impl Mode {
         Mode { velocity: momentum / mass, push: force / mass, shape }
     }
 
-    /// `q` and `q'` at a time.
-    fn motion(&self, time: f64) -> [f64; 2] {
+    /// The factors of `q` and `q'` as the drift, and `ω` with the factors of cosine and sine.
+    fn swing(&self, [x, v]: [f64; 2]) -> ([f64; 2], Option<[f64; 3]>) {
         let frequency = self.shape.frequency();
         if frequency == 0.0 {
-            return [self.velocity * time, self.velocity];
+            return ([v * self.velocity, x * self.velocity], None);
         }
-        let (sine, cosine) = (frequency * time).sin_cos();
-        let (half, push) = ((frequency * time / 2.0).sin(), self.push / frequency);
-        let turned = 2.0 * half * half;
-        [(self.velocity * sine + push * turned) / frequency, self.velocity * cosine + push * sine]
+        let (speed, push) = (self.velocity / frequency, self.push / frequency);
+        let bent = x * push / frequency;
+        ([bent, 0.0], Some([frequency, v * self.velocity - bent, x * speed + v * push]))
     }
 }
 
@@ -199,33 +219,17 @@ impl Model for Modes {
     }
 
     fn values(&self, observable: usize, times: &[f64]) -> Result<Vec<f64>, ModelError> {
-        let observable = self.line.observable(NAME, observable)?;
         let count = self.modes.len() as f64 * times.len() as f64;
         ModelError::limited(NAME, "terms", count, MAX_MODE_TERMS)?;
-        let times = self.line.scaled(times)?;
-        let mut constant = 0.0;
-        for term in observable.terms() {
-            if let Reading::InBar(Field::Force, section) = &term.of {
-                constant += term.coefficient * self.line.bars[section.bar].force;
-            }
-        }
-        let mut values = vec![constant; times.len()];
-        for mode in &self.modes {
-            let seen = |of: &_| self.seen(of, &mode.shape).ok_or(NotSeen::Other);
-            let factors = self.line.factors(NAME, observable, seen)?;
-            if factors == [0.0; 2] || (mode.velocity == 0.0 && mode.push == 0.0) {
-                continue;
-            }
-            for (value, time) in values.iter_mut().zip(&times) {
-                let [x, v] = mode.motion(*time);
-                *value += factors[0] * x + factors[1] * v;
-            }
-        }
-        for (value, time) in values.iter_mut().zip(&times) {
-            if *time < 0.0 {
-                *value = 0.0;
-            }
-        }
-        Ok(values)
+        let Vibration { drift: [constant, slope], modes } = self.vibration(observable)?;
+        let value = |time: &f64| {
+            let swing = |[frequency, a, b]: &[f64; 3]| {
+                let (sine, cosine) = (frequency * time).sin_cos();
+                a * cosine + b * sine
+            };
+            let swings: f64 = modes.iter().map(swing).sum();
+            if *time < 0.0 { 0.0 } else { constant + slope * time + swings }
+        };
+        Ok(times.iter().map(value).collect())
     }
 }

@@ -13,7 +13,8 @@ use crate::history::{self, FollowedSignal, Follower, HistoryError};
 use crate::network::{FieldBars, Network, Observed, ObservedValue, Squared, Term};
 use crate::recurrence::Observation;
 use crate::signal::{
-    ClosedForm, ClosedSignal, Difference, EvaluateError, Operation, Scale, Signal, Taps,
+    ClosedForm, ClosedSignal, Difference, EvaluateError, Operation, Scale, Signal, Taps, Vibrating,
+    Vibration,
 };
 use num_traits::Zero as _;
 use std::rc::Rc;
@@ -95,15 +96,28 @@ pub fn of_scene<'a>(
     chosen(network, observed, window, purpose).map(|(_, signal)| signal)
 }
 
-/// How far a signal of one scene is from one of another, both on this window and in one unit.
+/// How far a signal of one scene is from one of another, both on this window and in one unit; of the second only the
+/// first arrivals count where their number is given.
 pub(crate) fn difference<'a>(
     networks: [&'a Network; 2],
     operands: [Box<dyn Signal + 'a>; 2],
+    arrivals: Option<usize>,
     window: [&Rational; 2],
 ) -> Box<dyn Signal + 'a> {
     let scales = networks.map(Scale::of);
     let (scale, unit) = (Rc::clone(&scales[0]), Root::from(Fraction::one()));
-    Box::new(Operation::new(&scale, Difference { scales, operands }, unit, window))
+    Box::new(Operation::new(&scale, Difference { scales, operands, arrivals }, unit, window))
+}
+
+/// A sum of modes of a scene in its user's time and unit; none where a number of it is none.
+pub(crate) fn vibration<'a>(
+    network: &'a Network,
+    vibration: &Vibration,
+    window: [&Rational; 2],
+) -> Option<Box<dyn Signal + 'a>> {
+    let scale = Scale::of(network);
+    let rule = Vibrating::new(&scale, vibration)?;
+    Some(Box::new(Operation::new(&scale, rule, Root::from(Fraction::one()), window)))
 }
 
 /// The same, with the source that it comes from.

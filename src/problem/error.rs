@@ -4,7 +4,7 @@ use super::NoClosedForm;
 use crate::answer::{InvalidMethod, InvalidTolerance, WayError};
 use crate::field::FieldError;
 use crate::history::HistoryError;
-use crate::language::Diagnostic;
+use crate::language::{ChangeError, Diagnostic};
 use crate::limits::MAX_DERIVED_TERMS;
 use crate::lock::LockError;
 use crate::model::{ModelError, equivalent_stiffness};
@@ -48,6 +48,8 @@ pub enum ProblemError {
     UnknownThere { name: String, title: String, names: Vec<String> },
     #[error("`{name}` has another unit in \"{title}\"")]
     Apart { name: String, title: String },
+    #[error(transparent)]
+    Change(ChangeError),
     #[error("\"{0}\" states equations, and no bars along which to look")]
     Equations(String),
     #[error("{}", NetworkError::NotLinear(contact.clone()))]
@@ -254,6 +256,21 @@ pub(super) fn equivalent_spring(scaled: &ScaledScene) -> Option<String> {
 impl From<Diagnostic> for ProblemError {
     fn from(diagnostic: Diagnostic) -> ProblemError {
         ProblemError::Text(vec![diagnostic])
+    }
+}
+
+impl From<ChangeError> for ProblemError {
+    fn from(error: ChangeError) -> ProblemError {
+        match error {
+            ChangeError::Text(diagnostic) => diagnostic.into(),
+            error => ProblemError::Change(error),
+        }
+    }
+}
+
+impl From<ModelError> for ProblemError {
+    fn from(error: ModelError) -> ProblemError {
+        WayError::from(error).into()
     }
 }
 

@@ -203,33 +203,6 @@ impl Problem {
         }
     }
 
-    /// A quantity less that of the same name in another problem, on a window: how far the two are apart.
-    ///
-    /// # Errors
-    /// [`ProblemError::UnknownThere`]; [`ProblemError::Apart`] for quantities or times in other units; equations
-    /// without bars.
-    pub fn difference_on<'p>(
-        &'p self,
-        other: &'p Problem,
-        wanted: &Wanted,
-        window: [&Rational; 2],
-        purpose: Purpose,
-    ) -> Result<Box<dyn Signal + 'p>, ProblemError> {
-        let title = || other.title().to_owned();
-        let others = other.wanted(&wanted.name).map_err(|_| {
-            let names = other.waves().into_iter().chain(other.observables()).map(str::to_owned);
-            let (name, names) = (wanted.name.clone(), names.collect());
-            ProblemError::UnknownThere { name, title: title(), names }
-        })?;
-        if others.dimension != wanted.dimension || self.has_units() != other.has_units() {
-            return Err(ProblemError::Apart { name: wanted.name.clone(), title: title() });
-        }
-        let networks = [self.network()?, other.network()?];
-        let operands =
-            [self.signal_on(wanted, window, purpose)?, other.signal_on(&others, window, purpose)?];
-        Ok(planner::difference(networks, operands, window))
-    }
-
     /// Velocity, strain, displacement and force along the bars until a time.
     pub fn field_evaluator(&self, last: &Rational) -> Result<FieldEvaluator<'_>, ProblemError> {
         Ok(FieldEvaluator::new(self.network()?, last)?)

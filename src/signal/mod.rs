@@ -33,8 +33,9 @@ pub use method::{
     Certified, Compiled, Evaluator, Marched, MethodError, StablePrecision, Summation, Summed,
     instructions,
 };
+pub use operations::Vibration;
 pub(crate) use operations::{
-    Balanced, Combination, Constant, Difference, Integral, Operation, Product, Scale,
+    Balanced, Combination, Constant, Difference, Integral, Operation, Product, Scale, Vibrating,
 };
 pub use signal::{At, Effort, Instant, Limit, Point, Signal, Signed};
 pub(crate) use signal::{Enclosure, Known, MAX_FLATNESS, has_begun, last_begun};

@@ -8,8 +8,10 @@ use super::input;
 use super::output::plural;
 use super::progress;
 use super::validity;
+use wavestep::language::ChangeError;
 use wavestep::planner::Purpose;
-use wavestep::signal::{Place, Search};
+use wavestep::problem::{Against, Other, Problem, ProblemError, Simpler, Size};
+use wavestep::signal::{Place, Search, Signal};
 
 pub fn run(options: &Find) -> Result<String, Failure> {
     input::digits(options.digits)?;
@@ -17,6 +19,13 @@ pub fn run(options: &Find) -> Result<String, Failure> {
         return find_equal::run(options);
     }
     let (problem, other) = scenes(options)?;
+    if let Some(name) = &options.distance {
+        return distances(
+            options,
+            (&problem, other.as_ref().expect("it is required")),
+            name.trim(),
+        );
+    }
     let (name, written) = quantity(options)?;
     let wanted = problem.wanted(name)?;
     let to = options.to.as_deref();
@@ -52,26 +61,89 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     };
     if found.is_ok() {
         validity::note_pulling(&problem, &window[1]);
-        if let Some(other) = &other {
+        if let Some(other) = other.as_ref().and_then(Compared::problem) {
             validity::note_pulling(other, &window[1]);
         }
     }
     found
 }
 
-/// The scene, and that which is taken from it; each with the values that it has symbols for. A value for a symbol of
-/// neither is given to the first, which says so.
-fn scenes(options: &Find) -> Result<(input::Asked, Option<input::Asked>), Failure> {
+/// What is subtracted.
+enum Compared {
+    Scene(input::Asked),
+    Simpler(Other),
+}
+
+impl Compared {
+    fn problem(&self) -> Option<&Problem> {
+        match self {
+            Compared::Scene(problem) => Some(problem),
+            Compared::Simpler(Other::Problem(problem)) => Some(problem),
+            Compared::Simpler(_) => None,
+        }
+    }
+}
+
+impl<'p> From<&'p Compared> for Against<'p> {
+    fn from(compared: &'p Compared) -> Against<'p> {
+        match compared {
+            Compared::Scene(problem) => Against::Problem(problem),
+            Compared::Simpler(other) => other.into(),
+        }
+    }
+}
+
+/// How far quantities are from those of another answer at most.
+fn distances(
+    options: &Find,
+    (problem, other): (&input::Asked, &Compared),
+    name: &str,
+) -> Result<String, Failure> {
+    let to = options.to.as_deref().unwrap_or_default();
+    let window = problem.window(("--from", &options.from), ("--to", to))?;
+    let is_there = |name: &&str| other.problem().is_none_or(|own| own.observables().contains(name));
+    let names: Vec<&str> = match name {
+        "" => problem.observables().into_iter().filter(is_there).collect(),
+        _ => vec![name],
+    };
+    let _progress = progress::spinner("searching");
+    let mut rows = Vec::new();
+    for name in names {
+        let wanted = problem.wanted(name)?;
+        let difference =
+            problem.difference_on(other, &wanted, window.each_ref(), Purpose::Search)?;
+        let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?;
+        let size = |signal: &dyn Signal| Size::of(signal, options.digits, options.max_bits);
+        rows.push((wanted, size(&*difference)?, size(&*signal)?));
+    }
+    Ok(found::distances(&rows, problem, &window, options))
+}
+
+/// The scene, and what is taken from it: another scene, or this one with something left out. Each has the values that it
+/// has symbols for; a value for a symbol of neither is given to the first, which says so.
+fn scenes(options: &Find) -> Result<(input::Asked, Option<Compared>), Failure> {
     let Some(minus) = &options.minus else { return Ok((input::problem(&options.scene)?, None)) };
-    let values = input::values(&options.scene.set)?;
     let scene = &options.scene.scene;
+    if !input::is_scene(minus) {
+        let simpler: Simpler = minus.parse().map_err(|error| match error {
+            ChangeError::Unknown(_) if !minus.contains([':', '+']) => {
+                input::unread(minus, &std::io::ErrorKind::NotFound.into())
+            }
+            error => ProblemError::from(error).into(),
+        })?;
+        let problem = input::problem(&options.scene)?;
+        let other = Compared::Simpler(problem.simpler(&simpler)?);
+        return Ok((problem, Some(other)));
+    }
+    let values = input::values(&options.scene.set)?;
     let [own, other] = [scene, minus].map(|scene| input::problem_with(scene, &Default::default()));
     let (own, other) = (own?, other?);
     let of = |problem: &input::Asked, name: &str| problem.symbols().contains(&name);
     let (mut owns, mut others) = (values.clone(), values);
     owns.retain(|name, _| of(&own, name) || !of(&other, name));
     others.retain(|name, _| of(&other, name));
-    Ok((input::problem_with(scene, &owns)?, Some(input::problem_with(minus, &others)?)))
+    let other = Compared::Scene(input::problem_with(minus, &others)?);
+    Ok((input::problem_with(scene, &owns)?, Some(other)))
 }
 
 /// What was found, as a failure where some of it stays undecided.

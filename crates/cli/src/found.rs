@@ -6,8 +6,8 @@ use super::output::plural;
 use super::rows::ALL_DIGITS;
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
-use wavestep::ball::{Ball, in_decimals};
-use wavestep::problem::{Problem, Wanted};
+use wavestep::ball::{Ball, Number, in_decimals};
+use wavestep::problem::{Problem, Size, Wanted};
 use wavestep::signal::{Extremum, Goal, Place, Root, Roots, Value};
 
 /// Digits of bounds and of intervals that stay undecided.
@@ -74,6 +74,70 @@ pub fn extremum(extremum: &Extremum, goal: Goal, told: &Told<'_>) -> String {
     }
 }
 
+/// Of each quantity how far it is from another answer, how large it is, and where they are farthest apart.
+pub fn distances(
+    rows: &[(Wanted, Size, Size)],
+    problem: &Problem,
+    window: &[BigRational; 2],
+    options: &Find,
+) -> String {
+    let minus = options.minus.as_deref().unwrap_or_default();
+    let bounded = |[low, high]: &[BigRational; 2]| match low == high {
+        true => Value::Exact(low.clone()),
+        false => Value::of(&Number::Enclosed(enclosed(low, high)), options.digits),
+    };
+    let share = |distance: &Size, size: &Size| distance.over(size).as_ref().map(bounded);
+    if options.format == Format::Text {
+        let row = |(wanted, distance, size): &(Wanted, Size, Size)| {
+            let told = Told { options, name: minus, level: "", problem, wanted, window };
+            let share = share(distance, size).map_or(String::new(), |share| {
+                format!(", {} of the largest value", share.to_text(options.digits))
+            });
+            let (name, value) = (&wanted.name, told.value(&bounded(&distance.bounds)));
+            let places = distance.places.iter().map(|place| place_line(place, &told));
+            format!(
+                "{name}: {minus} is off by at most {value}{share}\n{}",
+                places.collect::<String>()
+            )
+        };
+        return rows.iter().map(row).collect();
+    }
+    let rows = rows.iter().map(|(wanted, distance, size)| {
+        let mut body = json!({
+            "quantity": wanted.name,
+            "distance": number(&bounded(&distance.bounds)),
+            "largest": number(&bounded(&size.bounds)),
+            "relative": share(distance, size).as_ref().map(number),
+            "places": distance.places.iter().map(place_json).collect::<Vec<_>>(),
+        });
+        if problem.has_units() {
+            body["unit"] = json!(wanted.unit());
+        }
+        body
+    });
+    let rows: Vec<Json> = rows.collect();
+    if options.format == Format::Csv {
+        let text = |value: &Json| {
+            ["exact", "decimal", "midpoint"]
+                .iter()
+                .find_map(|key| value[*key].as_str().map(str::to_owned))
+        };
+        let line = |row: &Json| {
+            let cells =
+                ["distance", "largest", "relative"].map(|key| text(&row[key]).unwrap_or_default());
+            format!("{},{}\n", row["quantity"].as_str().unwrap_or_default(), cells.join(","))
+        };
+        return "quantity,distance,largest,relative\n".to_owned()
+            + &rows.iter().map(line).collect::<String>();
+    }
+    let [from, to] = window.each_ref().map(BigRational::to_string);
+    let document = json!({
+        "schema_version": SCHEMA_VERSION, "title": problem.title(), "minus": minus,
+        "set": options.scene.set, "from": from, "to": to, "distances": rows,
+    });
+    format!("{document}\n")
+}
+
 fn enclosed(from: &BigRational, to: &BigRational) -> Ball {
     let sum = from + to;
     Ball::between(from, to, 64 + sum.numer().bits() + sum.denom().bits())
@@ -136,29 +200,7 @@ fn summary(roots: &Roots, told: &Told<'_>) -> String {
 fn extremum_text(extremum: &Extremum, which: &str, told: &Told<'_>) -> String {
     let (name, value, window) = (told.name, told.value(&extremum.value), told.window());
     let mut text = format!("{which} {name} = {value} in {window}\n");
-    let second = told.second();
-    for place in &extremum.places {
-        text += &match place {
-            Place::Critical(time) => format!("at t = {} (critical point)\n", told.time(time)),
-            Place::End(time) => format!("at t = {} (end of the window)\n", told.time(time)),
-            Place::Arrival { time, before, after } => {
-                let limit = match (before, after) {
-                    (true, true) => "in both limits",
-                    (false, _) => "from then on",
-                    _ => "limit before; not attained",
-                };
-                format!("at t = {} (arrival, {limit})\n", told.time(time))
-            }
-            Place::Plateau { from, to, closed } => {
-                let relation = if *closed { "<=" } else { "<" };
-                format!("for {} <= t {relation} {} (constant)\n", told.time(from), told.time(to))
-            }
-            Place::Undecided { from, to } => {
-                let time = enclosed(from, to).to_decimal(BOUND_DIGITS);
-                format!("at t = {time}{second}? (undecided)\n")
-            }
-        };
-    }
+    text.extend(extremum.places.iter().map(|place| place_line(place, told)));
     if extremum.places.len() > 1 {
         text += match &extremum.value {
             Value::Exact(_) => "tied: the value is exactly the same there\n",
@@ -166,6 +208,30 @@ fn extremum_text(extremum: &Extremum, which: &str, told: &Told<'_>) -> String {
         };
     }
     text
+}
+
+/// A place at which an extremum is taken, as a line.
+fn place_line(place: &Place, told: &Told<'_>) -> String {
+    match place {
+        Place::Critical(time) => format!("at t = {} (critical point)\n", told.time(time)),
+        Place::End(time) => format!("at t = {} (end of the window)\n", told.time(time)),
+        Place::Arrival { time, before, after } => {
+            let limit = match (before, after) {
+                (true, true) => "in both limits",
+                (false, _) => "from then on",
+                _ => "limit before; not attained",
+            };
+            format!("at t = {} (arrival, {limit})\n", told.time(time))
+        }
+        Place::Plateau { from, to, closed } => {
+            let relation = if *closed { "<=" } else { "<" };
+            format!("for {} <= t {relation} {} (constant)\n", told.time(from), told.time(to))
+        }
+        Place::Undecided { from, to } => {
+            let time = enclosed(from, to).to_decimal(BOUND_DIGITS);
+            format!("at t = {time}{}? (undecided)\n", told.second())
+        }
+    }
 }
 
 /// A number with all that is proven of it.

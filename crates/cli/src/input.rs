@@ -4,6 +4,7 @@ use super::arguments::Scene;
 use super::failure::Failure;
 use std::io::Read as _;
 use std::ops::Deref;
+use std::path::Path;
 use wavestep::language;
 use wavestep::limits::{MAX_DIGITS, MAX_SOURCE_BYTES};
 use wavestep::problem::{Problem, ProblemError, Values, number};
@@ -38,15 +39,23 @@ pub fn problem_with(scene: &str, values: &Values) -> Result<Asked, Failure> {
     if let Some(scene) = scenes::find(scene) {
         return Ok(Asked(Problem::of_text(scene.name, scene.text, values)?));
     }
-    let bytes = bytes(scene, MAX_SOURCE_BYTES).map_err(|error| {
-        let names: Vec<&str> = scenes::SCENES.iter().map(|scene| scene.name).collect();
-        let remedy = match language::closest(scene, names.iter().copied()) {
-            Some(scene) => format!("did you mean the built-in scene `{scene}`?"),
-            None => format!("name a file, or a built-in scene: {}", names.join(", ")),
-        };
-        Failure::usage(format!("the scene `{scene}` cannot be read: {error}"), remedy)
-    })?;
+    let bytes = bytes(scene, MAX_SOURCE_BYTES).map_err(|error| unread(scene, &error))?;
     Ok(Asked(Problem::of_text(scene, bytes, values)?))
+}
+
+/// Whether there is a built-in scene or a file of this name.
+pub fn is_scene(name: &str) -> bool {
+    scenes::find(name).is_some() || Path::new(name).exists()
+}
+
+/// Why a scene is not read.
+pub fn unread(scene: &str, error: &std::io::Error) -> Failure {
+    let names: Vec<&str> = scenes::SCENES.iter().map(|scene| scene.name).collect();
+    let remedy = match language::closest(scene, names.iter().copied()) {
+        Some(scene) => format!("did you mean the built-in scene `{scene}`?"),
+        None => format!("name a file, or a built-in scene: {}", names.join(", ")),
+    };
+    Failure::usage(format!("the scene `{scene}` cannot be read: {error}"), remedy)
 }
 
 pub fn built_in(name: &str) -> Result<&'static scenes::Scene, Failure> {

@@ -1,4 +1,4 @@
-//! The difference of two signals of two scenes: how far one is from the other.
+//! The difference of two signals of two scenes: how far one is from the other, or from what its own first arrivals tell.
 //!
 //! Each scene has a scale of its own. A delay of the second is told in the scale of the first where it holds but numbers,
 //! `pi` and square roots, which mean the same everywhere; so what happens in both scenes at once is one break.
@@ -7,16 +7,19 @@ use super::{Mark, Outcome, Rule, Scale, value_at};
 use crate::ball::Ball;
 use crate::expression::{Expression, Fraction};
 use crate::scene::PI;
-use crate::signal::{Effort, Enclosure, Instant, Known, Limit, Signal, Taylor};
+use crate::signal::{At, Effort, Enclosure, Instant, Known, Limit, Signal, Taylor};
 use std::ops::Range;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
 /// # Invariants
 /// - both operands have the window of the difference, and values in one unit.
+/// - where arrivals are left out, the function of each stretch of the second operand is known for all times after it.
 pub(crate) struct Difference<'a> {
     pub scales: [Rc<Scale<'a>>; 2],
     pub operands: [Box<dyn Signal + 'a>; 2],
+    /// How many arrivals of the second operand count: after them it goes on as if no more came.
+    pub arrivals: Option<usize>,
 }
 
 /// Whether it means the same in every scene.
@@ -33,6 +36,22 @@ impl<'a> Difference<'a> {
         is_common(&time).then_some(time)
     }
 
+    /// How many stretches of the second operand count.
+    fn places(&self) -> Outcome<usize> {
+        let count = self.operands[1].count()?;
+        Ok(self.arrivals.map_or(count, |arrivals| count.min(arrivals + 1)))
+    }
+
+    /// A value of the second operand after the last arrival that counts; none before.
+    fn after_the_last(&self, at: &Rational, side: Limit) -> Outcome<Option<Enclosure<'_>>> {
+        let (own, last) = (&self.operands[1], self.places()? - 1);
+        if self.arrivals.is_none() || own.stretch_at(at, side)?.is_none_or(|place| place <= last) {
+            return Ok(None);
+        }
+        let at = at.clone();
+        Ok(Some(Box::new(move |bits| own.enclose(last, 0, At::Time(&at), bits))))
+    }
+
     fn both<T>(
         &self,
         places: &[usize],
@@ -45,7 +64,7 @@ impl<'a> Difference<'a> {
 
 impl Rule for Difference<'_> {
     fn ranges(&self) -> Outcome<Vec<Range<usize>>> {
-        self.operands.iter().map(|operand| Ok(0..operand.count()?)).collect()
+        Ok(vec![0..self.operands[0].count()?, 0..self.places()?])
     }
 
     fn mark(&self, operand: usize, place: usize) -> Mark<'_> {
@@ -63,7 +82,9 @@ impl Rule for Difference<'_> {
     }
 
     fn is_zero(&self, places: &[usize]) -> bool {
-        self.operands.iter().zip(places).all(|(operand, place)| operand.is_zero(*place))
+        // Until the last arrival that counts both are one function.
+        self.arrivals.is_some() && places[0] == places[1]
+            || self.operands.iter().zip(places).all(|(operand, place)| operand.is_zero(*place))
     }
 
     fn terms(
@@ -114,6 +135,12 @@ impl Rule for Difference<'_> {
     }
 
     fn point(&self, at: &Rational, side: Limit) -> Outcome<(Known, Enclosure<'_>, u64)> {
+        if let Some(other) = self.after_the_last(at, side)? {
+            let own = self.operands[0].point(at, side)?;
+            let most_bits = own.most_bits;
+            let enclose = move |bits| Ok((own.enclose)(bits)?.subtract(&other(bits)?, bits));
+            return Ok((Known::Unknown, Box::new(enclose), most_bits));
+        }
         let [own, other] = self.operands.each_ref().map(|operand| operand.point(at, side));
         let (own, other) = (own?, other?);
         let most_bits = own.most_bits.min(other.most_bits);

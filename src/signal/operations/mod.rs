@@ -10,12 +10,15 @@ mod combination;
 mod constant;
 mod difference;
 mod integral;
+mod vibration;
 
 pub(crate) use balanced::Balanced;
 pub(crate) use combination::{Combination, Product};
 pub(crate) use constant::Constant;
 pub(crate) use difference::Difference;
 pub(crate) use integral::Integral;
+pub(crate) use vibration::Vibrating;
+pub use vibration::Vibration;
 
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
 use crate::enclosure::Numbers;

@@ -6,11 +6,12 @@ use wavestep::limits::SEARCH_BITS;
 use wavestep::signal::Goal;
 
 #[derive(Args)]
-#[command(group = ArgGroup::new("goal").required(true).args(["max", "min", "zero", "level"]),
+#[command(group = ArgGroup::new("goal").required(true).args(["max", "min", "zero", "level", "distance"]),
     after_help = "Examples:\n  \
     wavestep find rigid-mass --set mu=1 --zero strain_impact --from 2 --to 4\n  \
     wavestep find rigid-mass --set mu=1 --level velocity=1/2 --from 0 --to 6\n  \
     wavestep find hopkinson --max force --from 0 --to 350us --digits 9\n  \
+    wavestep find mass-on-fixed-bar --set mu=1/10 --distance velocity --minus third --to 2\n  \
     wavestep find rigid-mass --min strain_fixed --equal mu=1/10..1 --between 3*mu,5*mu,7*mu\n\n\
     Both ends of the window belong to it. Every root in it is told, with what is proven of it; exit\n\
     code 3 when some of it stays undecided. Levels are in the unit of the quantity, or have one.")]
@@ -29,8 +30,14 @@ pub struct Find {
     /// All times at which it has this value
     #[arg(long, value_name = "QUANTITY=VALUE", allow_hyphen_values = true)]
     pub level: Option<String>,
-    /// Subtract the quantity of the same name in this scene: how far two scenes are apart
-    #[arg(long, value_name = "SCENE", conflicts_with = "equal")]
+    /// How far it is from that of --minus at most, and which share of its largest value that is; of all observables
+    /// where none is named
+    #[arg(long, value_name = "QUANTITY", requires = "minus", num_args = 0..=1, default_missing_value = "")]
+    pub distance: Option<String>,
+    /// Subtract the quantity of the same name in another scene, or in this one with something left out: `rigid` (no bar
+    /// yields), `third` (bars are springs with a third of their mass), `rigid:BAR`, `spring:BAR`, `without:ELEMENT`,
+    /// `endless:BAR.right`, `closed` (contacts stay closed), several of these joined by `+`; `modes:N`, `echoes:N`
+    #[arg(long, value_name = "WHAT", conflicts_with = "equal")]
     pub minus: Option<String>,
     /// The first time of the window
     #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]

@@ -1,0 +1,348 @@
+//! Changes of a scene that leave something out, made in its text: what the author wrote stays, with its units.
+
+use super::diagnostic::Diagnostic;
+use super::name::normalise;
+use super::syntax::{
+    Declaration, Declared, Line, ObservedPlace, Scene, SceneStatementKind, Section, Span,
+};
+use super::{Source, parse_scene};
+use crate::scene::{End, Joint};
+use std::fmt;
+use std::str::FromStr;
+
+/// The side of a bar on which it goes on for ever.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Beyond {
+    Left,
+    Right,
+}
+
+/// Something that is left out of a scene.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Change {
+    /// An element: what stands beside it is joined.
+    Without(String),
+    /// That a bar yields; of all bars where none is named.
+    Rigid(Option<String>),
+    /// The waves in a bar: it becomes a spring with a share of its mass, the usual one where none is given. In all bars
+    /// where none is named.
+    Spring(Option<String>, Option<String>),
+    /// What lies beyond a bar, which goes on for ever instead.
+    Endless(String, Beyond),
+    /// That contacts open.
+    Closed,
+}
+
+/// Why a scene is not changed.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum ChangeError {
+    #[error("`{0}` names no change of a scene")]
+    Unknown(String),
+    #[error("there is no element `{0}` in this scene")]
+    NoElement(String),
+    #[error("`{0}` is no bar")]
+    NotABar(String),
+    #[error("the bar `{0}` is rigid, or a spring, already")]
+    Ideal(String),
+    #[error("contacts stay closed in this scene")]
+    NoContacts,
+    #[error(transparent)]
+    Text(#[from] Diagnostic),
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Change::Without(name) => write!(f, "without:{name}"),
+            Change::Rigid(None) => f.write_str("rigid"),
+            Change::Rigid(Some(name)) => write!(f, "rigid:{name}"),
+            Change::Spring(None, _) => f.write_str("third"),
+            Change::Spring(Some(name), None) => write!(f, "spring:{name}"),
+            Change::Spring(Some(name), Some(share)) => write!(f, "spring:{name},{share}"),
+            Change::Endless(name, Beyond::Left) => write!(f, "endless:{name}.left"),
+            Change::Endless(name, Beyond::Right) => write!(f, "endless:{name}.right"),
+            Change::Closed => f.write_str("closed"),
+        }
+    }
+}
+
+impl FromStr for Change {
+    type Err = ChangeError;
+
+    fn from_str(text: &str) -> Result<Change, ChangeError> {
+        let unknown = || ChangeError::Unknown(text.to_owned());
+        let (word, of) = text.split_once(':').map_or((text, None), |(word, of)| (word, Some(of)));
+        let name = || of.filter(|name| !name.is_empty()).map(normalise).ok_or_else(unknown);
+        Ok(match (word, of) {
+            ("rigid", None) => Change::Rigid(None),
+            ("third", None) => Change::Spring(None, None),
+            ("closed", None) => Change::Closed,
+            ("rigid", _) => Change::Rigid(Some(name()?)),
+            ("without", _) => Change::Without(name()?),
+            ("spring", Some(of)) => match of.split_once(',') {
+                Some((name, share)) => {
+                    Change::Spring(Some(normalise(name)), Some(share.to_owned()))
+                }
+                None => Change::Spring(Some(name()?), None),
+            },
+            ("endless", Some(of)) => match of.rsplit_once('.') {
+                Some((name, "left")) => Change::Endless(normalise(name), Beyond::Left),
+                Some((name, "right")) => Change::Endless(normalise(name), Beyond::Right),
+                _ => return Err(unknown()),
+            },
+            _ => return Err(unknown()),
+        })
+    }
+}
+
+/// The text of a scene after these changes, one after the other.
+///
+/// # Errors
+/// A text that is no scene; elements that are not there, or that a change does not suit. Whether the new scene makes
+/// sense is told when it is read.
+pub fn changed(source: &Source, changes: &[Change]) -> Result<Source, ChangeError> {
+    let mut source = source.clone();
+    for change in changes {
+        let tree = parse_scene(&source)?;
+        let mut edits = Edits { tree: &tree, all: Vec::new() };
+        edits.make(change)?;
+        source = Source::new(source.name(), edits.applied())?;
+    }
+    Ok(source)
+}
+
+/// The names of the elements of a scene in the order of its line, each with what it is.
+pub fn elements(source: &Source) -> Result<Vec<(String, Declared)>, Diagnostic> {
+    let tree = parse_scene(source)?;
+    let edits = Edits { tree: &tree, all: Vec::new() };
+    let names = edits.line().map_or(&[][..], |(line, _)| &line.elements);
+    let kind = |name: &str| Some((name.to_owned(), edits.declaration(name).ok()?.0.kind));
+    Ok(names.iter().filter_map(|name| kind(&name.value)).collect())
+}
+
+/// Places of a text with what is put there.
+struct Edits<'a> {
+    tree: &'a Scene,
+    all: Vec<(Span, String)>,
+}
+
+impl<'a> Edits<'a> {
+    fn make(&mut self, change: &Change) -> Result<(), ChangeError> {
+        match change {
+            Change::Without(name) => {
+                let (_, span) = self.declaration(name)?;
+                self.remove(span);
+                self.rewrite_line(|line| leave_out(line, name));
+                self.remove_observables(&[name.clone()], None);
+            }
+            Change::Rigid(name) => self.idealise(name.as_deref(), "rigid")?,
+            Change::Spring(name, share) => {
+                let share = share.as_ref().map(|share| format!(", share = {share}"));
+                self.idealise(name.as_deref(), &format!("spring{}", share.unwrap_or_default()))?;
+            }
+            Change::Endless(name, beyond) => self.cut(name, *beyond)?,
+            Change::Closed => {
+                let open = |kind: &SceneStatementKind| *kind == SceneStatementKind::ContactsOpen;
+                let statements = self.tree.statements.iter();
+                let spans = statements.filter(|own| open(&own.value)).map(|own| own.span);
+                let spans: Vec<Span> = spans.collect();
+                if spans.is_empty() {
+                    return Err(ChangeError::NoContacts);
+                }
+                spans.into_iter().for_each(|span| self.remove(span));
+            }
+        }
+        Ok(())
+    }
+
+    fn declaration(&self, name: &str) -> Result<(&'a Declaration, Span), ChangeError> {
+        let found = self.tree.statements.iter().find_map(|statement| match &statement.value {
+            SceneStatementKind::Declaration(own)
+                if own.name.value == name && own.kind != Declared::Material =>
+            {
+                Some((own, statement.span))
+            }
+            _ => None,
+        });
+        found.ok_or_else(|| ChangeError::NoElement(name.to_owned()))
+    }
+
+    fn bar(&self, name: &str) -> Result<&'a Declaration, ChangeError> {
+        let (bar, _) = self.declaration(name)?;
+        match bar.kind {
+            Declared::Bar => Ok(bar),
+            _ => Err(ChangeError::NotABar(name.to_owned())),
+        }
+    }
+
+    fn line(&self) -> Option<(&'a Line, Span)> {
+        self.tree.statements.iter().find_map(|statement| match &statement.value {
+            SceneStatementKind::Line(line) => Some((line, statement.span)),
+            _ => None,
+        })
+    }
+
+    /// Gives a bar, or each bar that has none, the property `as`.
+    fn idealise(&mut self, name: Option<&str>, ideal: &str) -> Result<(), ChangeError> {
+        let has_ideal = |bar: &Declaration| bar.properties.iter().any(|own| own.name.value == "as");
+        let bars: Vec<&Declaration> = match name {
+            Some(name) => {
+                let bar = self.bar(name)?;
+                if has_ideal(bar) {
+                    return Err(ChangeError::Ideal(name.to_owned()));
+                }
+                vec![bar]
+            }
+            None => {
+                let declarations = self.tree.statements.iter().filter_map(|own| match &own.value {
+                    SceneStatementKind::Declaration(own) if own.kind == Declared::Bar => Some(own),
+                    _ => None,
+                });
+                declarations.filter(|bar| !has_ideal(bar)).collect()
+            }
+        };
+        for bar in bars {
+            let Some(last) = bar.properties.last() else { continue };
+            let end = last.unit.as_ref().map_or(last.value.span.end, |unit| unit.span.end);
+            self.all.push((Span::new(end, end), format!(", as = {ideal}")));
+        }
+        Ok(())
+    }
+
+    /// Lets a bar go on for ever on one side, and leaves out what lies beyond.
+    fn cut(&mut self, name: &str, beyond: Beyond) -> Result<(), ChangeError> {
+        let bar = self.bar(name)?;
+        let Some((line, _)) = self.line() else { return Ok(()) };
+        let place = line.elements.iter().position(|own| own.value == name);
+        let place = place.ok_or_else(|| ChangeError::NoElement(name.to_owned()))?;
+        let gone = match beyond {
+            Beyond::Left => &line.elements[..place],
+            Beyond::Right => &line.elements[place + 1..],
+        };
+        let gone: Vec<String> = gone.iter().map(|own| own.value.clone()).collect();
+        for name in &gone {
+            let (_, span) = self.declaration(name)?;
+            self.remove(span);
+        }
+        let length = |name: &str| matches!(name, "length" | "travel");
+        if let Some(at) = bar.properties.iter().position(|own| length(&own.name.value)) {
+            let own = &bar.properties[at];
+            let end = |at: usize| {
+                let own = &bar.properties[at];
+                own.unit.as_ref().map_or(own.value.span.end, |unit| unit.span.end)
+            };
+            // With the comma before it, or the one behind.
+            let span = match (at.checked_sub(1), bar.properties.get(at + 1)) {
+                (Some(before), _) => Span::new(end(before), end(at)),
+                (None, Some(next)) => Span::new(own.name.span.start, next.name.span.start),
+                (None, None) => Span::new(own.name.span.start, end(at)),
+            };
+            self.all.push((span, String::new()));
+        }
+        self.rewrite_line(|line| match beyond {
+            Beyond::Left => {
+                line.elements.drain(..place);
+                line.joints.drain(..=place);
+                line.joints.insert(0, Joint::Bonded);
+                line.ends[0] = End::Endless;
+            }
+            Beyond::Right => {
+                line.elements.truncate(place + 1);
+                line.joints.truncate(place + 1);
+                line.joints.push(Joint::Bonded);
+                line.ends[1] = End::Endless;
+            }
+        });
+        self.remove_observables(&gone, Some((name, beyond)));
+        Ok(())
+    }
+
+    fn rewrite_line(&mut self, change: impl FnOnce(&mut Written)) {
+        let Some((line, span)) = self.line() else { return };
+        let mut written = Written {
+            ends: [line.left.value, line.right.value],
+            elements: line.elements.iter().map(|own| own.value.clone()).collect(),
+            joints: line.joints.iter().map(|joint| joint.value).collect(),
+        };
+        change(&mut written);
+        self.all.push((span, written.to_string()));
+    }
+
+    /// Removes what is observed of elements that are gone, and at the end of a bar that has none any more or at a share of
+    /// its length.
+    fn remove_observables(&mut self, gone: &[String], endless: Option<(&str, Beyond)>) {
+        let is_gone = |place: &ObservedPlace| {
+            let lacks = |(bar, beyond): (&str, Beyond)| {
+                let section = match &place.section {
+                    Some(Section::Left) => beyond == Beyond::Left,
+                    Some(Section::Right) => beyond == Beyond::Right,
+                    Some(Section::At { unit, .. }) => unit.is_none(),
+                    None => false,
+                };
+                place.element.value == bar && section
+            };
+            gone.contains(&place.element.value) || endless.is_some_and(lacks)
+        };
+        let tree = self.tree;
+        for statement in &tree.statements {
+            let SceneStatementKind::Observe { terms, .. } = &statement.value else { continue };
+            if terms.iter().any(|term| is_gone(&term.value.place.value)) {
+                self.remove(statement.span);
+            }
+        }
+    }
+
+    /// Removes a statement, with its line where nothing but a comment stands beside it.
+    fn remove(&mut self, span: Span) {
+        let text = self.tree.source.text();
+        let start = text[..span.start].rfind('\n').map_or(0, |at| at + 1);
+        let end = text[span.end..].find('\n').map_or(text.len(), |at| span.end + at + 1);
+        let rest = text[span.end..end].trim_start();
+        let is_alone =
+            text[start..span.start].trim().is_empty() && (rest.is_empty() || rest.starts_with('#'));
+        let span = if is_alone { Span::new(start, end) } else { span };
+        self.all.push((span, String::new()));
+    }
+
+    fn applied(mut self) -> String {
+        self.all.sort_by_key(|(span, _)| *span);
+        let mut text = self.tree.source.text().to_owned();
+        for (span, new) in self.all.iter().rev() {
+            text.replace_range(span.start..span.end, new);
+        }
+        text
+    }
+}
+
+/// A line as it is written anew.
+struct Written {
+    ends: [End; 2],
+    elements: Vec<String>,
+    joints: Vec<Joint>,
+}
+
+/// Takes an element out of a line. Where it touched a neighbour, what is joined now touches.
+fn leave_out(line: &mut Written, name: &str) {
+    let Some(place) = line.elements.iter().position(|own| own == name) else { return };
+    line.elements.remove(place);
+    if line.joints.remove(place) == Joint::Contact {
+        line.joints[place] = Joint::Contact;
+    }
+    let last = line.elements.len();
+    for (side, joint) in [(0, 0), (1, last)] {
+        if joint == place && line.ends[side] != End::Fixed {
+            line.joints[joint] = Joint::Bonded;
+        }
+    }
+}
+
+impl fmt::Display for Written {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}", self.ends[0].word())?;
+        let names = self.elements.iter().map(String::as_str).chain([self.ends[1].word()]);
+        for (joint, name) in self.joints.iter().zip(names) {
+            write!(f, " {} {name}", joint.sign())?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,191 @@
+//! Simpler answers than the exact one, and how far they are from it, with proof.
+
+use super::{Problem, ProblemError, Wanted};
+use crate::language::{self, Change, ChangeError, Source};
+use crate::model::Modes;
+use crate::planner::{self, Purpose};
+use crate::signal::{Goal, Place, Search, Signal};
+use std::fmt;
+use std::str::FromStr;
+use wavestep_polynomial::Rational;
+
+/// A simpler answer: of a scene with something left out, or a part of the exact one.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Simpler {
+    /// These changes, one after the other.
+    Scene(Vec<Change>),
+    /// So many modes of vibration.
+    Modes(usize),
+    /// What so many arrivals tell, as if no more came.
+    Arrivals(usize),
+}
+
+impl Simpler {
+    /// How it is written.
+    pub const FORMS: &'static str = "`rigid`, `third`, `rigid:BAR`, `spring:BAR`, `spring:BAR,SHARE`, \
+        `endless:BAR.right`, `endless:BAR.left`, `without:ELEMENT`, `closed`, several of these joined by `+`; \
+        `modes:N`, `echoes:N`";
+}
+
+impl fmt::Display for Simpler {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Simpler::Modes(count) => write!(f, "modes:{count}"),
+            Simpler::Arrivals(count) => write!(f, "echoes:{count}"),
+            Simpler::Scene(changes) => {
+                let changes: Vec<String> = changes.iter().map(Change::to_string).collect();
+                f.write_str(&changes.join("+"))
+            }
+        }
+    }
+}
+
+impl FromStr for Simpler {
+    type Err = ChangeError;
+
+    fn from_str(text: &str) -> Result<Simpler, ChangeError> {
+        let count = |count: &str| {
+            let count = count.parse().ok().filter(|count| *count > 0);
+            count.ok_or_else(|| ChangeError::Unknown(text.to_owned()))
+        };
+        Ok(match text.split_once(':') {
+            Some(("modes", number)) => Simpler::Modes(count(number)?),
+            Some(("echoes", number)) => Simpler::Arrivals(count(number)?),
+            _ => Simpler::Scene(text.split('+').map(str::parse).collect::<Result<_, _>>()?),
+        })
+    }
+}
+
+/// What answers are compared with those of a problem.
+pub enum Other {
+    Problem(Box<Problem>),
+    Modes(Box<Modes>),
+    Arrivals(usize),
+}
+
+/// The same, as it is asked.
+pub enum Against<'p> {
+    Problem(&'p Problem),
+    Modes(&'p Modes),
+    Arrivals(usize),
+}
+
+impl<'p> From<&'p Problem> for Against<'p> {
+    fn from(problem: &'p Problem) -> Against<'p> {
+        Against::Problem(problem)
+    }
+}
+
+impl<'p> From<&'p Other> for Against<'p> {
+    fn from(other: &'p Other) -> Against<'p> {
+        match other {
+            Other::Problem(problem) => Against::Problem(problem),
+            Other::Modes(modes) => Against::Modes(modes),
+            Other::Arrivals(count) => Against::Arrivals(*count),
+        }
+    }
+}
+
+/// The largest absolute value of a signal on its window, with proof.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Size {
+    /// It lies between these.
+    pub bounds: [Rational; 2],
+    /// Where it is taken.
+    pub places: Vec<Place>,
+}
+
+impl Size {
+    /// The size of a signal, enclosed to about so many digits.
+    pub fn of(signal: &dyn Signal, digits: usize, bits: u64) -> Result<Size, ProblemError> {
+        let search = Search::new(signal)?;
+        let most = search.extremum(Goal::Largest, digits, bits)?;
+        let least = search.extremum(Goal::Smallest, digits, bits)?;
+        let ([low, high], [lowest, highest]) = (most.value.bounds(), least.value.bounds());
+        let (low, high, above) = (-highest, -lowest, [low, high]);
+        let places = match above[1] >= high {
+            true => most.places,
+            false => least.places,
+        };
+        let zero = Rational::default();
+        let [first, last] = above;
+        Ok(Size { bounds: [first.max(low).max(zero.clone()), last.max(high).max(zero)], places })
+    }
+
+    /// Between which numbers this size over another lies; none where the other may be zero.
+    pub fn over(&self, other: &Size) -> Option<[Rational; 2]> {
+        let [low, high] = &other.bounds;
+        (*low > Rational::default()).then(|| [&self.bounds[0] / high, &self.bounds[1] / low])
+    }
+}
+
+#[doc(hidden)]
+impl Problem {
+    /// The same scene with something left out.
+    pub fn changed(&self, changes: &[Change]) -> Result<Problem, ProblemError> {
+        let source = language::changed(&self.source, changes)?;
+        Problem::of(source, self.values.clone())
+    }
+
+    /// What it was read from.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// A simpler answer, made ready.
+    pub fn simpler(&self, simpler: &Simpler) -> Result<Other, ProblemError> {
+        Ok(match simpler {
+            Simpler::Scene(changes) => Other::Problem(Box::new(self.changed(changes)?)),
+            Simpler::Modes(count) => Other::Modes(Box::new(Modes::new(self.scaled()?, *count)?)),
+            Simpler::Arrivals(count) => Other::Arrivals(*count),
+        })
+    }
+
+    /// A quantity less what another answer says of it, on a window: how far the two are apart.
+    ///
+    /// # Errors
+    /// [`ProblemError::UnknownThere`]; [`ProblemError::Apart`] for quantities or times in other units; equations
+    /// without bars; arrivals of what has no closed form.
+    pub fn difference_on<'p>(
+        &'p self,
+        other: impl Into<Against<'p>>,
+        wanted: &Wanted,
+        window: [&Rational; 2],
+        purpose: Purpose,
+    ) -> Result<Box<dyn Signal + 'p>, ProblemError> {
+        let own = self.network()?;
+        let signal = || self.signal_on(wanted, window, purpose);
+        let (network, others, arrivals) = match other.into() {
+            Against::Problem(other) => {
+                let others = self.same(other, wanted)?;
+                (other.network()?, other.signal_on(&others, window, purpose)?, None)
+            }
+            Against::Modes(modes) => {
+                let place = wanted.place.ok_or_else(|| self.unknown(&wanted.name))?;
+                let vibration = modes.vibration(place)?;
+                let signal = planner::vibration(own, &vibration, window);
+                (own, signal.ok_or_else(|| self.unknown(&wanted.name))?, None)
+            }
+            Against::Arrivals(count) => {
+                let signal = signal()?;
+                signal.closed_form()?;
+                (own, signal, Some(count))
+            }
+        };
+        Ok(planner::difference([own, network], [signal()?, others], arrivals, window))
+    }
+
+    /// The quantity of the same name in another scene.
+    fn same(&self, other: &Problem, wanted: &Wanted) -> Result<Wanted, ProblemError> {
+        let title = || other.title().to_owned();
+        let others = other.wanted(&wanted.name).map_err(|_| {
+            let names = other.waves().into_iter().chain(other.observables()).map(str::to_owned);
+            let (name, names) = (wanted.name.clone(), names.collect());
+            ProblemError::UnknownThere { name, title: title(), names }
+        })?;
+        if others.dimension != wanted.dimension || self.has_units() != other.has_units() {
+            return Err(ProblemError::Apart { name: wanted.name.clone(), title: title() });
+        }
+        Ok(others)
+    }
+}
