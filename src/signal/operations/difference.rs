@@ -115,7 +115,12 @@ impl Rule for Difference<'_> {
 
     /// Numbers alone mean the same in both scenes.
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {
-        let times = [at.clone(), self.rescaled(at, [0, 1])?];
+        // At all times at once only what is constant in both is a number.
+        let all = |scale: &Scale<'_>| Fraction::symbol(&scale.network.scene().time);
+        let times = match *at == all(&self.scales[0]) {
+            true => self.scales.each_ref().map(|scale| all(scale)),
+            false => [at.clone(), self.rescaled(at, [0, 1])?],
+        };
         let number = |operand: usize| {
             let value = &self.operands[operand];
             value.exact_at(places[operand], &times[operand], effort)?.as_constant()
