@@ -4,6 +4,7 @@
 //! derived from them once it has been asked for. It alone knows which kind of text it holds; callers ask
 //! for a title, a quantity, a time, values, and are told where there is no answer.
 
+mod advise;
 mod bounds;
 mod check;
 mod constants;
@@ -29,6 +30,7 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
 
+pub use advise::{Advice, Need, Tried, Verdict};
 pub use check::{Checked, Derivations, General, Periods, Solved};
 pub use derive::{Derived, Form, Functions, GeneralFormulas, Orders, Symbols, ToDerive};
 pub use equal::{Crossing, EqualExtrema};

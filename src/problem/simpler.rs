@@ -25,6 +25,17 @@ impl Simpler {
     pub const FORMS: &'static str = "`rigid`, `third`, `rigid:BAR`, `spring:BAR`, `spring:BAR,SHARE`, \
         `endless:BAR.right`, `endless:BAR.left`, `without:ELEMENT`, `closed`, several of these joined by `+`; \
         `modes:N`, `echoes:N`";
+
+    /// What it consists of, where it is no scene.
+    pub(super) fn work(&self) -> String {
+        match self {
+            Simpler::Scene(_) => String::new(),
+            Simpler::Modes(1) => "1 cosine".to_owned(),
+            Simpler::Modes(count) => format!("{count} cosines"),
+            Simpler::Arrivals(1) => "the first arrival".to_owned(),
+            Simpler::Arrivals(count) => format!("the first {count} arrivals"),
+        }
+    }
 }
 
 impl fmt::Display for Simpler {

@@ -3,6 +3,7 @@
 //! Standard output carries results alone; errors and progress go to standard error. Exit codes:
 //! 0 done, 1 could not compute or not as locked, 2 usage or bad scene, 3 accuracy not reached.
 
+mod advise;
 mod arguments;
 mod book;
 mod budget;
@@ -68,6 +69,7 @@ pub fn run() -> ExitCode {
         Subcommand::Plot(options) => plot::run(options),
         Subcommand::Field(options) => field::run(options),
         Subcommand::Find(options) => find::run(options),
+        Subcommand::Advise(options) => advise::run(options),
         Subcommand::Dispersion(options) => dispersion::run(options),
         Subcommand::Hertz(options) => hertz::run(options),
         Subcommand::Figure(options) => figure::run(options),

@@ -1,5 +1,6 @@
 //! The arguments of the command, with their help.
 
+mod advise;
 mod book;
 mod derive;
 mod dispersion;
@@ -12,6 +13,7 @@ mod locks;
 mod pictures;
 mod tools;
 
+pub use advise::Advise;
 pub use book::Book;
 pub use derive::Derive;
 pub use dispersion::Dispersion;
@@ -128,6 +130,8 @@ pub enum Subcommand {
     Field(Field),
     /// Find all roots, or the largest or smallest value, in a window of time, with proof
     Find(Find),
+    /// Tell the smallest model that is enough for a tolerance, with a proven distance from the exact answer
+    Advise(Advise),
     /// Velocities of crests, groups and pulses for a dispersion relation omega(k)
     Dispersion(Dispersion),
     /// Closed forms of a local contact between two bars: largest force, rise times, equivalent spring

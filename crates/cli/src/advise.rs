@@ -1,0 +1,193 @@
+//! `advise`: the smallest answer that is enough for a tolerance, with its proven distance.
+
+use super::arguments::{Advise, Format};
+use super::failure::Failure;
+use super::input;
+use super::json::SCHEMA_VERSION;
+use super::output;
+use super::progress;
+use num_rational::BigRational;
+use serde_json::{Value as Json, json};
+use std::time::Duration;
+use wavestep::ball::{Decimal, in_decimals};
+use wavestep::language::Change;
+use wavestep::problem::{Advice, Need, Problem, Tried, Verdict, Wanted, number, window};
+
+/// Digits of shares and of times that are only shown.
+const DIGITS: usize = 3;
+
+pub fn run(options: &Advise) -> Result<String, Failure> {
+    let problem = input::problem(&options.scene)?;
+    let tolerance = number("--tol", &*options.tol)?;
+    if tolerance <= BigRational::default() {
+        return Err(Failure::usage("the tolerance is not positive", "write --tol 1e-2"));
+    }
+    let name = match &options.quantity {
+        Some(name) => name.trim(),
+        None => problem.usual_quantity().unwrap_or_default(),
+    };
+    let wanted = problem.wanted(name)?;
+    let from = problem.time("--from", &*options.from)?;
+    let to = match &options.to {
+        Some(to) => problem.time("--to", &**to)?,
+        None => &from + problem.usual_length()?,
+    };
+    let window = window(from, to)?;
+    let need = Need { wanted: &wanted, window: window.each_ref(), tolerance };
+    let advice = {
+        let progress = progress::spinner("weighing");
+        problem.advise(&need, &|simpler| progress.set_message(format!("weighing {simpler}")))?
+    };
+    let told = Told { options, problem: &problem, need: &need, advice: &advice };
+    if let Some(path) = &options.output {
+        output::write_whole(path, told.scene()?.as_bytes())?;
+    }
+    Ok(match options.format {
+        Format::Json => told.json(),
+        _ => told.text(),
+    })
+}
+
+struct Told<'a> {
+    options: &'a Advise,
+    problem: &'a Problem,
+    need: &'a Need<'a>,
+    advice: &'a Advice,
+}
+
+fn share(value: &BigRational) -> String {
+    let hundredth = BigRational::from_integer(100.into());
+    format!("{} %", Decimal::from_rational(&(value * hundredth), DIGITS).0)
+}
+
+fn each(time: Duration) -> String {
+    match time.as_secs_f64() {
+        own if own < 1e-3 => format!("{:.0} us", own * 1e6),
+        own => format!("{:.1} ms", own * 1e3),
+    }
+}
+
+impl Told<'_> {
+    fn time(&self, time: &BigRational) -> String {
+        let second = if self.problem.has_units() { " s" } else { "" };
+        format!("{}{second}", Decimal::from_rational(time, DIGITS).0)
+    }
+
+    fn window(&self) -> String {
+        let [from, to] = self.need.window.map(|time| match self.problem.has_units() {
+            true => format!("{} s", in_decimals(time)),
+            false => time.to_string(),
+        });
+        format!("{from} <= t <= {to}")
+    }
+
+    fn verdict(&self, verdict: &Verdict) -> String {
+        match verdict {
+            Verdict::Enough([_, most]) => format!("at most {}", share(most)),
+            Verdict::Misses { by, at } => format!("{} at t = {}", share(by), self.time(at)),
+            Verdict::Unproven(why) => format!("not proven: {why}"),
+            Verdict::Unsuited(why) => format!("does not suit: {why}"),
+        }
+    }
+
+    fn text(&self) -> String {
+        let Advice { tried, work, each: time, .. } = self.advice;
+        let Wanted { name, .. } = self.need.wanted;
+        let enough = self.advice.enough();
+        let row = |own: &Tried| {
+            let mark = if enough.is_some_and(|one| std::ptr::eq(one, own)) { "*" } else { " " };
+            let work = match own.work.is_empty() {
+                true => String::new(),
+                false => format!("; {}, {} a value", own.work, each(own.each)),
+            };
+            [format!("{mark} {}", own.simpler), self.verdict(&own.verdict) + &work]
+        };
+        let mut rows: Vec<[String; 2]> = tried.iter().map(row).collect();
+        let mark = if enough.is_none() { "*" } else { " " };
+        rows.push([format!("{mark} exact"), format!("0; {work}, {} a value", each(*time))]);
+        let width = rows.iter().map(|[what, _]| what.chars().count()).max().unwrap_or_default();
+        let tolerance = share(&self.need.tolerance);
+        let mut text =
+            format!("{name} within {tolerance} of its largest value, {}\n\n", self.window());
+        for [what, verdict] in &rows {
+            text += &format!("{what:<width$}  {verdict}\n");
+        }
+        text.push('\n');
+        text += &match enough {
+            Some(own) => {
+                format!("Enough: `{}`, {}, proven.\n", own.simpler, self.verdict(&own.verdict))
+            }
+            None => "Nothing simpler than the exact answer is enough.\n".to_owned(),
+        };
+        if let Some(next) = self.advice.next_cheaper() {
+            let off = self.verdict(&next.verdict);
+            text += &format!("Not enough: `{}`, off by {off}.\n", next.simpler);
+        }
+        text
+    }
+
+    fn json(&self) -> String {
+        let Advice { tried, work, each, largest } = self.advice;
+        let [from, to] = self.need.window.map(ToString::to_string);
+        let bounds = |bounds: &[BigRational; 2]| {
+            bounds.each_ref().map(|bound| Decimal::from_rational(bound, 9).0.to_string())
+        };
+        let row = |own: &Tried| {
+            let mut body = json!({
+                "what": own.simpler.to_string(),
+                "work": own.work,
+                "seconds_a_value": own.each.as_secs_f64(),
+            });
+            let verdict: Json = match &own.verdict {
+                Verdict::Enough(share) => json!({ "enough": bounds(share) }),
+                Verdict::Misses { by, at } => {
+                    json!({ "misses": Decimal::from_rational(by, 9).0.to_string(), "at": at.to_string() })
+                }
+                Verdict::Unproven(why) => json!({ "unproven": why }),
+                Verdict::Unsuited(why) => json!({ "unsuited": why }),
+            };
+            body["verdict"] = verdict;
+            body
+        };
+        let document = json!({
+            "schema_version": SCHEMA_VERSION,
+            "title": self.problem.title(),
+            "quantity": self.need.wanted.name,
+            "set": self.options.scene.set,
+            "from": from,
+            "to": to,
+            "tolerance": self.need.tolerance.to_string(),
+            "largest": bounds(&largest.bounds),
+            "tried": tried.iter().map(row).collect::<Vec<_>>(),
+            "exact": { "work": work, "seconds_a_value": each.as_secs_f64() },
+            "enough": self.advice.enough().map(|own| own.simpler.to_string()),
+        });
+        format!("{document}\n")
+    }
+
+    /// The smallest scene that is enough, with a comment that says for what it holds.
+    fn scene(&self) -> Result<String, Failure> {
+        let (changes, proven): (&[Change], String) = match self.advice.scene() {
+            Some((own, changes)) => {
+                let verdict = self.verdict(&own.verdict);
+                (changes, format!("# `{}`: off by {verdict} of it, proven.\n", own.simpler))
+            }
+            None => (&[], "# Nothing in it can be left out.\n".to_owned()),
+        };
+        let text = match changes {
+            [] => self.problem.source().text().to_owned(),
+            _ => self.problem.changed(changes)?.source().text().to_owned(),
+        };
+        let values =
+            self.problem.values().iter().map(|(name, value)| format!(" --set {name}={value}"));
+        let values: String = values.collect();
+        let values = if values.is_empty() { values } else { format!(", with{values}") };
+        Ok(format!(
+            "# What is left of \"{}\" for {} within {} of its largest value,\n# {}{values}.\n{proven}{text}",
+            self.problem.title(),
+            self.need.wanted.name,
+            share(&self.need.tolerance),
+            self.window(),
+        ))
+    }
+}

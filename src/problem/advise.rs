@@ -1,0 +1,414 @@
+//! How much of a scene an answer needs: simpler answers from cheap to dear, and which of them is enough with proof.
+//!
+//! Samples tell quickly what is not enough, each with the time at which it is seen; what they let pass is proven by the
+//! largest difference on the window.
+
+use super::{Other, Problem, ProblemError, Simpler, Size, Wanted};
+use crate::ball::Ball;
+use crate::language::syntax::Declared;
+use crate::language::{self, Beyond, Change};
+use crate::planner::Purpose;
+use crate::signal::{Limit, Signal};
+use num_traits::Signed as _;
+use std::time::{Duration, Instant};
+use wavestep_polynomial::Rational;
+
+/// The precision of samples, and where in a stretch they are taken, in 64ths of it.
+const SAMPLE_BITS: u64 = 96;
+const PLACES: [i64; 5] = [1, 16, 32, 48, 63];
+
+/// The most stretches that are sampled.
+const MAX_SAMPLED: usize = 48;
+
+/// Digits and bits of proven distances.
+const DIGITS: usize = 4;
+const MAX_BITS: u64 = 1 << 12;
+
+/// The most modes and arrivals that are tried.
+const MAX_MODES: usize = 64;
+const MAX_ARRIVALS: usize = 64;
+
+/// The shares of its mass that a bar may have at an end, in 60ths.
+const SHARES: [i64; 13] = [6, 10, 12, 15, 18, 20, 22, 23, 24, 25, 27, 30, 36];
+
+/// What is asked.
+pub struct Need<'a> {
+    pub wanted: &'a Wanted,
+    pub window: [&'a Rational; 2],
+    /// How far off an answer may be, over the largest value.
+    pub tolerance: Rational,
+}
+
+/// What a simpler answer is worth.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Verdict {
+    /// It is off by at most the second number, and somewhere by the first, over the largest value.
+    Enough([Rational; 2]),
+    /// It is off by more than is allowed, by so much at this time, over the largest value.
+    Misses { by: Rational, at: Rational },
+    /// Samples are near enough, and no proof was found that all is.
+    Unproven(String),
+    /// It does not suit the scene.
+    Unsuited(String),
+}
+
+/// A simpler answer that was tried.
+#[derive(Clone, Debug)]
+pub struct Tried {
+    pub simpler: Simpler,
+    pub verdict: Verdict,
+    /// What it consists of, in words.
+    pub work: String,
+    /// How long a value took, when samples were taken.
+    pub each: Duration,
+}
+
+/// All that was tried, from cheap to dear.
+#[derive(Clone, Debug)]
+pub struct Advice {
+    pub tried: Vec<Tried>,
+    /// The largest value of the quantity.
+    pub largest: Size,
+    /// What the exact answer consists of, and how long a value of it took.
+    pub work: String,
+    pub each: Duration,
+}
+
+impl Advice {
+    /// The cheapest that is enough.
+    pub fn enough(&self) -> Option<&Tried> {
+        self.tried.iter().find(|own| matches!(own.verdict, Verdict::Enough(_)))
+    }
+
+    /// The dearest of those cheaper than what is enough that are known not to be.
+    pub fn next_cheaper(&self) -> Option<&Tried> {
+        let before = self.tried.iter().take_while(|own| !matches!(own.verdict, Verdict::Enough(_)));
+        before.filter(|own| matches!(own.verdict, Verdict::Misses { .. })).last()
+    }
+
+    /// The cheapest that is enough and is a scene.
+    pub fn scene(&self) -> Option<(&Tried, &[Change])> {
+        self.tried.iter().find_map(|own| match (&own.simpler, &own.verdict) {
+            (Simpler::Scene(changes), Verdict::Enough(_)) => Some((own, &changes[..])),
+            _ => None,
+        })
+    }
+}
+
+/// An answer at the times of samples.
+struct Sampled {
+    worst: Rational,
+    at: Rational,
+    each: Duration,
+}
+
+struct Adviser<'p, 'a> {
+    problem: &'p Problem,
+    need: &'p Need<'a>,
+    largest: Size,
+    times: Vec<Rational>,
+    tried: Vec<Tried>,
+    /// The texts of the scenes that were tried.
+    texts: Vec<String>,
+    tell: &'p dyn Fn(&Simpler),
+}
+
+#[doc(hidden)]
+impl Problem {
+    /// Tries simpler answers from cheap to dear; `tell` hears of each.
+    ///
+    /// # Errors
+    /// As [`Problem::signal_on`], and where the largest value is not found.
+    pub fn advise(&self, need: &Need<'_>, tell: &dyn Fn(&Simpler)) -> Result<Advice, ProblemError> {
+        let signal = self.signal_on(need.wanted, need.window, Purpose::Search)?;
+        let largest = Size::of(&*signal, DIGITS, MAX_BITS)?;
+        let times = sample_times(&*signal)?;
+        let begun = Instant::now();
+        for time in &times {
+            let _ = (signal.point(time, Limit::Right)?.enclose)(SAMPLE_BITS)?;
+        }
+        let each = begun.elapsed() / times.len() as u32;
+        let work = self.work(signal.count()?);
+        let mut adviser = Adviser {
+            problem: self,
+            need,
+            largest,
+            times,
+            tried: Vec::new(),
+            texts: Vec::new(),
+            tell,
+        };
+        adviser.whole();
+        adviser.shares();
+        adviser.reduced()?;
+        let arrivals =
+            (0..signal.count()?).filter(|stretch| !signal.is_instant(*stretch)).count() - 1;
+        if arrivals > 1 {
+            adviser.counted(MAX_ARRIVALS.min(arrivals - 1), Simpler::Arrivals);
+        }
+        adviser.counted(MAX_MODES, Simpler::Modes);
+        let Adviser { tried, largest, .. } = adviser;
+        Ok(Advice { tried, largest, work, each })
+    }
+
+    /// Of what a scene consists, and how many arrivals are seen.
+    fn work(&self, stretches: usize) -> String {
+        let bars = self.scaled().map_or(0, |scaled| scaled.model().bars.len());
+        let lumps = self.scaled().map_or(0, |scaled| scaled.model().lumps.len());
+        let of = |count: usize, what: &str| match count {
+            1 => format!("1 {what}"),
+            _ => format!("{count} {what}s"),
+        };
+        match bars {
+            0 => of(lumps, "element"),
+            _ => {
+                let lumps = of(lumps, "element");
+                format!("{}, {lumps}, {}", of(bars, "bar"), of(stretches - 1, "arrival"))
+            }
+        }
+    }
+}
+
+/// Times within the stretches of a signal, near their ends and between.
+fn sample_times(signal: &dyn Signal) -> Result<Vec<Rational>, ProblemError> {
+    let [from, to] = signal.window();
+    let count = signal.count()?;
+    let stride = count.div_ceil(MAX_SAMPLED);
+    let mut times = Vec::new();
+    for stretch in (0..count).step_by(stride).filter(|stretch| !signal.is_instant(*stretch)) {
+        let end = |end| -> Result<Rational, ProblemError> {
+            let time = match signal.exact_time(stretch, end) {
+                Some(time) => time,
+                None => signal.time(stretch, end, SAMPLE_BITS)?.midpoint().into(),
+            };
+            Ok(time.clamp(from.clone(), to.clone()))
+        };
+        let (first, last) = (end(Limit::Right)?, end(Limit::Left)?);
+        let part = (&last - &first) / Rational::from_integer(64.into());
+        times.extend(PLACES.map(|place| &first + &part * Rational::from_integer(place.into())));
+    }
+    Ok(times)
+}
+
+impl Adviser<'_, '_> {
+    /// How far off samples are at most.
+    fn sample(&self, other: &Other) -> Result<(Sampled, usize), ProblemError> {
+        let Need { wanted, window, .. } = self.need;
+        let difference = self.problem.difference_on(other, wanted, *window, Purpose::Search)?;
+        let begun = Instant::now();
+        let (mut worst, mut at) = (Rational::default(), self.times[0].clone());
+        for time in &self.times {
+            let off = (difference.point(time, Limit::Right)?.enclose)(SAMPLE_BITS)?;
+            // What is certain of it.
+            let off = least(&off);
+            if off > worst {
+                (worst, at) = (off, time.clone());
+            }
+        }
+        let each = begun.elapsed() / self.times.len() as u32;
+        Ok((Sampled { worst, at, each }, difference.count()?))
+    }
+
+    /// The verdict of samples: nothing where they are near enough.
+    fn verdict(&self, sampled: &Sampled) -> Option<Verdict> {
+        let by = &sampled.worst / &self.largest.bounds[1];
+        let misses = by > self.need.tolerance;
+        misses.then(|| Verdict::Misses { by, at: sampled.at.clone() })
+    }
+
+    fn proven(&self, other: &Other) -> Verdict {
+        let Need { wanted, window, tolerance } = self.need;
+        let difference = self.problem.difference_on(other, wanted, *window, Purpose::Search);
+        let size = difference.and_then(|signal| Size::of(&*signal, DIGITS, MAX_BITS));
+        match size {
+            Err(error) => Verdict::Unproven(first_line(&error)),
+            Ok(size) => match size.over(&self.largest) {
+                Some(share) if share[1] <= *tolerance => Verdict::Enough(share),
+                Some(share) => Verdict::Unproven(format!(
+                    "the largest difference may be {:.2e} of the largest value",
+                    num_traits::ToPrimitive::to_f64(&share[1]).unwrap_or(f64::NAN)
+                )),
+                None => Verdict::Unproven("the largest value may be zero".to_owned()),
+            },
+        }
+    }
+
+    /// Tries one answer; whether it is enough.
+    fn attempt(&mut self, simpler: Simpler) -> bool {
+        (self.tell)(&simpler);
+        let mut each = Duration::ZERO;
+        let mut work = String::new();
+        let other = self.problem.simpler(&simpler);
+        if let Ok(Other::Problem(problem)) = &other {
+            let text = problem.source().text();
+            if self.texts.iter().any(|known| known == text) {
+                return false;
+            }
+            self.texts.push(text.to_owned());
+        }
+        let tried = other.and_then(|other| {
+            let (sampled, count) = self.sample(&other)?;
+            each = sampled.each;
+            work = match &other {
+                Other::Problem(problem) => problem.work(count),
+                Other::Modes(_) | Other::Arrivals(_) => simpler.work(),
+            };
+            Ok(self.verdict(&sampled).unwrap_or_else(|| self.proven(&other)))
+        });
+        let verdict = tried.unwrap_or_else(|error| Verdict::Unsuited(first_line(&error)));
+        let is_enough = matches!(verdict, Verdict::Enough(_));
+        self.tried.push(Tried { simpler, verdict, work, each });
+        is_enough
+    }
+
+    /// Whether samples of an answer are near enough.
+    fn passes(&self, simpler: &Simpler) -> bool {
+        (self.tell)(simpler);
+        let sampled = self.problem.simpler(simpler).and_then(|other| self.sample(&other));
+        sampled.is_ok_and(|(sampled, _)| self.verdict(&sampled).is_none())
+    }
+
+    /// All bars rigid, and all of them springs.
+    fn whole(&mut self) {
+        self.attempt(Simpler::Scene(vec![Change::Rigid(None)]));
+        self.attempt(Simpler::Scene(vec![Change::Spring(None, None)]));
+    }
+
+    /// All bars springs, with the share of their masses that is best for samples.
+    fn shares(&mut self) {
+        let usual = self.tried.last().map(|own| &own.verdict);
+        let Some(Verdict::Misses { by: usual, .. }) = usual.cloned() else { return };
+        let bars: Vec<String> = self
+            .names()
+            .into_iter()
+            .filter_map(|(name, kind)| (kind == Declared::Bar).then_some(name))
+            .collect();
+        let with = |share: i64| {
+            let share = Rational::new(share.into(), 60.into()).to_string();
+            let spring = |bar: &String| Change::Spring(Some(bar.clone()), Some(share.clone()));
+            Simpler::Scene(bars.iter().map(spring).collect())
+        };
+        let worst = |share: &i64| {
+            let other = self.problem.simpler(&with(*share)).ok()?;
+            Some((self.sample(&other).ok()?.0.worst, *share))
+        };
+        let best = SHARES.iter().filter_map(worst).min();
+        let is_better = |(worst, _): &(Rational, i64)| worst / &self.largest.bounds[1] < usual;
+        if let Some((_, share)) = best.filter(is_better) {
+            self.attempt(with(share));
+        }
+    }
+
+    fn names(&self) -> Vec<(String, Declared)> {
+        language::elements(self.problem.source()).unwrap_or_default()
+    }
+
+    /// Leaves out one element after the other, as far as samples stay near enough.
+    fn reduced(&mut self) -> Result<(), ProblemError> {
+        let mut changes: Vec<Change> = Vec::new();
+        let mut missed = None;
+        let names = self.names();
+        if self.problem.network()?.scene().contacts_open {
+            self.extend(&mut changes, vec![Change::Closed], &mut missed);
+        }
+        for (name, kind) in names {
+            let is_gone = |changes: &[Change]| {
+                let source = language::changed(self.problem.source(), changes);
+                source
+                    .ok()
+                    .and_then(|source| language::elements(&source).ok())
+                    .is_some_and(|left| left.iter().all(|(own, _)| *own != name))
+            };
+            if is_gone(&changes) {
+                continue;
+            }
+            let mut ways = vec![Change::Without(name.clone())];
+            if kind == Declared::Bar {
+                ways.push(Change::Endless(name.clone(), Beyond::Right));
+                ways.push(Change::Endless(name.clone(), Beyond::Left));
+                ways.push(Change::Rigid(Some(name.clone())));
+                ways.push(Change::Spring(Some(name.clone()), None));
+            }
+            self.extend(&mut changes, ways, &mut missed);
+        }
+        self.tried.extend(missed);
+        // What samples let pass and no proof does is taken back, the last change first.
+        while !changes.is_empty() && !self.attempt(Simpler::Scene(changes.clone())) {
+            changes.pop();
+        }
+        Ok(())
+    }
+
+    /// Takes the first of some changes that samples let pass; of those that do not, the nearest is kept.
+    fn extend(&self, changes: &mut Vec<Change>, ways: Vec<Change>, missed: &mut Option<Tried>) {
+        for way in ways {
+            let mut all = changes.clone();
+            all.push(way);
+            let simpler = Simpler::Scene(all.clone());
+            (self.tell)(&simpler);
+            let Ok(other) = self.problem.simpler(&simpler) else { continue };
+            let Ok((sampled, count)) = self.sample(&other) else { continue };
+            let Some(verdict) = self.verdict(&sampled) else {
+                *changes = all;
+                return;
+            };
+            let is_nearer = match (&verdict, &missed) {
+                (
+                    Verdict::Misses { by, .. },
+                    Some(Tried { verdict: Verdict::Misses { by: known, .. }, .. }),
+                ) => by < known,
+                _ => true,
+            };
+            if is_nearer {
+                let work = match &other {
+                    Other::Problem(problem) => problem.work(count),
+                    _ => String::new(),
+                };
+                *missed = Some(Tried { simpler, verdict, work, each: sampled.each });
+            }
+        }
+    }
+
+    /// The smallest number of modes or arrivals that is enough, by doubling and halving on samples.
+    fn counted(&mut self, most: usize, of: fn(usize) -> Simpler) {
+        let mut high = 1;
+        while !self.passes(&of(high)) {
+            if high >= most {
+                self.attempt(of(most));
+                return;
+            }
+            high = (2 * high).min(most);
+        }
+        let mut low = high / 2;
+        while high - low > 1 {
+            let middle = low.midpoint(high);
+            if self.passes(&of(middle)) { high = middle } else { low = middle }
+        }
+        if low > 0 {
+            self.attempt(of(low));
+        }
+        while !self.attempt(of(high)) && high < most {
+            high = (high + high.div_ceil(4)).min(most);
+        }
+    }
+}
+
+/// The smallest absolute value in a ball.
+fn least(ball: &Ball) -> Rational {
+    let (low, high) = ball.endpoints();
+    let (low, high): (Rational, Rational) = ((&low).into(), (&high).into());
+    match (low.is_positive(), high.is_negative()) {
+        (true, _) => low,
+        (_, true) => -high,
+        _ => Rational::default(),
+    }
+}
+
+fn first_line(error: &ProblemError) -> String {
+    match error {
+        ProblemError::Text(diagnostics) if !diagnostics.is_empty() => {
+            diagnostics[0].message().to_owned()
+        }
+        error => error.to_string().lines().next().unwrap_or_default().to_owned(),
+    }
+}
