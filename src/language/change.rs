@@ -44,6 +44,8 @@ pub enum ChangeError {
     NotABar(String),
     #[error("the bar `{0}` is rigid, or a spring, already")]
     Ideal(String),
+    #[error("the bar `{0}` goes on for ever already")]
+    Endless(String),
     #[error("contacts stay closed in this scene")]
     NoContacts,
     #[error(transparent)]
@@ -223,6 +225,10 @@ impl<'a> Edits<'a> {
         for name in &gone {
             let (_, span) = self.declaration(name)?;
             self.remove(span);
+        }
+        let end = if beyond == Beyond::Left { line.left.value } else { line.right.value };
+        if gone.is_empty() && end == End::Endless {
+            return Err(ChangeError::Endless(name.to_owned()));
         }
         let length = |name: &str| matches!(name, "length" | "travel");
         if let Some(at) = bar.properties.iter().position(|own| length(&own.name.value)) {

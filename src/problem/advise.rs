@@ -8,7 +8,7 @@ use crate::ball::Ball;
 use crate::language::syntax::Declared;
 use crate::language::{self, Beyond, Change};
 use crate::planner::Purpose;
-use crate::signal::{Limit, Signal};
+use crate::signal::{Largest, Limit, Search, Signal};
 use num_traits::Signed as _;
 use std::time::{Duration, Instant};
 use wavestep_polynomial::Rational;
@@ -20,9 +20,8 @@ const PLACES: [i64; 5] = [1, 16, 32, 48, 63];
 /// The most stretches that are sampled.
 const MAX_SAMPLED: usize = 48;
 
-/// Digits and bits of proven distances.
-const DIGITS: usize = 4;
-const MAX_BITS: u64 = 1 << 12;
+/// A distance that is this part of the tolerance is known well enough.
+const NEGLIGIBLE: u64 = 1 << 20;
 
 /// The most modes and arrivals that are tried.
 const MAX_MODES: usize = 64;
@@ -121,7 +120,7 @@ impl Problem {
     /// As [`Problem::signal_on`], and where the largest value is not found.
     pub fn advise(&self, need: &Need<'_>, tell: &dyn Fn(&Simpler)) -> Result<Advice, ProblemError> {
         let signal = self.signal_on(need.wanted, need.window, Purpose::Search)?;
-        let largest = Size::of(&*signal, DIGITS, MAX_BITS)?;
+        let largest = size(&*signal, &Rational::default())?;
         let times = sample_times(&*signal)?;
         let begun = Instant::now();
         for time in &times {
@@ -167,6 +166,11 @@ impl Problem {
             }
         }
     }
+}
+
+fn size(signal: &dyn Signal, negligible: &Rational) -> Result<Size, ProblemError> {
+    let Largest { bounds, .. } = Search::new(signal)?.largest(negligible)?;
+    Ok(Size { bounds, places: Vec::new() })
 }
 
 /// Times within the stretches of a signal, near their ends and between.
@@ -219,7 +223,10 @@ impl Adviser<'_, '_> {
     fn proven(&self, other: &Other) -> Verdict {
         let Need { wanted, window, tolerance } = self.need;
         let difference = self.problem.difference_on(other, wanted, *window, Purpose::Search);
-        let size = difference.and_then(|signal| Size::of(&*signal, DIGITS, MAX_BITS));
+        // What is so much below the tolerance need not be known.
+        let negligible =
+            tolerance * &self.largest.bounds[0] / Rational::from_integer(NEGLIGIBLE.into());
+        let size = difference.and_then(|signal| size(&*signal, &negligible));
         match size {
             Err(error) => Verdict::Unproven(first_line(&error)),
             Ok(size) => match size.over(&self.largest) {

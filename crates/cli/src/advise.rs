@@ -13,6 +13,9 @@ use wavestep::ball::{Decimal, in_decimals};
 use wavestep::language::Change;
 use wavestep::problem::{Advice, Need, Problem, Tried, Verdict, Wanted, number, window};
 
+/// One over a share that is not told from nothing.
+const NOTHING: u64 = 1_000_000_000_000_000;
+
 /// Digits of shares and of times that are only shown.
 const DIGITS: usize = 3;
 
@@ -56,6 +59,9 @@ struct Told<'a> {
 }
 
 fn share(value: &BigRational) -> String {
+    if *value < BigRational::new(1.into(), NOTHING.into()) {
+        return "less than 1e-13 %".to_owned();
+    }
     let hundredth = BigRational::from_integer(100.into());
     format!("{} %", Decimal::from_rational(&(value * hundredth), DIGITS).0)
 }
@@ -83,7 +89,10 @@ impl Told<'_> {
 
     fn verdict(&self, verdict: &Verdict) -> String {
         match verdict {
-            Verdict::Enough([_, most]) => format!("at most {}", share(most)),
+            Verdict::Enough([_, most]) => match share(most) {
+                little if little.starts_with("less") => little,
+                most => format!("at most {most}"),
+            },
             Verdict::Misses { by, at } => format!("{} at t = {}", share(by), self.time(at)),
             Verdict::Unproven(why) => format!("not proven: {why}"),
             Verdict::Unsuited(why) => format!("does not suit: {why}"),

@@ -404,7 +404,7 @@ impl Expansion {
 }
 
 /// Whether what is left out matters little.
-fn is_sharp(polynomial: &Taylor) -> bool {
+pub(crate) fn is_sharp(polynomial: &Taylor) -> bool {
     polynomial.remainder.scale(REMAINDER_BITS) <= polynomial.tail(1)
 }
 

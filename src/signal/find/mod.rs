@@ -18,7 +18,9 @@ mod extrema;
 pub mod refine;
 mod roots;
 mod search;
+mod size;
 
 pub use extrema::{Extremum, Goal, Place};
 pub use roots::{Root, Roots};
 pub use search::Search;
+pub use size::Largest;

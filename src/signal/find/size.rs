@@ -1,0 +1,175 @@
+//! The largest absolute value on a window, between two bounds that are as near as asked for.
+//!
+//! Branch and bound: with `F(m + hu) = Σ_k c_k u^k` up to a remainder `R` on a cell, `|F| ≤ Σ_k |c_k| + R` there, and
+//! `|F(m)| ≥ |c_0| − R` is taken. A cell is done once its bound is hardly above the largest value that is known to be
+//! taken, or is negligible; else it is halved. So a function that is zero is done at once, where a search for its extrema
+//! would halve cells for ever.
+
+use super::cover::{is_sharp, middle_and_half, range_of};
+use super::search::{Search, Target};
+use crate::ball::{Ball, Magnitude};
+use crate::limits::{MAX_EXPANSIONS, MAX_POLYNOMIALS};
+use crate::signal::error::EvaluateError;
+use crate::signal::signal::{At, Limit};
+use crate::signal::taylor::Taylor;
+use num_traits::Signed as _;
+use wavestep_polynomial::Rational;
+
+const TERMS: usize = 16;
+
+/// How much larger than the largest value that is known the bound may be: by a part of `2^−8`.
+const SLACK: i64 = 8;
+
+/// How often a polynomial is used for shorter cells.
+const HALVINGS: usize = 5;
+
+/// Between which numbers the largest absolute value lies, and a time at which it is at least the lower one.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Largest {
+    pub bounds: [Rational; 2],
+    pub at: Rational,
+}
+
+/// The work on all stretches.
+struct Bounding<'a, 's> {
+    search: &'a Search<'s>,
+    known: Largest,
+    negligible: Rational,
+    expansions: usize,
+}
+
+/// A polynomial on a cell, which serves its parts too.
+struct Known {
+    taylor: Taylor,
+    middle: Rational,
+    half: Rational,
+    halvings: usize,
+}
+
+impl Search<'_> {
+    /// The largest absolute value; what is below `negligible` counts as that.
+    pub fn largest(&self, negligible: &Rational) -> Result<Largest, EvaluateError> {
+        let at = self.function.window()[0].clone();
+        let known = Largest { bounds: Default::default(), at };
+        let negligible = negligible.clone();
+        let mut bounding = Bounding { search: self, known, negligible, expansions: 0 };
+        for stretch in 0..self.count {
+            bounding.note_ends(stretch)?;
+        }
+        for stretch in 0..self.count {
+            if !self.function.is_instant(stretch) && !self.function.is_zero(stretch) {
+                bounding.cover(stretch)?;
+            }
+        }
+        Ok(bounding.known)
+    }
+}
+
+impl Bounding<'_, '_> {
+    fn bits(&self) -> u64 {
+        self.search.bits.get()
+    }
+
+    /// A value that is taken at a time, or nearly.
+    fn note(&mut self, value: &Ball, at: &Rational) {
+        let (low, high) = value.endpoints();
+        let (low, high): (Rational, Rational) = ((&low).into(), (&high).into());
+        let size = if low.is_positive() { low } else { -high };
+        if size > self.known.bounds[0] {
+            (self.known.bounds[0], self.known.at) = (size, at.clone());
+        }
+    }
+
+    /// The limits at both ends of a stretch.
+    fn note_ends(&mut self, stretch: usize) -> Result<(), EvaluateError> {
+        let (search, zero) = (self.search, Rational::default());
+        let target = Target { order: 0, level: &zero, limit_bits: self.bits() };
+        for end in [Limit::Right, Limit::Left] {
+            if end == Limit::Left && search.function.is_instant(stretch) {
+                continue;
+            }
+            let value = search.enclose(stretch, target, At::End(end), self.bits())?;
+            let [_, high] = &mut self.known.bounds;
+            let most = Rational::from(&value.magnitude());
+            if search.function.is_instant(stretch) && most > *high {
+                *high = most;
+            }
+            let bits = self.bits();
+            let at = match search.function.exact_time(stretch, end) {
+                Some(time) => time,
+                None => search.function.time(stretch, end, bits)?.midpoint().into(),
+            };
+            self.note(&value, &at);
+        }
+        Ok(())
+    }
+
+    fn cover(&mut self, stretch: usize) -> Result<(), EvaluateError> {
+        let [from, to] = self.search.bounds(stretch)?;
+        self.descend(stretch, (from, to), None)
+    }
+
+    fn descend(
+        &mut self,
+        stretch: usize,
+        (from, to): (Rational, Rational),
+        known: Option<&Known>,
+    ) -> Result<(), EvaluateError> {
+        let search = self.search;
+        search.work.set(search.work.get() + 1);
+        if search.work.get() > MAX_POLYNOMIALS {
+            return Err(EvaluateError::TooManyCells { limit: MAX_POLYNOMIALS });
+        }
+        let (middle, half) = middle_and_half(&from, &to);
+        let halvings = known.map_or(0, |known| known.halvings + 1);
+        let taylor = match known.filter(|_| halvings <= HALVINGS) {
+            Some(known) => {
+                let (a, b) = ((&middle - &known.middle) / &known.half, &half / &known.half);
+                known.taylor.part(&a, &b, self.bits())
+            }
+            None => return self.expand(stretch, (from, to)),
+        };
+        self.decide(stretch, (from, to), Known { taylor, middle, half, halvings })
+    }
+
+    /// A cell with a polynomial of its own.
+    fn expand(
+        &mut self,
+        stretch: usize,
+        (from, to): (Rational, Rational),
+    ) -> Result<(), EvaluateError> {
+        self.expansions += 1;
+        if self.expansions > MAX_EXPANSIONS {
+            return Err(EvaluateError::TooManyCells { limit: MAX_EXPANSIONS });
+        }
+        let (middle, half) = middle_and_half(&from, &to);
+        let taylor =
+            self.search.function.taylor(stretch, 0, (&middle, &half), TERMS, self.bits())?;
+        self.decide(stretch, (from, to), Known { taylor, middle, half, halvings: 0 })
+    }
+
+    fn decide(
+        &mut self,
+        stretch: usize,
+        (from, to): (Rational, Rational),
+        own: Known,
+    ) -> Result<(), EvaluateError> {
+        let value = own.taylor.coefficients[0].widened(&own.taylor.remainder);
+        self.note(&value, &own.middle);
+        let most = Rational::from(&range_of(&own.taylor).magnitude());
+        let [low, high] = &mut self.known.bounds;
+        let slack = &*low * Rational::from(&Magnitude::power_of_two(-SLACK));
+        if most <= &*low + slack || most <= self.negligible {
+            if most > *high {
+                *high = most;
+            }
+            return Ok(());
+        }
+        // A part of a polynomial is no better than what is left out of the whole.
+        let sharp = is_sharp(&own.taylor);
+        let middle = own.middle.clone();
+        let known = sharp.then_some(&own);
+        self.descend(stretch, (from, middle.clone()), known)?;
+        self.descend(stretch, (middle, to), known)
+    }
+}
