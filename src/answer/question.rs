@@ -1,5 +1,6 @@
 //! What is asked for: an observable on a window of time.
 
+use crate::ball::Magnitude;
 use crate::network::Network;
 use crate::signal::{EvaluateError, Evaluator as _, Limit, Marched, Signal, Taps, scale};
 use wavestep_polynomial::Rational;
@@ -14,6 +15,16 @@ pub struct Question<'a> {
 }
 
 impl Question<'_> {
+    /// The same without echoes that come to no more than `most` together, where there are single echoes.
+    ///
+    /// # Errors
+    /// As [`Signal::within`].
+    pub fn within(&self, most: f64) -> Result<Option<Question<'_>>, EvaluateError> {
+        let signal = self.signal.within(&Magnitude::from_double(most))?;
+        let (scene, contacts_open) = (self.scene, self.contacts_open);
+        Ok(signal.map(|signal| Question { signal, scene, contacts_open }))
+    }
+
     /// About the largest absolute value on the window, from the beginnings, middles and ends of some
     /// stretches between breaks; the largest one is not smaller, but for rounding.
     pub fn scale(&self) -> Result<f64, EvaluateError> {

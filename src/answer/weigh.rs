@@ -93,6 +93,7 @@ pub fn consider(
     let marches = matches!((&form, &taps), (Ok(form), Ok(Ok(taps))) if taps.is_rational() && form.is_rational());
     let size = Size { order, points, marches };
     let ulp = unit_in_the_last_place(scale);
+    let left_out = question.signal.left_out().scale(1).to_double();
     let candidate = |method: Method| {
         let cost = match (method, &form, &taps) {
             (Method::Marched { .. }, Ok(form), Ok(Err(_))) => {
@@ -120,7 +121,8 @@ pub fn consider(
             return told(None, Verdict::TooManyPeriods);
         }
         let promise = match method {
-            Method::Certified => Promise::Proven(ulp / 2.0),
+            // Twice what is left out.
+            Method::Certified => Promise::Proven((ulp / 2.0).max(left_out)),
             Method::Compiled => Promise::Proven((COMPILED_ULPS * ulp).max(tolerance / 2.0)),
             Method::Marched { .. } => Promise::Proven(MARCHED_ULPS * (order as f64 + 1.0) * ulp),
             Method::Stable(StablePrecision::Double) => Promise::Measured(64.0 * ulp),

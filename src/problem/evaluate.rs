@@ -9,7 +9,9 @@ use crate::field::FieldEvaluator;
 use crate::model::{Model as _, ModelError, Steps};
 use crate::network::ScaledScene;
 use crate::planner::{self, Origin, Purpose};
-use crate::signal::{self, ClosedSignal, EvaluateError, Limit, Signal, Value, reaching_a_double};
+use crate::signal::{
+    self, ClosedSignal, EchoCount, EvaluateError, Limit, Signal, Value, reaching_a_double,
+};
 use num_traits::{Signed as _, ToPrimitive as _};
 use wavestep_polynomial::Rational;
 
@@ -40,9 +42,8 @@ impl Digits {
 pub struct Proven {
     /// One for each time.
     pub values: Vec<Value>,
-    /// How many echoes were worked out, of how many that can reach what is observed, where they were
-    /// counted.
-    pub echoes: Option<(usize, usize)>,
+    /// How many echoes there are, where they were counted.
+    pub echoes: Option<EchoCount>,
     /// Where they come from.
     pub origin: Origin,
 }
@@ -297,6 +298,6 @@ impl Problem {
         };
         let spring = spring.map(Remark::NearSpring);
         let remarks = tested.into_iter().chain([Remark::Law]).chain(spring).collect();
-        Ok(Doubles { method, law: way.law(), bound: way.bound(), values, remarks })
+        Ok(Doubles { method, law: way.law(), bound: way.bound(), values, echoes: None, remarks })
     }
 }

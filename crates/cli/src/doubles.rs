@@ -12,7 +12,7 @@ use wavestep::answer::{
 };
 use wavestep::ball::in_decimals;
 use wavestep::problem::{Problem, ProblemError};
-use wavestep::signal::Limit;
+use wavestep::signal::{EchoCount, Limit};
 
 pub fn method(text: &str) -> Result<Method, Failure> {
     text.parse().map_err(|error| {
@@ -62,6 +62,20 @@ pub fn tell(found: &Doubles, points: usize, tolerance: Option<Tolerance>, explai
             }
         }
     }
+}
+
+/// Says on standard error how many echoes there are.
+pub fn count(echoes: Option<EchoCount>) {
+    let Some(EchoCount { expanded, arriving, needed }) = echoes else {
+        return eprintln!(
+            "echoes expanded: none one by one: values come from a closed form or from whole pieces"
+        );
+    };
+    let needed = match needed == arriving {
+        true => String::new(),
+        false => format!(", {needed} of which are needed for the tolerance"),
+    };
+    eprintln!("echoes expanded: {expanded} of {arriving} that can reach what is observed{needed}");
 }
 
 /// Says on standard error how sure values with a local contact, or with contacts that open, are.

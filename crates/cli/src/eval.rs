@@ -31,6 +31,9 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
         drop(progress);
         let found = found.map_err(|error| doubles::refused(error, times.len(), options.explain))?;
         doubles::tell(&found, times.len(), tolerance, options.explain);
+        if options.stats {
+            doubles::count(found.echoes);
+        }
         times.iter().max().into_iter().for_each(|last| note_pulling(&problem, last));
         let unit = problem.wanted(name)?.unit();
         return Ok(doubles::written(&found, &problem, &unit, &times, options));
@@ -51,8 +54,8 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
         );
     }
     times.iter().max().into_iter().for_each(|last| note_pulling(&problem, last));
-    if let Some((expanded, needed)) = found.echoes {
-        eprintln!("echoes expanded: {expanded} of {needed} that can reach what is observed");
+    if options.stats {
+        doubles::count(found.echoes);
     }
     Ok(written(&problem, &wanted, (&times, &found.values), options))
 }

@@ -55,7 +55,7 @@ pub struct Eval {
     /// In doubles, by the cheapest method that is proven to be off by at most so much: 1e-9 of the
     /// largest value, abs:1e-9 in the unit of the quantity, ulp:4 units in the last place of the
     /// largest value
-    #[arg(long, value_name = "TOL", conflicts_with_all = ["digits", "stats", "max_bits", "piece"])]
+    #[arg(long, value_name = "TOL", conflicts_with_all = ["digits", "max_bits", "piece"])]
     pub tol: Option<String>,
     /// In doubles, by this method or model: certified, compiled, marched, marched-unproven, stable,
     /// double-double, plain, expanded; rigid, third, modes[:N], leapfrog[:CELLS[,CFL]], steps[:TOL]
