@@ -1,5 +1,6 @@
 //! What is asked for: an observable on a window of time.
 
+use crate::answer::cost::Costs;
 use crate::ball::Magnitude;
 use crate::network::Network;
 use crate::signal::{EvaluateError, Evaluator as _, Limit, Marched, Signal, Taps, scale};
@@ -12,6 +13,8 @@ pub struct Question<'a> {
     pub scene: Option<(&'a Network, usize)>,
     /// Whether contacts may open on the window, of which models know nothing.
     pub contacts_open: bool,
+    /// By which ways are weighed.
+    pub costs: &'a Costs,
 }
 
 impl Question<'_> {
@@ -21,8 +24,8 @@ impl Question<'_> {
     /// As [`Signal::within`].
     pub fn within(&self, most: f64) -> Result<Option<Question<'_>>, EvaluateError> {
         let signal = self.signal.within(&Magnitude::from_double(most))?;
-        let (scene, contacts_open) = (self.scene, self.contacts_open);
-        Ok(signal.map(|signal| Question { signal, scene, contacts_open }))
+        let Question { scene, contacts_open, costs, .. } = *self;
+        Ok(signal.map(|signal| Question { signal, scene, contacts_open, costs }))
     }
 
     /// About the largest absolute value on the window, from the beginnings, middles and ends of some

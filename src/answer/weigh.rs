@@ -77,6 +77,8 @@ pub struct Weighed {
     pub candidates: Vec<Candidate>,
     /// Whether the first is good enough.
     pub met: bool,
+    /// Where the costs come from.
+    pub costs: String,
 }
 
 /// Weighs all methods: picks the cheapest by the table of costs whose proven bound meets a tolerance
@@ -97,9 +99,9 @@ pub fn consider(
     let candidate = |method: Method| {
         let cost = match (method, &form, &taps) {
             (Method::Marched { .. }, Ok(form), Ok(Err(_))) => {
-                Some(Cost::of_waves(size, form.recurrence().wave_count()))
+                Some(Cost::of_waves(size, form.recurrence().wave_count(), question.costs))
             }
-            _ => Cost::of(method, size),
+            _ => Cost::of(method, size, question.costs),
         };
         let seconds = cost.map_or(f64::INFINITY, |cost| cost.seconds(points));
         let told = |promise, verdict| Candidate { method, promise, seconds, verdict };
@@ -144,5 +146,5 @@ pub fn consider(
     if let (true, Some(first)) = (met, candidates.first_mut()) {
         first.verdict = Verdict::Picked;
     }
-    Ok(Weighed { candidates, met })
+    Ok(Weighed { candidates, met, costs: question.costs.source.clone() })
 }

@@ -182,7 +182,7 @@ impl Problem {
         let signal = self.signal_on(&wanted, window.each_ref(), purpose)?;
         let scene = self.network().ok().zip(wanted.place);
         let contacts_open = !self.has_periods() && purpose != Purpose::ClosedContacts;
-        Ok(Question { signal, scene, contacts_open })
+        Ok(Question { signal, scene, contacts_open, costs: &self.costs })
     }
 
     /// A wave or an observable as a function of time on a window.

@@ -112,7 +112,8 @@ fn explained(weighed: &Weighed, points: usize, tolerance: &str, absolute: f64) -
         "{points} value{} within {tolerance}, that is {absolute:.1e}\n",
         if points == 1 { "" } else { "s" }
     );
-    let _ = writeln!(text, "  {:<14} {:>12} {:>10}", "method", "expected", "seconds");
+    let costs = &weighed.costs;
+    let _ = writeln!(text, "  {:<14} {:>12} {:>10}  by {costs}", "method", "expected", "seconds");
     for Candidate { method, promise, seconds, verdict } in &weighed.candidates {
         let promise = match promise {
             Some(Promise::Proven(bound)) => format!("≤ {bound:.1e}"),

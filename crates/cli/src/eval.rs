@@ -15,7 +15,10 @@ use wavestep::problem::Digits;
 /// Says where a contact that stays closed would pull before the last of some times.
 pub fn run(options: &Eval) -> Result<String, Failure> {
     input::digits(options.digits)?;
-    let problem = input::problem(&options.scene)?;
+    let mut problem = input::problem(&options.scene)?;
+    if let Some(file) = &options.costs {
+        problem.weigh_by(input::costs(file)?);
+    }
     let tolerance = options.tol.as_deref().map(doubles::tolerance).transpose()?;
     let method = options.method.as_deref().map(doubles::method).transpose()?;
     let accuracy = match (method, tolerance) {
