@@ -168,11 +168,14 @@ fn cut<'a>(
         }
         // The largest value is not smaller.
         let scale = (scale - rest).max(0.0);
-        let question = match tolerance {
-            Tolerance::Absolute(_) => Some(found),
+        let finer = match tolerance {
+            Tolerance::Absolute(_) => None,
             _ => question.within(most(scale))?,
         };
-        return Ok(question.map(|question| Cut { question, scale }));
+        // Where as many are needed they are the same, and these are worked out.
+        let needed = |question: &Question<'_>| question.signal.echoes().map(|count| count.needed);
+        let finer = finer.filter(|finer| needed(finer) != needed(&found));
+        return Ok(Some(Cut { question: finer.unwrap_or(found), scale }));
     }
     Ok(None)
 }

@@ -12,8 +12,8 @@ use wavestep::signal::Limit;
     wavestep chart --costs -o costs.txt\n\n\
 Each chart is written as SVG, JSON and CSV; index.html shows all of them with a table.\n\
 With one symbol set, there are maps over the order and that symbol as well.\n\
-Seconds are those of this machine. With --costs nothing is drawn: what methods are made of is measured\n\
-again, beside the table that `eval --tol` weighs them by; `eval --costs FILE` reads what -o writes.")]
+Seconds are those of this machine. With --costs nothing is drawn: what methods are made of is\n\
+measured again, beside the built-in table; `eval --costs FILE` reads what -o writes.")]
 #[command(group = clap::ArgGroup::new("charted").args(["scene", "costs"]).required(true))]
 pub struct Chart {
     #[command(flatten)]
