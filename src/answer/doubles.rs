@@ -5,7 +5,7 @@ use crate::answer::question::Question;
 use crate::answer::tolerance::Tolerance;
 use crate::answer::way::{Way, WayError};
 use crate::answer::weigh::{Weighed, consider};
-use crate::signal::Limit;
+use crate::signal::{EchoCount, EvaluateError, Limit};
 use std::cell::OnceCell;
 use wavestep_polynomial::Rational;
 
@@ -44,6 +44,9 @@ pub struct Doubles {
     pub bound: Option<f64>,
     /// One for each time.
     pub values: Vec<f64>,
+    /// How many echoes there are, where some may be left out.
+    #[doc(hidden)]
+    pub echoes: Option<EchoCount>,
     /// What is to be known of them, in this order.
     #[doc(hidden)]
     pub remarks: Vec<Remark>,
@@ -96,7 +99,12 @@ pub fn doubles(
     limit: Limit,
     accuracy: Accuracy,
 ) -> Result<Doubles, WayError> {
-    let mut choice = Choice { question, scale: OnceCell::new(), remarks: Vec::new() };
+    let cut = match accuracy {
+        Accuracy::Within(tolerance) => cut(question, tolerance)?,
+        _ => None,
+    };
+    let mut choice =
+        Choice { whole: question, cut: cut.as_ref(), scale: OnceCell::new(), remarks: Vec::new() };
     let way = match accuracy {
         Accuracy::Method(method, tolerance) => choice.named(method, tolerance)?,
         Accuracy::Within(tolerance) => choice.cheapest(times.len(), tolerance)?,
@@ -110,7 +118,66 @@ pub fn doubles(
         choice.compare(tolerance, (times, limit, &values))?;
     }
     let remarks = choice.remarks;
-    Ok(Doubles { method: way.method(), law: way.law(), bound: way.bound(), values, remarks })
+    let echoes = cut.as_ref().and_then(|cut| cut.question.signal.echoes());
+    Ok(Doubles {
+        method: way.method(),
+        law: way.law(),
+        bound: way.bound(),
+        values,
+        echoes,
+        remarks,
+    })
+}
+
+/// The part of a tolerance that echoes may come to which are left out, and of the largest value what may be unknown of it.
+const LEFT_OUT: f64 = 1.0 / 8.0;
+const UNSURE: f64 = 1.0 / 16.0;
+
+/// How often the largest value is looked for with more echoes.
+const MOST_LOOKS: usize = 12;
+
+/// A question without the echoes that cannot matter, and its largest value.
+struct Cut<'a> {
+    question: Question<'a>,
+    scale: f64,
+}
+
+/// Leaves out what cannot matter for a tolerance. What a relative one is relative to is found without more echoes: the
+/// largest value `m` is at most the sum of all shares; where echoes of `δ·M/8` are left out for an `M ≥ m`, none is worked
+/// out that `δ·m` does not need. `None` where nothing is made of single echoes, or the largest value is not told so.
+fn cut<'a>(
+    question: &'a Question<'_>,
+    tolerance: Tolerance,
+) -> Result<Option<Cut<'a>>, EvaluateError> {
+    let most = |scale: f64| tolerance.absolute(scale) * LEFT_OUT;
+    let mut allowed = match tolerance {
+        Tolerance::Absolute(tolerance) => tolerance * LEFT_OUT,
+        // All that can be left out.
+        _ => match question.within(f64::MAX)? {
+            Some(nothing) => most(nothing.signal.left_out().to_double()),
+            None => return Ok(None),
+        },
+    };
+    for _ in 0..MOST_LOOKS {
+        let Some(found) = question.within(allowed)? else { return Ok(None) };
+        let (scale, rest) = (found.scale()?, found.signal.left_out().to_double());
+        let is_told = matches!(tolerance, Tolerance::Absolute(_)) || rest <= scale * UNSURE;
+        if !is_told {
+            allowed = most(scale + rest).min(allowed / 4.0);
+            continue;
+        }
+        // The largest value is not smaller.
+        let scale = (scale - rest).max(0.0);
+        let finer = match tolerance {
+            Tolerance::Absolute(_) => None,
+            _ => question.within(most(scale))?,
+        };
+        // Where as many are needed they are the same, and these are worked out.
+        let needed = |question: &Question<'_>| question.signal.echoes().map(|count| count.needed);
+        let finer = finer.filter(|finer| needed(finer) != needed(&found));
+        return Ok(Some(Cut { question: finer.unwrap_or(found), scale }));
+    }
+    Ok(None)
 }
 
 /// What values of a window have to reach for a tolerance to be relative to them: sizes below `2^−1000` are
@@ -119,7 +186,9 @@ const LEAST_SCALE: f64 = f64::from_bits((1023 - 900) << 52);
 
 /// The choice of a method, and what is to be known of it.
 struct Choice<'p, 'a> {
-    question: &'p Question<'a>,
+    whole: &'p Question<'a>,
+    /// Without what cannot matter for the tolerance.
+    cut: Option<&'p Cut<'p>>,
     /// The size of the largest value, once it was asked for.
     scale: OnceCell<f64>,
     remarks: Vec<Remark>,
@@ -130,7 +199,10 @@ impl<'p> Choice<'p, '_> {
         if let Some(scale) = self.scale.get() {
             return Ok(*scale);
         }
-        let scale = self.question.scale()?;
+        let scale = match self.cut {
+            Some(cut) => cut.scale,
+            None => self.whole.scale()?,
+        };
         Ok(*self.scale.get_or_init(|| scale))
     }
 
@@ -149,7 +221,7 @@ impl<'p> Choice<'p, '_> {
 
     fn named(&mut self, method: Method, tolerance: Option<Tolerance>) -> Result<Way<'p>, WayError> {
         let absolute = tolerance.map(|tolerance| self.absolute(tolerance)).transpose()?;
-        let way = Way::new(method, self.question, absolute)?;
+        let way = Way::new(method, self.whole, absolute)?;
         self.remarks.push(Remark::AsAskedFor);
         if let (Some(bound), Some(absolute)) = (way.bound(), absolute)
             && bound > absolute
@@ -162,19 +234,20 @@ impl<'p> Choice<'p, '_> {
     /// The cheapest method that is proven to be good enough.
     fn cheapest(&mut self, points: usize, tolerance: Tolerance) -> Result<Way<'p>, WayError> {
         let absolute = self.absolute(tolerance)?;
-        let weighed = consider(self.question, points, absolute, self.scale()?)?;
+        let question = self.cut.map_or(self.whole, |cut| &cut.question);
+        let weighed = consider(question, points, absolute, self.scale()?)?;
         if !weighed.met {
             return Err(WayError::NotMet { weighed: Box::new(weighed), tolerance, absolute });
         }
         let method = weighed.candidates[0].method;
         self.remarks.push(Remark::Weighed(weighed, absolute));
-        let way = Way::new(method, self.question, Some(absolute))?;
+        let way = Way::new(method, question, Some(absolute))?;
         // A promise is kept but where functions are unusually steep.
         match way.bound() {
             Some(bound) if bound <= absolute => Ok(way),
             _ => {
                 self.remarks.push(Remark::PromiseNotKept(method));
-                Way::new(Method::Certified, self.question, None)
+                Way::new(Method::Certified, self.whole, None)
             }
         }
     }
@@ -185,7 +258,7 @@ impl<'p> Choice<'p, '_> {
         tolerance: Tolerance,
         (times, limit, values): (&[Rational], Limit, &[f64]),
     ) -> Result<(), WayError> {
-        let certified = Way::new(Method::Certified, self.question, None)?;
+        let certified = Way::new(Method::Certified, self.whole, None)?;
         let stride = times.len().div_ceil(COMPARED);
         let (mut worst, mut error) = (0, 0.0);
         let mut scale = 0.0_f64;

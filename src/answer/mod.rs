@@ -13,7 +13,7 @@ mod tolerance;
 mod way;
 mod weigh;
 
-pub use cost::{Cost, Size};
+pub use cost::{Cost, Costs, InvalidCosts, PIECES, Size, TERMS, Work, coefficients};
 pub use doubles::{Accuracy, Doubles, Remark, Tested, doubles};
 pub use method::{InvalidMethod, Method};
 pub use question::Question;

@@ -1,5 +1,7 @@
 //! What is asked for: an observable on a window of time.
 
+use crate::answer::cost::Costs;
+use crate::ball::Magnitude;
 use crate::network::Network;
 use crate::signal::{EvaluateError, Evaluator as _, Limit, Marched, Signal, Taps, scale};
 use wavestep_polynomial::Rational;
@@ -11,9 +13,21 @@ pub struct Question<'a> {
     pub scene: Option<(&'a Network, usize)>,
     /// Whether contacts may open on the window, of which models know nothing.
     pub contacts_open: bool,
+    /// By which ways are weighed.
+    pub costs: &'a Costs,
 }
 
 impl Question<'_> {
+    /// The same without echoes that come to no more than `most` together, where there are single echoes.
+    ///
+    /// # Errors
+    /// As [`Signal::within`].
+    pub fn within(&self, most: f64) -> Result<Option<Question<'_>>, EvaluateError> {
+        let signal = self.signal.within(&Magnitude::from_double(most))?;
+        let Question { scene, contacts_open, costs, .. } = *self;
+        Ok(signal.map(|signal| Question { signal, scene, contacts_open, costs }))
+    }
+
     /// About the largest absolute value on the window, from the beginnings, middles and ends of some
     /// stretches between breaks; the largest one is not smaller, but for rounding.
     pub fn scale(&self) -> Result<f64, EvaluateError> {

@@ -77,6 +77,8 @@ pub struct Weighed {
     pub candidates: Vec<Candidate>,
     /// Whether the first is good enough.
     pub met: bool,
+    /// Where the costs come from.
+    pub costs: String,
 }
 
 /// Weighs all methods: picks the cheapest by the table of costs whose proven bound meets a tolerance
@@ -93,12 +95,13 @@ pub fn consider(
     let marches = matches!((&form, &taps), (Ok(form), Ok(Ok(taps))) if taps.is_rational() && form.is_rational());
     let size = Size { order, points, marches };
     let ulp = unit_in_the_last_place(scale);
+    let left_out = question.signal.left_out().scale(1).to_double();
     let candidate = |method: Method| {
         let cost = match (method, &form, &taps) {
             (Method::Marched { .. }, Ok(form), Ok(Err(_))) => {
-                Some(Cost::of_waves(size, form.recurrence().wave_count()))
+                Some(Cost::of_waves(size, form.recurrence().wave_count(), question.costs))
             }
-            _ => Cost::of(method, size),
+            _ => Cost::of(method, size, question.costs),
         };
         let seconds = cost.map_or(f64::INFINITY, |cost| cost.seconds(points));
         let told = |promise, verdict| Candidate { method, promise, seconds, verdict };
@@ -120,7 +123,8 @@ pub fn consider(
             return told(None, Verdict::TooManyPeriods);
         }
         let promise = match method {
-            Method::Certified => Promise::Proven(ulp / 2.0),
+            // Twice what is left out.
+            Method::Certified => Promise::Proven((ulp / 2.0).max(left_out)),
             Method::Compiled => Promise::Proven((COMPILED_ULPS * ulp).max(tolerance / 2.0)),
             Method::Marched { .. } => Promise::Proven(MARCHED_ULPS * (order as f64 + 1.0) * ulp),
             Method::Stable(StablePrecision::Double) => Promise::Measured(64.0 * ulp),
@@ -142,5 +146,5 @@ pub fn consider(
     if let (true, Some(first)) = (met, candidates.first_mut()) {
         first.verdict = Verdict::Picked;
     }
-    Ok(Weighed { candidates, met })
+    Ok(Weighed { candidates, met, costs: question.costs.source.clone() })
 }

@@ -9,7 +9,9 @@ use crate::field::FieldEvaluator;
 use crate::model::{Model as _, ModelError, Steps};
 use crate::network::ScaledScene;
 use crate::planner::{self, Origin, Purpose};
-use crate::signal::{self, ClosedSignal, EvaluateError, Limit, Signal, Value, reaching_a_double};
+use crate::signal::{
+    self, ClosedSignal, EchoCount, EvaluateError, Limit, Signal, Value, reaching_a_double,
+};
 use num_traits::{Signed as _, ToPrimitive as _};
 use wavestep_polynomial::Rational;
 
@@ -40,9 +42,8 @@ impl Digits {
 pub struct Proven {
     /// One for each time.
     pub values: Vec<Value>,
-    /// How many echoes were worked out, of how many that can reach what is observed, where they were
-    /// counted.
-    pub echoes: Option<(usize, usize)>,
+    /// How many echoes there are, where they were counted.
+    pub echoes: Option<EchoCount>,
     /// Where they come from.
     pub origin: Origin,
 }
@@ -181,7 +182,7 @@ impl Problem {
         let signal = self.signal_on(&wanted, window.each_ref(), purpose)?;
         let scene = self.network().ok().zip(wanted.place);
         let contacts_open = !self.has_periods() && purpose != Purpose::ClosedContacts;
-        Ok(Question { signal, scene, contacts_open })
+        Ok(Question { signal, scene, contacts_open, costs: &self.costs })
     }
 
     /// A wave or an observable as a function of time on a window.
@@ -270,6 +271,6 @@ impl Problem {
         };
         let spring = spring.map(Remark::NearSpring);
         let remarks = tested.into_iter().chain([Remark::Law]).chain(spring).collect();
-        Ok(Doubles { method, law: way.law(), bound: way.bound(), values, remarks })
+        Ok(Doubles { method, law: way.law(), bound: way.bound(), values, echoes: None, remarks })
     }
 }

@@ -20,6 +20,7 @@ mod times;
 mod validity;
 mod wanted;
 
+use crate::answer::Costs;
 use crate::language::{self, Source, Stated};
 use crate::network::{Network, NetworkError, ScaledScene};
 use crate::planner;
@@ -62,6 +63,7 @@ pub struct Problem {
     source: Source,
     values: Values,
     kind: Kind,
+    costs: Costs,
 }
 
 /// What can be asked of a text depends on what it states.
@@ -113,6 +115,11 @@ impl Problem {
         Problem::of(Source::new(name, text)?, values.clone())
     }
 
+    /// Weighs ways to doubles by these costs from now on.
+    pub fn weigh_by(&mut self, costs: Costs) {
+        self.costs = costs;
+    }
+
     /// A value for a symbol, both as scenes know them.
     pub(crate) fn value_of(name: &str, value: Given) -> Result<(String, Rational), ProblemError> {
         let value = value.number(name)?;
@@ -143,7 +150,7 @@ impl Problem {
                 Kind::Line { network, solution: OnceCell::new() }
             }
         };
-        Ok(Problem { source, values, kind })
+        Ok(Problem { source, values, kind, costs: Costs::default() })
     }
 
     /// The values put in place of symbols.

@@ -127,11 +127,18 @@ impl<'a> Window<'a> {
             if let Some(value) = ball.rounded() {
                 return Ok(Attempt::Done(value));
             }
-            // An exact zero, or a tie: nothing is gained by more bits.
+            // An exact zero, or a tie, or no more than what is left out: nothing is gained by more bits.
             let is_tie = *ball.radius() <= ball.midpoint().magnitude().scale(-200);
-            Ok(Attempt::of(ball.midpoint().to_double(), is_tie))
+            let known = is_tie || self.knows_all(&ball);
+            Ok(Attempt::of(ball.midpoint().to_double(), known))
         };
         Precisions::doubling(128, 1024).raise(attempt).map(Attempt::best)
+    }
+
+    /// Whether echoes are left out, and little else is unknown: at most as much again.
+    pub(crate) fn knows_all(&self, ball: &Ball) -> bool {
+        let left_out = self.signal.left_out();
+        !left_out.is_zero() && *ball.radius() <= left_out.scale(1)
     }
 
     /// The doubles of each stretch, the first and the last, where there are some.
@@ -162,7 +169,8 @@ impl<'a> Window<'a> {
                 let attempt = |bits| {
                     let value = self.signal.enclose(stretch, 0, at, bits)?;
                     let fine = value.radius().scale(20) <= value.magnitude()
-                        || value.magnitude() < Magnitude::power_of_two(-200);
+                        || value.magnitude() < Magnitude::power_of_two(-200)
+                        || self.knows_all(&value);
                     Ok::<_, EvaluateError>(Attempt::of(value, fine))
                 };
                 let value = Precisions::doubling(LOOK_BITS, MAX_BITS).raise(attempt)?.best();

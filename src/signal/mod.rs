@@ -37,7 +37,7 @@ pub use operations::Vibration;
 pub(crate) use operations::{
     Balanced, Combination, Constant, Difference, Integral, Operation, Product, Scale, Vibrating,
 };
-pub use signal::{At, Effort, Instant, Limit, Point, Signal, Signed};
+pub use signal::{At, EchoCount, Effort, Instant, Limit, Point, Signal, Signed};
 pub(crate) use signal::{Enclosure, Known, MAX_FLATNESS, has_begun, last_begun};
 pub(crate) use silence::Silence;
 pub use taps::{NoTaps, Taps};

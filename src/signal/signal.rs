@@ -85,6 +85,17 @@ impl Signed {
     }
 }
 
+/// How many echoes there are of a signal.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct EchoCount {
+    /// Worked out, and not zero.
+    pub expanded: usize,
+    /// That can reach what is observed on the window.
+    pub arriving: usize,
+    /// That are needed: without all others together values are as near as they are to be.
+    pub needed: usize,
+}
+
 /// How much work an exact form may cost.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Effort {
@@ -182,10 +193,26 @@ pub trait Signal {
         u64::MAX
     }
 
-    /// How many echoes other than zero are worked out for values, and how many can reach what is observed;
-    /// nothing where echoes are not counted.
-    fn echoes(&self) -> Option<(usize, usize)> {
+    /// How many echoes there are; nothing where they are not counted.
+    fn echoes(&self) -> Option<EchoCount> {
         None
+    }
+
+    /// The same signal without echoes that come to no more than `most` together: enclosures of its values hold what is
+    /// left out. Of its derivatives nothing is known then. `None` where it is not made of single echoes.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] where arrivals cannot be told or are too many.
+    fn within<'s>(
+        &'s self,
+        _most: &Magnitude,
+    ) -> Result<Option<Box<dyn Signal + 's>>, EvaluateError> {
+        Ok(None)
+    }
+
+    /// What enclosures of values hold for what is left out, whatever their precision.
+    fn left_out(&self) -> Magnitude {
+        Magnitude::ZERO
     }
 
     /// How many stretches there are, with numbers from 0 on; to tell that, all breaks are found.

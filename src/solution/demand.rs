@@ -56,6 +56,12 @@ impl Demand {
         self.wanted.iter().map(Vec::len).max().and_then(|length| length.checked_sub(1))
     }
 
+    /// How many echoes are needed of the wave of which most are.
+    pub(crate) fn most_of_a_wave(&self) -> usize {
+        let of = |row: &Vec<bool>| row.iter().filter(|wanted| **wanted).count();
+        self.wanted.iter().map(of).max().unwrap_or(0)
+    }
+
     /// How many echoes are needed.
     pub fn count(&self) -> usize {
         self.wanted.iter().flatten().filter(|wanted| **wanted).count()

@@ -7,7 +7,7 @@ use wavestep::field::{Bounded, FieldError, FieldEvaluator, Fields, Mesh, Quantit
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::limits::MAX_FIELD_CELLS;
 use wavestep::network::Network;
-use wavestep::scene::{Kind, Measure, Observable, Place, Position, Seen};
+use wavestep::scene::{Dimension, Kind, Measure, Observable, Place, Position, Seen};
 use wavestep::signal::{ClosedSignal, EvaluateError, Limit, digits};
 use wavestep_polynomial::Symbol;
 
@@ -47,7 +47,8 @@ fn observed(
     };
     let mut scene = network.scene().clone();
     let place = Place::At(bar, Position::Share(Fraction::constant(share)));
-    let seen = Seen { coefficient: Fraction::one(), measure, place };
+    let dimension = Dimension::NONE;
+    let seen = Seen { coefficient: Fraction::one(), dimension, measure, place };
     scene.observables = vec![Observable { name: "q".into(), terms: vec![seen] }];
     let network = Network::new(&scene).unwrap();
     let signal = ClosedSignal::of_scene(&network, &network.observables()[0], [time, time]).unwrap();

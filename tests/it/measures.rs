@@ -6,7 +6,7 @@ use wavestep::network::{
     Elements, Energy, Face, Field, Lump, MeasuredValue, NetworkError, Reading, ScaledScene,
     Section, Term,
 };
-use wavestep::scene::{Measure, Mistake, Place, Position, Seen};
+use wavestep::scene::{Dimension, Measure, Mistake, Place, Position, Seen};
 use wavestep_polynomial::Rational;
 
 fn scaled(text: &str) -> ScaledScene {
@@ -151,7 +151,8 @@ fn refusals_have_their_reasons() {
         (Measure::Velocity, Place::At(0, Position::Share(number(1, 2))), Mistake::ShareOfEndless),
         (Measure::Compression, Place::Element(0), Mistake::NotMeasurable),
     ] {
-        scene.observables[0].terms[0] = Seen { coefficient: number(1, 1), measure, place };
+        let (coefficient, dimension) = (number(1, 1), Dimension::NONE);
+        scene.observables[0].terms[0] = Seen { coefficient, dimension, measure, place };
         let refused = ScaledScene::of(&scene);
         assert_eq!(
             refused,

@@ -8,7 +8,7 @@ use wavestep::history::{EventKind, History, HistoryError};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
 use wavestep::planner::{Purpose, SignalError, of_scene};
-use wavestep::scene::{Kind, Measure, Observable, Place, Position, Scene, Seen};
+use wavestep::scene::{Dimension, Kind, Measure, Observable, Place, Position, Scene, Seen};
 use wavestep::signal::{Limit, Value, value};
 
 type Rational = wavestep_polynomial::Rational;
@@ -88,6 +88,7 @@ fn observed(
 ) -> Vec<f64> {
     let mut scene = network.scene().clone();
     let seen = |(weight, place): (Rational, Place)| Seen {
+        dimension: Dimension::NONE,
         coefficient: Fraction::constant(&weight),
         measure,
         place,

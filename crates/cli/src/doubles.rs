@@ -12,7 +12,7 @@ use wavestep::answer::{
 };
 use wavestep::ball::in_decimals;
 use wavestep::problem::{Problem, ProblemError};
-use wavestep::signal::Limit;
+use wavestep::signal::{EchoCount, Limit};
 
 pub fn method(text: &str) -> Result<Method, Failure> {
     text.parse().map_err(|error| {
@@ -64,6 +64,20 @@ pub fn tell(found: &Doubles, points: usize, tolerance: Option<Tolerance>, explai
     }
 }
 
+/// Says on standard error how many echoes there are.
+pub fn count(echoes: Option<EchoCount>) {
+    let Some(EchoCount { expanded, arriving, needed }) = echoes else {
+        return eprintln!(
+            "echoes expanded: none one by one: values come from a closed form or from whole pieces"
+        );
+    };
+    let needed = match needed == arriving {
+        true => String::new(),
+        false => format!(", {needed} of which are needed for the tolerance"),
+    };
+    eprintln!("echoes expanded: {expanded} of {arriving} that can reach what is observed{needed}");
+}
+
 /// Says on standard error how sure values with a local contact, or with contacts that open, are.
 fn note_tested(Tested { contact, tolerance, differs }: &Tested) {
     let why = match contact {
@@ -98,7 +112,8 @@ fn explained(weighed: &Weighed, points: usize, tolerance: &str, absolute: f64) -
         "{points} value{} within {tolerance}, that is {absolute:.1e}\n",
         if points == 1 { "" } else { "s" }
     );
-    let _ = writeln!(text, "  {:<14} {:>12} {:>10}", "method", "expected", "seconds");
+    let costs = &weighed.costs;
+    let _ = writeln!(text, "  {:<14} {:>12} {:>10}  by {costs}", "method", "expected", "seconds");
     for Candidate { method, promise, seconds, verdict } in &weighed.candidates {
         let promise = match promise {
             Some(Promise::Proven(bound)) => format!("≤ {bound:.1e}"),

@@ -15,7 +15,10 @@ use wavestep::problem::Digits;
 /// Says where a contact that stays closed would pull before the last of some times.
 pub fn run(options: &Eval) -> Result<String, Failure> {
     input::digits(options.digits)?;
-    let problem = input::problem(&options.scene)?;
+    let mut problem = input::problem(&options.scene)?;
+    if let Some(file) = &options.costs {
+        problem.weigh_by(input::costs(file)?);
+    }
     let tolerance = options.tol.as_deref().map(doubles::tolerance).transpose()?;
     let method = options.method.as_deref().map(doubles::method).transpose()?;
     let accuracy = match (method, tolerance) {
@@ -31,6 +34,9 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
         drop(progress);
         let found = found.map_err(|error| doubles::refused(error, times.len(), options.explain))?;
         doubles::tell(&found, times.len(), tolerance, options.explain);
+        if options.stats {
+            doubles::count(found.echoes);
+        }
         times.iter().max().into_iter().for_each(|last| note_pulling(&problem, last));
         let unit = problem.wanted(name)?.unit();
         return Ok(doubles::written(&found, &problem, &unit, &times, options));
@@ -51,8 +57,8 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
         );
     }
     times.iter().max().into_iter().for_each(|last| note_pulling(&problem, last));
-    if let Some((expanded, needed)) = found.echoes {
-        eprintln!("echoes expanded: {expanded} of {needed} that can reach what is observed");
+    if options.stats {
+        doubles::count(found.echoes);
     }
     Ok(written(&problem, &wanted, (&times, &found.values), options))
 }

@@ -3,8 +3,9 @@
 use super::arguments::Scene;
 use super::failure::Failure;
 use std::io::Read as _;
-use std::ops::Deref;
+use std::ops::{Deref, DerefMut};
 use std::path::Path;
+use wavestep::answer::Costs;
 use wavestep::language;
 use wavestep::limits::{MAX_DIGITS, MAX_SOURCE_BYTES};
 use wavestep::problem::{Problem, ProblemError, Values, number};
@@ -18,6 +19,12 @@ impl Deref for Asked {
 
     fn deref(&self) -> &Problem {
         &self.0
+    }
+}
+
+impl DerefMut for Asked {
+    fn deref_mut(&mut self) -> &mut Problem {
+        &mut self.0
     }
 }
 
@@ -60,6 +67,19 @@ pub fn unread(scene: &str, error: &std::io::Error) -> Failure {
 
 pub fn built_in(name: &str) -> Result<&'static scenes::Scene, Failure> {
     scenes::find(name).ok_or_else(|| ProblemError::NotBuiltIn(name.to_owned()).into())
+}
+
+/// The costs in a file.
+pub fn costs(file: &str) -> Result<Costs, Failure> {
+    let remedy = "measure them with `wavestep chart --costs -o FILE`";
+    let refused = |error: &dyn std::fmt::Display| {
+        Failure::usage(format!("the costs in `{file}` cannot be read: {error}"), remedy)
+    };
+    let bytes = bytes(file, MAX_SOURCE_BYTES).map_err(|error| refused(&error))?;
+    let text = String::from_utf8_lossy(&bytes);
+    Costs::read(&text, file).map_err(|error| {
+        Failure::usage(format!("the costs in `{file}` cannot be read, line {error}"), remedy)
+    })
 }
 
 /// The bytes of a file; of a longer one, one byte more than `limit`, which is enough to see that.

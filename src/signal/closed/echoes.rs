@@ -5,7 +5,7 @@ use crate::enclosure::{EnclosureError, Numbers};
 use crate::expression::{Field, Fraction, Transform};
 use crate::limits::MAX_ECHOES;
 use crate::network::{Network, Unfolded};
-use crate::recurrence::Recurrence;
+use crate::recurrence::{Recurrence, WaveIndex};
 use crate::signal::closed::memory::Memory;
 use crate::signal::error::EvaluateError;
 use crate::solution::{Demand, EchoByEcho};
@@ -61,6 +61,12 @@ impl Arriving {
         let delay = |k| (k, unfolded.delay(k).expect("within the bounds"));
         let arrivals = unfolded.numbers().map(delay).collect();
         Ok(Arriving { arrivals, last: last.clone(), unfolded })
+    }
+
+    /// Adds an echo to those that are wanted, with all that it follows from.
+    pub fn want(&self, demand: &mut Demand, wave: WaveIndex, number: usize) {
+        let exists = |k| self.unfolded.counts(k).is_some();
+        demand.add_where(self.unfolded.recurrence(), wave, number, exists);
     }
 }
 

@@ -10,14 +10,16 @@ use crate::enclosure::Numbers;
 use crate::signal::closed::echoes::{Arriving, Echoes, solve_in, whole_periods};
 use crate::signal::closed::memory::Memory;
 use crate::signal::closed::periods::Periods;
+use crate::signal::closed::shares::{Kept, Shares};
 
+use crate::ball::Magnitude;
 use crate::expression::{Expression, Fraction, Root};
 use crate::limits::MAX_PIECES;
 use crate::network::Network;
 use crate::recurrence::{Observation, Recurrence};
 use crate::signal::error::EvaluateError;
 use crate::solution::Demand;
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
@@ -34,6 +36,9 @@ const FORESEEING_BITS: u64 = 192;
 /// So many pieces always fit.
 const FEW_PIECES: usize = 400;
 
+/// A bound as a power of two that tells nothing.
+const WIDE: i64 = 1 << 20;
+
 /// At how many precisions the waves are held at once.
 const MAX_PRECISIONS: usize = 3;
 
@@ -49,6 +54,10 @@ pub struct ClosedForm {
     pub(super) numbers: Rc<Numbers>,
     /// The echoes, where arrivals lie on no grid.
     pub(super) lattice: Option<Rc<Arriving>>,
+    /// What each echo can bring to what is seen, once it was asked for.
+    shares: Rc<OnceCell<Shares>>,
+    /// The echoes that are worked out, where others may be left out.
+    pub(super) kept: Option<Rc<Kept>>,
     /// All that is seen of the waves, here and in other views of them.
     seen: Rc<Observation>,
     /// The waves, by bits.
@@ -107,6 +116,8 @@ impl ClosedForm {
             unit,
             slowness,
             lattice: None,
+            shares: Rc::default(),
+            kept: None,
             seen: Rc::new(observation.clone()),
             solved: Rc::default(),
         })
@@ -115,7 +126,33 @@ impl ClosedForm {
     /// A part of what is seen, in the scale of the waves; these are solved once for all of its parts.
     pub(super) fn part(&self, observation: &Observation) -> ClosedForm {
         let unit = Root::from(Fraction::one());
-        ClosedForm { observation: observation.clone(), unit, ..self.clone() }
+        let shares = Rc::default();
+        ClosedForm { observation: observation.clone(), unit, shares, ..self.clone() }
+    }
+
+    /// The same from fewer echoes: those that are left out come to no more than `most` together, at any time of the
+    /// window, and enclosures of values hold as much more. `None` on a grid, where pieces are not made of single echoes.
+    pub(super) fn within(&self, most: &Magnitude) -> Result<Option<ClosedForm>, EvaluateError> {
+        let Some(lattice) = &self.lattice else { return Ok(None) };
+        let shares = match self.shares.get() {
+            Some(shares) => shares,
+            None => {
+                let shares = Shares::of(lattice, &self.observation, &self.unit, &self.numbers)?;
+                self.shares.get_or_init(|| shares)
+            }
+        };
+        let (kept, seen) =
+            (Some(Rc::new(shares.keep(lattice, most))), Rc::new(self.observation.clone()));
+        Ok(Some(ClosedForm { kept, seen, solved: Rc::default(), ..self.clone() }))
+    }
+
+    /// What is left out of a value, and of a derivative, of which nothing is known then.
+    pub(super) fn left_out(&self, derivative: usize) -> Magnitude {
+        match &self.kept {
+            Some(kept) if derivative == 0 || kept.rest.is_zero() => kept.rest,
+            Some(_) => Magnitude::power_of_two(WIDE),
+            None => Magnitude::ZERO,
+        }
     }
 
     /// The recurrence of the waves that are seen.
@@ -162,8 +199,8 @@ impl ClosedForm {
         self.lattice.is_none()
     }
 
-    /// How many periods have begun at a time, or one more; on a lattice, how many echoes can have
-    /// arrived.
+    /// How many periods have begun at a time, or one more; on a lattice, how many echoes of a wave can have
+    /// arrived, of those that are worked out.
     pub fn order(&self, at: &Rational) -> Result<usize, EvaluateError> {
         let at = self.slowness.scale(at);
         match &self.lattice {
@@ -177,7 +214,10 @@ impl ClosedForm {
                 }
                 Ok(order)
             }
-            Some(lattice) => Ok(lattice.arrivals.len()),
+            Some(lattice) => Ok(match &self.kept {
+                Some(kept) => kept.demand.most_of_a_wave(),
+                None => lattice.arrivals.len(),
+            }),
         }
     }
 
@@ -192,8 +232,12 @@ impl ClosedForm {
                 bits,
             )?)),
             Some(lattice) => {
-                let demand = self.demand(&lattice.arrivals);
-                let (echoes, _) = self.solve_echoes(demand, bits)?;
+                let demand = match &self.kept {
+                    Some(kept) => kept.demand.clone(),
+                    None => self.demand(&lattice.arrivals),
+                };
+                let (echoes, expanded) = self.solve_echoes(demand, bits)?;
+                self.kept.iter().for_each(|kept| kept.expanded.set(expanded));
                 Solved::Echoes(Rc::new(echoes))
             }
         };

@@ -2,7 +2,7 @@
 //!
 //! Between two arrivals such a signal is one exponential polynomial. [`ClosedForm`] encloses it, on a grid
 //! by one piece of each wave that is seen (`periods`), on a lattice by all echoes that have arrived;
-//! `stretch` tells where it is smooth, `values` what it is there. Exact values come from `exact`, where
+//! `stretch` tells where it is smooth, `values` what it is there, `shares` which echoes matter for a tolerance. Exact values come from `exact`, where
 //! echoes of a recurrence are rational, and from `scene`, echo by echo. [`ClosedSignal`] is all of this on
 //! a window of time.
 
@@ -14,6 +14,7 @@ pub mod memory;
 pub mod modular;
 mod periods;
 mod scene;
+mod shares;
 mod signal;
 mod stretch;
 mod values;

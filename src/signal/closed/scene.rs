@@ -14,7 +14,7 @@ use crate::signal::closed::memory::Memory;
 use crate::signal::closed::modular;
 use crate::signal::closed::modular::{Modular, Residue};
 use crate::signal::error::EvaluateError;
-use crate::signal::signal::{Known, Limit, Point, has_begun};
+use crate::signal::signal::{EchoCount, Known, Limit, Point, has_begun};
 use crate::signal::transforms::value_at;
 use crate::solution::Demand;
 use num_traits::Zero;
@@ -98,12 +98,13 @@ impl<'a> SceneEchoes<'a> {
         self.demand.borrow().count()
     }
 
-    /// How many echoes other than zero are worked out, and how many can reach what was asked for.
-    pub fn work(&self) -> Option<(usize, usize)> {
+    /// How many echoes there are of what was asked for; all of them are needed.
+    pub fn work(&self) -> Option<EchoCount> {
         if self.expanded.get() == 0 {
             self.solved(FIRST_BITS).ok()?;
         }
-        Some((self.expanded.get(), self.needed()))
+        let (expanded, needed) = (self.expanded.get(), self.needed());
+        Some(EchoCount { expanded, arriving: needed, needed })
     }
 
     /// An observable in a unit at a time in the scale of the scene, zero before the start.
@@ -198,8 +199,7 @@ impl<'a> SceneEchoes<'a> {
         {
             let mut demand = self.demand.borrow_mut();
             if !demand.wants(wave, number) {
-                let exists = |k| self.arriving.unfolded.counts(k).is_some();
-                demand.add_where(self.arriving.unfolded.recurrence(), wave, number, exists);
+                self.arriving.want(&mut demand, wave, number);
                 *self.known.borrow_mut() = Solved::default();
             }
         }
@@ -303,7 +303,7 @@ impl<'a> SceneEchoes<'a> {
             None => {
                 let named = !recurrence.constants().is_empty();
                 let most = if named { MAX_EXACT_ECHOES_NAMED } else { MAX_EXACT_ECHOES };
-                let other_than_zero = || self.work().is_some_and(|(expanded, _)| expanded <= most);
+                let other_than_zero = || self.work().is_some_and(|work| work.expanded <= most);
                 let feasible = !recurrence.has_named_rates() && other_than_zero();
                 let memory = Memory::of(size_of::<Expression>() as u64);
                 let exact = || self.solve_in(Exact::new(&statement.assumptions), memory).ok();

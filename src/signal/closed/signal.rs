@@ -11,7 +11,7 @@ use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::Observation;
 use crate::signal::error::EvaluateError;
 use crate::signal::signal::{
-    At, Effort, Instant, Known, Limit, MAX_FLATNESS, Point, Signal, last_begun,
+    At, EchoCount, Effort, Instant, Known, Limit, MAX_FLATNESS, Point, Signal, last_begun,
 };
 use crate::signal::silence::Silence;
 use crate::signal::taylor::Taylor;
@@ -44,7 +44,7 @@ const SCALE_BITS: u64 = 64;
 pub struct ClosedSignal<'a> {
     source: Source<'a>,
     window: [Rational; 2],
-    silence: Option<Silence>,
+    silence: Option<Rc<Silence>>,
     form: OnceCell<ClosedForm>,
     stretches: OnceCell<Vec<Stretch>>,
 }
@@ -98,7 +98,7 @@ impl<'a> ClosedSignal<'a> {
         let (value, unit) = (Box::new(value.clone()), observed.unit.clone());
         let (exact, echoes) = (OnceCell::new(), Rc::default());
         let source = Source::Scene { network, value, unit, exact, echoes };
-        let silence = Silence::of(network, observed);
+        let silence = Silence::of(network, observed).map(Rc::new);
         Ok(ClosedSignal { silence, ..ClosedSignal::new(source, window)? })
     }
 
@@ -173,6 +173,11 @@ impl<'a> ClosedSignal<'a> {
 
     fn has_no_forcing(&self) -> bool {
         self.known_form().observation().forcing.is_zero()
+    }
+
+    /// Whether echoes are left out, so that stretches tell nothing exact.
+    fn is_cut(&self) -> bool {
+        self.form.get().is_some_and(|form| form.kept.is_some())
     }
 
     fn known_form(&self) -> &ClosedForm {
@@ -298,6 +303,9 @@ impl Signal for ClosedSignal<'_> {
         if self.silence.as_ref().is_some_and(|silence| silence.holds([(&now, side); 2])) {
             return Ok(Point::exact(Rational::default()));
         }
+        if self.is_cut() {
+            return self.enclosed(at, side);
+        }
         match &self.source {
             Source::Recurrence { echoes, value } => match echoes.point(value, at, side) {
                 // Pieces in balls may go further.
@@ -328,13 +336,38 @@ impl Signal for ClosedSignal<'_> {
         self.form()
     }
 
-    fn echoes(&self) -> Option<(usize, usize)> {
+    fn echoes(&self) -> Option<EchoCount> {
+        if let Some(kept) = self.form.get().and_then(|form| form.kept.as_ref()) {
+            let (expanded, needed) = (kept.expanded.get(), kept.demand.count());
+            return Some(EchoCount { expanded, arriving: kept.arriving, needed });
+        }
         let Source::Scene { network, echoes, .. } = &self.source else { return None };
         match echoes.seen.is_empty() {
             true => echoes.made.get()?.work(),
             // What several signals share is not made until it is asked for.
             false => self.scene_echoes(network, echoes).ok()?.work(),
         }
+    }
+
+    fn within<'s>(
+        &'s self,
+        most: &Magnitude,
+    ) -> Result<Option<Box<dyn Signal + 's>>, EvaluateError> {
+        let Source::Scene { network, value, unit, echoes, .. } = &self.source else {
+            return Ok(None);
+        };
+        let Some(form) = self.form()?.within(most)? else { return Ok(None) };
+        let (value, unit, echoes) = (value.clone(), unit.clone(), Rc::clone(echoes));
+        let exact = OnceCell::from(None);
+        let source = Source::Scene { network, value, unit, exact, echoes };
+        let [from, to] = self.window();
+        let silence = self.silence.clone();
+        let form = OnceCell::from(form);
+        Ok(Some(Box::new(ClosedSignal { silence, form, ..ClosedSignal::new(source, [from, to])? })))
+    }
+
+    fn left_out(&self) -> Magnitude {
+        self.form.get().map_or(Magnitude::ZERO, |form| form.left_out(0))
     }
 
     fn instant(&self, stretch: usize) -> Option<Instant> {
@@ -350,6 +383,9 @@ impl Signal for ClosedSignal<'_> {
             return None;
         };
         if effort == Effort::Little {
+            return None;
+        }
+        if self.is_cut() {
             return None;
         }
         let unit = unit.exact()?;
@@ -388,7 +424,7 @@ impl Signal for ClosedSignal<'_> {
         if self.silence.as_ref().is_some_and(|silence| silence.holds(ends)) {
             return true;
         }
-        stretch.is_silent() || (stretch.has_no_waves() && self.has_no_forcing())
+        stretch.is_silent() || (stretch.has_no_waves() && self.has_no_forcing() && !self.is_cut())
     }
 
     fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational> {
@@ -519,7 +555,7 @@ impl Signal for ClosedSignal<'_> {
         let mut rates = self.known_form().rates(self.stretch(stretch), bits)?;
         rates.entry(Fraction::zero()).or_insert(1);
         let count: usize = rates.values().sum();
-        if count > MAX_ZEROS {
+        if count > MAX_ZEROS || self.is_cut() {
             return Ok(false);
         }
         let field = self.known_form().numbers().field(bits);

@@ -79,7 +79,13 @@ impl ClosedForm {
                     }
                 }
                 Some(lattice) => {
+                    let is_left_out = |number: usize| {
+                        self.kept.as_ref().is_some_and(|kept| !kept.demand.wants(wave.wave, number))
+                    };
                     for (number, delay) in &lattice.arrivals {
+                        if is_left_out(*number) {
+                            continue;
+                        }
                         place((Some(seen), *number, delay + &wave.delay))?;
                     }
                 }

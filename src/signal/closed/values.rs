@@ -104,8 +104,8 @@ impl ClosedForm {
             sum = sum.add(&value.multiply(coefficient, bits), bits);
             Ok(())
         })?;
-        let value = real_part(sum)?;
-        self.times_slowness(value, derivative, bits)
+        let value = self.times_slowness(real_part(sum)?, derivative, bits)?;
+        Ok(value.widened(&self.left_out(derivative)))
     }
 
     fn times_slowness(
@@ -143,6 +143,10 @@ impl ClosedForm {
         terms: usize,
         bits: u64,
     ) -> Result<Taylor, EvaluateError> {
+        if self.kept.is_some() {
+            // What is left out need not decay.
+            return self.taylor(stretch, derivative, (centre, half), terms, bits);
+        }
         let field = self.numbers.field(bits);
         let mut slowest: Option<Ball> = None;
         self.for_each_function(stretch, derivative, bits, |function, _, _| {
@@ -181,14 +185,13 @@ impl ClosedForm {
             sum.add_scaled(&part, coefficient, bits);
             Ok(())
         })?;
-        let sum = sum.real()?;
-        match derivative {
-            0 => Ok(sum),
-            times => {
-                let one = Ball::from_integer(&1.into());
-                Ok(sum.scaled(&self.times_slowness(one, times, bits)?, bits))
-            }
+        let mut sum = sum.real()?;
+        if derivative > 0 {
+            let one = Ball::from_integer(&1.into());
+            sum = sum.scaled(&self.times_slowness(one, derivative, bits)?, bits);
         }
+        sum.remainder = sum.remainder.add(&self.left_out(derivative));
+        Ok(sum)
     }
 
     /// Stretches joined where all that arrives is identically zero, so that nothing changes.
@@ -239,7 +242,7 @@ impl ClosedForm {
             }
             Ok(())
         })?;
-        Ok((size, error))
+        Ok((size, error.add(&self.left_out(derivative))))
     }
 
     /// The rates λ of a stretch, in the scale of the waves, each with a bound on how many

@@ -5,6 +5,8 @@
 //! first ball does not decide; any other value is irrational. Many values on a window come from polynomials whose low coefficients are pairs of doubles,
 //! with a proven error of about `2^−95` of the largest value; those few that this does not decide are
 //! enclosed one by one.
+//!
+//! Of a signal from which echoes are left out for a tolerance it gives the middle of a ball that is about as wide as these.
 
 use super::doubles::{ascend, inside, table};
 use super::{Evaluator, MethodError};
@@ -76,7 +78,8 @@ impl<'a> Certified<'a> {
         }
     }
 
-    /// The double that enclosures of rising precision round to.
+    /// The double that enclosures of rising precision round to, or that is nearest to the middle of one that is as narrow
+    /// as what is left out allows.
     fn rounded(
         &self,
         at: &Rational,
@@ -87,6 +90,9 @@ impl<'a> Certified<'a> {
             let ball = enclose(bits)?;
             if let Some(value) = ball.rounded() {
                 return Ok(Attempt::Done(value));
+            }
+            if self.window.knows_all(&ball) {
+                return Ok(Attempt::Done(ball.midpoint().to_double()));
             }
             // Rational numbers alone can be zero or half-way between two doubles.
             if bits == FIRST_BITS
@@ -111,11 +117,19 @@ fn rounds_to_zero(ball: &Ball) -> bool {
 
 impl Evaluator for Certified<'_> {
     fn law(&self) -> String {
-        "correctly rounded, proven".to_owned()
+        match self.bound() {
+            Some(bound) if bound > 0.0 => {
+                format!(
+                    "at most {bound:.1e} everywhere on the window, proven: what echoes that are left out come to"
+                )
+            }
+            _ => "correctly rounded, proven".to_owned(),
+        }
     }
 
     fn bound(&self) -> Option<f64> {
-        Some(0.0)
+        // A ball is as wide as what is left out, and at most as much again.
+        Some(self.window.signal.left_out().scale(1).to_double())
     }
 
     fn value(&self, at: &Rational, side: Limit) -> Result<f64, MethodError> {
@@ -149,6 +163,7 @@ impl Evaluator for Certified<'_> {
                     None => (0..at.len()).collect(),
                 }
             }
+            _ if !self.window.signal.left_out().is_zero() => (0..at.len()).collect(),
             _ if ascend(at) => self.table()?.evaluator().rounded_sorted(at, values),
             _ => self.table()?.evaluator().rounded_unsorted(at, values),
         };

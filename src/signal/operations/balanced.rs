@@ -5,7 +5,7 @@
 use super::{Mark, Outcome, Rule, Scale, locate, taylor_by_rate, value_at};
 use crate::ball::{Ball, Magnitude};
 use crate::expression::{Expression, Fraction};
-use crate::signal::{At, Effort, Enclosure, Known, Limit, Signal, Taylor};
+use crate::signal::{At, EchoCount, Effort, Enclosure, Known, Limit, Signal, Taylor};
 use num_traits::{One as _, Zero as _};
 use std::cell::OnceCell;
 use std::ops::Range;
@@ -207,7 +207,7 @@ impl Rule for Balanced<'_> {
         self.of.most_bits().min(self.flow.most_bits())
     }
 
-    fn echoes(&self) -> Option<(usize, usize)> {
+    fn echoes(&self) -> Option<EchoCount> {
         None
     }
 }

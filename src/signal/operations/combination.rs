@@ -6,7 +6,7 @@
 use super::{Mark, Outcome, Rule, Scale, value_at};
 use crate::ball::Ball;
 use crate::expression::{Expression, Fraction};
-use crate::signal::{At, Effort, Enclosure, Known, Limit, MAX_FLATNESS, Signal, Taylor};
+use crate::signal::{At, EchoCount, Effort, Enclosure, Known, Limit, MAX_FLATNESS, Signal, Taylor};
 use num_traits::{One as _, Zero as _};
 use std::ops::Range;
 use std::rc::Rc;
@@ -212,7 +212,7 @@ impl Rule for Combination<'_> {
         self.operands.iter().map(|operand| operand.most_bits()).min().unwrap_or(u64::MAX)
     }
 
-    fn echoes(&self) -> Option<(usize, usize)> {
+    fn echoes(&self) -> Option<EchoCount> {
         self.operands.first()?.echoes()
     }
 }

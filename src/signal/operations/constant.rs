@@ -3,7 +3,7 @@
 use super::{Mark, Outcome, Rule, Scale};
 use crate::ball::Ball;
 use crate::expression::{Expression, Fraction};
-use crate::signal::{Effort, Enclosure, Known, Limit, Taylor};
+use crate::signal::{EchoCount, Effort, Enclosure, Known, Limit, Taylor};
 use std::ops::Range;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
@@ -75,7 +75,7 @@ impl Rule for Constant<'_> {
         u64::MAX
     }
 
-    fn echoes(&self) -> Option<(usize, usize)> {
+    fn echoes(&self) -> Option<EchoCount> {
         None
     }
 }

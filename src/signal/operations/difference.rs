@@ -7,7 +7,7 @@ use super::{Mark, Outcome, Rule, Scale, value_at};
 use crate::ball::Ball;
 use crate::expression::{Expression, Fraction};
 use crate::scene::PI;
-use crate::signal::{At, Effort, Enclosure, Instant, Known, Limit, Signal, Taylor};
+use crate::signal::{At, EchoCount, Effort, Enclosure, Instant, Known, Limit, Signal, Taylor};
 use std::ops::Range;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
@@ -161,7 +161,7 @@ impl Rule for Difference<'_> {
         self.operands.iter().map(|operand| operand.most_bits()).min().unwrap_or(u64::MAX)
     }
 
-    fn echoes(&self) -> Option<(usize, usize)> {
+    fn echoes(&self) -> Option<EchoCount> {
         None
     }
 }

@@ -13,7 +13,9 @@
 use super::{Mark, Outcome, Rule, Scale, locate, taylor_by_rate, value_at, working};
 use crate::ball::{Ball, Binary, Magnitude};
 use crate::expression::{Expression, Fraction};
-use crate::signal::{Effort, Enclosure, Instant, Known, Limit, Signal, Taylor, has_begun};
+use crate::signal::{
+    EchoCount, Effort, Enclosure, Instant, Known, Limit, Signal, Taylor, has_begun,
+};
 use num_traits::Zero as _;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -448,7 +450,7 @@ impl Rule for Integral<'_> {
         self.of.most_bits()
     }
 
-    fn echoes(&self) -> Option<(usize, usize)> {
+    fn echoes(&self) -> Option<EchoCount> {
         self.of.echoes()
     }
 }

@@ -25,8 +25,8 @@ use crate::enclosure::Numbers;
 use crate::expression::{Expression, Fraction, Root};
 use crate::network::Network;
 use crate::signal::{
-    At, ClosedForm, Effort, Enclosure, EvaluateError, Instant, Known, Limit, Point, Signal, Taylor,
-    last_begun,
+    At, ClosedForm, EchoCount, Effort, Enclosure, EvaluateError, Instant, Known, Limit, Point,
+    Signal, Taylor, last_begun,
 };
 use num_traits::{Signed as _, Zero as _};
 use std::cell::OnceCell;
@@ -230,7 +230,7 @@ pub(crate) trait Rule {
 
     fn most_bits(&self) -> u64;
 
-    fn echoes(&self) -> Option<(usize, usize)>;
+    fn echoes(&self) -> Option<EchoCount>;
 }
 
 /// The polynomial of a derivative of what changes at a rate: of the rate, by its order and with so many terms, or
@@ -392,7 +392,7 @@ impl<R: Rule> Signal for Operation<'_, R> {
         self.rule.most_bits()
     }
 
-    fn echoes(&self) -> Option<(usize, usize)> {
+    fn echoes(&self) -> Option<EchoCount> {
         self.rule.echoes()
     }
 

@@ -6,7 +6,7 @@
 use super::{Mark, Outcome, Rule, Scale};
 use crate::ball::Ball;
 use crate::expression::{Expression, Fraction};
-use crate::signal::{Effort, Enclosure, EvaluateError, Known, Limit, Taylor};
+use crate::signal::{EchoCount, Effort, Enclosure, EvaluateError, Known, Limit, Taylor};
 use std::ops::Range;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
@@ -159,7 +159,7 @@ impl Rule for Vibrating<'_> {
         u64::MAX
     }
 
-    fn echoes(&self) -> Option<(usize, usize)> {
+    fn echoes(&self) -> Option<EchoCount> {
         None
     }
 }

@@ -2,11 +2,13 @@
 
 use crate::methods::subject::with;
 use crate::methods::tally::{Tally, ends};
-use crate::methods::{Values, exact, random, times, unit_in_the_last_place};
+use crate::methods::{Values, exact, random, ratio, times, unit_in_the_last_place};
 use proptest::prelude::RngExt as _;
 use wavestep::answer::{
-    Cost, Method, Promise, Question, Size, Tolerance, Verdict, Way, WayError, Weighed, consider,
+    Cost, Costs, InvalidCosts, Method, Promise, Question, Size, Tolerance, Verdict, Way, WayError,
+    Weighed, Work, consider,
 };
+use wavestep::problem::Problem;
 use wavestep::signal::{Limit, StablePrecision};
 
 /// Problems of all kinds: on a grid with one pole, with several, in units, and on a lattice.
@@ -126,14 +128,61 @@ fn tolerances_are_kept() {
 #[test]
 fn costs_follow_what_is_done() {
     let size = Size { order: 200, points: 1, marches: false };
-    let cost = |name: &str| Cost::of(name.parse().unwrap(), size).unwrap();
+    let costs = Costs::default();
+    let cost = |name: &str| Cost::of(name.parse().unwrap(), size, &costs).unwrap();
     let (certified, compiled) = (cost("certified"), cost("compiled"));
     assert!(certified.seconds(1) < compiled.seconds(1));
     assert!(compiled.seconds(1_000_000) < certified.seconds(1_000_000));
     let (stable, pairs) = (cost("stable"), cost("double-double"));
     assert!(pairs.point > stable.point && stable.setup == 0.0 && pairs.setup == 0.0);
-    assert!(Cost::of_waves(size, 2).setup < Cost::of_waves(size, 20).setup);
+    assert!(Cost::of_waves(size, 2, &costs).setup < Cost::of_waves(size, 20, &costs).setup);
     assert_eq!(Cost { setup: 1.0, point: 0.5 }.seconds(4), 3.0);
+}
+
+/// The table that is compiled in is such a file, and another one changes what is picked.
+#[test]
+fn costs_are_read_from_files() {
+    let built_in = Costs::default();
+    let text = built_in.text();
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/src/answer/costs.txt");
+    assert_eq!(std::fs::read_to_string(file).unwrap(), text);
+    assert_eq!(Costs::read(&text, &built_in.source), Ok(built_in.clone()));
+    let dear = Costs::measured("here", |work| match work {
+        Work::Ball => 1e3,
+        other => built_in.of(other),
+    });
+    assert_eq!(Costs::read(&dear.text(), "here"), Ok(dear.clone()));
+    let mut problem = Problem::builtin("stepped-striker").unwrap();
+    let first = |problem: &Problem| {
+        let question = problem.question("pulse", [ratio(0, 1), ratio(8, 1)]).unwrap();
+        let weighed = consider(&question, 1, 1e-6, 1.0).unwrap();
+        (weighed.candidates[0].method, weighed.costs)
+    };
+    assert_eq!(first(&problem), (Method::Certified, "the built-in table".to_owned()));
+    problem.weigh_by(dear);
+    assert_eq!(first(&problem), (Method::Compiled, "here".to_owned()));
+}
+
+#[test]
+fn files_that_hold_no_costs_are_refused() {
+    let text = Costs::default().text();
+    let line = |name: &str| text.lines().find(|line| line.starts_with(name)).unwrap().to_owned();
+    let without = |name: &str| text.replace(&format!("{}\n", line(name)), "");
+    let instead = |new: &str| text.replace(&line("ball"), new);
+    for (text, error) in [
+        (String::new(), InvalidCosts::Header),
+        (text.replace("costs 1", "costs 2"), InvalidCosts::Header),
+        (without("wave "), InvalidCosts::Missing(12, "wave")),
+        (instead("bal 1 s"), InvalidCosts::Name(3, "bal".to_owned())),
+        (instead("ball 0 s"), InvalidCosts::Number(3, "ball".to_owned())),
+        (instead("ball nan s"), InvalidCosts::Number(3, "ball".to_owned())),
+        (instead("ball inf s"), InvalidCosts::Number(3, "ball".to_owned())),
+        (instead("ball 1"), InvalidCosts::Number(3, "ball".to_owned())),
+        (instead("ball 1 ms"), InvalidCosts::Number(3, "ball".to_owned())),
+        (instead("step 1 s"), InvalidCosts::Again(9, "step".to_owned())),
+    ] {
+        assert_eq!(Costs::read(&text, "a file"), Err(error), "{text}");
+    }
 }
 
 #[test]
@@ -162,7 +211,8 @@ fn every_method_is_named_as_it_is_read() {
         assert_eq!(method.to_string().parse::<Method>(), Ok(method));
         assert_eq!(method.setting().is_empty(), !name.contains(':'), "{name}");
         let size = Size { order: 50, points: 10, marches: true };
-        assert_eq!(Cost::of(method, size).is_none(), about.starts_with("model: "), "{name}");
+        let cost = Cost::of(method, size, &Costs::default());
+        assert_eq!(cost.is_none(), about.starts_with("model: "), "{name}");
     }
     for text in ["modes:", "modes:-1", "leapfrog:4,x", "steps:tight", "compiled:3"] {
         let error = text.parse::<Method>().unwrap_err().to_string();

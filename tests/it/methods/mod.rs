@@ -12,6 +12,7 @@ mod compiled;
 mod contacts;
 mod held;
 mod inclusion;
+mod left_out;
 mod marched;
 mod marched_waves;
 mod memory;

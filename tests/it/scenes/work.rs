@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use wavestep::planner::{Purpose, of_scene};
-use wavestep::signal::{Limit, digits};
+use wavestep::signal::{EchoCount, Limit, digits};
 
 use crate::scenes::{built_in, network_of, rational, scene_of, usual};
 
@@ -36,7 +36,7 @@ fn work_done_is_as_recorded() {
         let signal = of_scene(&network, observed, [&at, &at], Purpose::Echoes).expect("a window");
         let value = digits(&*signal, &at, Limit::Right, 12, 1 << 12);
         let digits = value.expect("a value").decimal(12).0;
-        let (expanded, needed) = signal.echoes().expect("echoes");
+        let EchoCount { expanded, needed, .. } = signal.echoes().expect("echoes");
         let line = format!("{name} {observable}({p}/{q})");
         writeln!(table, "{line:<40}{digits:<24}{expanded:>5} of {needed:>5}").unwrap();
     }
@@ -69,7 +69,7 @@ fn a_long_chain_is_followed() {
         let at = &last - rational(1, 7);
         let signal = of_scene(&network, observed, [&at, &last], Purpose::Echoes).expect("a window");
         let value = digits(&*signal, &at, Limit::Right, 15, 1 << 14).expect("a value");
-        let (expanded, needed) = signal.echoes().expect("echoes");
+        let EchoCount { expanded, needed, .. } = signal.echoes().expect("echoes");
         eprintln!(
             "{} = {}: {expanded} of {needed} echoes, {:.1?}",
             observed.name,

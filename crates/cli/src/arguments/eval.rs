@@ -1,7 +1,7 @@
 //! Arguments of `eval`.
 
 use super::{Format, Scene, limits, value_formats};
-use clap::Args;
+use clap::{Args, ValueHint};
 use wavestep::limits::VALUE_BITS;
 use wavestep::signal::Limit;
 
@@ -46,7 +46,8 @@ pub struct Eval {
     /// Which limit is meant where an echo arrives
     #[arg(long, value_parser = limits("From earlier times", "From later times"), default_value = "right")]
     pub side: Limit,
-    /// Say on standard error how many echoes were worked out
+    /// Say on standard error how many echoes were worked out, of how many that arrive, and with --tol of how
+    /// many that are needed
     #[arg(long)]
     pub stats: bool,
     /// The most bits of working precision
@@ -55,8 +56,11 @@ pub struct Eval {
     /// In doubles, by the cheapest method that is proven to be off by at most so much: 1e-9 of the
     /// largest value, abs:1e-9 in the unit of the quantity, ulp:4 units in the last place of the
     /// largest value
-    #[arg(long, value_name = "TOL", conflicts_with_all = ["digits", "stats", "max_bits", "piece"])]
+    #[arg(long, value_name = "TOL", conflicts_with_all = ["digits", "max_bits", "piece"])]
     pub tol: Option<String>,
+    /// Weigh the methods for --tol by the costs in this file, which `wavestep chart --costs -o FILE` writes
+    #[arg(long, value_name = "FILE", requires = "tol", value_hint = ValueHint::FilePath)]
+    pub costs: Option<String>,
     /// In doubles, by this method or model: certified, compiled, marched, marched-unproven, stable,
     /// double-double, plain, expanded; rigid, third, modes[:N], leapfrog[:CELLS[,CFL]], steps[:TOL]
     #[arg(long, value_name = "NAME", conflicts_with_all = ["digits", "stats", "max_bits", "piece"])]

@@ -8,13 +8,19 @@ use wavestep::signal::Limit;
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep chart rigid-mass --set mu=1 -o charts\n  \
-    wavestep chart hopkinson --quantity gauge_output --to 2ms -o charts\n\n\
+    wavestep chart hopkinson --quantity gauge_output --to 2ms -o charts\n  \
+    wavestep chart --costs -o costs.txt\n\n\
 Each chart is written as SVG, JSON and CSV; index.html shows all of them with a table.\n\
 With one symbol set, there are maps over the order and that symbol as well.\n\
-Seconds are those of this machine.")]
+Seconds are those of this machine. With --costs nothing is drawn: what methods are made of is\n\
+measured again, beside the built-in table; `eval --costs FILE` reads what -o writes.")]
+#[command(group = clap::ArgGroup::new("charted").args(["scene", "costs"]).required(true))]
 pub struct Chart {
     #[command(flatten)]
-    pub scene: Scene,
+    pub scene: Option<Scene>,
+    /// Measure the costs by which `eval --tol` picks a method
+    #[arg(long, conflicts_with_all = ["scene", "set", "quantity", "from", "to", "points", "seed"])]
+    pub costs: bool,
     /// A wave or an observable [default: the first observable]
     #[arg(long, value_name = "NAME")]
     pub quantity: Option<String>,
@@ -33,9 +39,9 @@ pub struct Chart {
     /// Fewer orders and runs: to see whether it works
     #[arg(long)]
     pub quick: bool,
-    /// The folder to write to; it is made where there is none
-    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub output: String,
+    /// The folder to write to, which is made where there is none; with --costs a file
+    #[arg(short, long, value_name = "DIR", required_unless_present = "costs", value_hint = ValueHint::AnyPath)]
+    pub output: Option<String>,
 }
 
 #[derive(Args)]

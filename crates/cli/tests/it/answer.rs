@@ -284,7 +284,7 @@ fn refusals_say_what_is_wrong_and_what_helps() {
 #[test]
 fn options_that_contradict_each_other_are_usage() {
     let line = "eval rigid-mass --set mu=1 --quantity f --at 2 --tol 1e-9";
-    for other in ["--digits 20", "--stats", "--max-bits 100"] {
+    for other in ["--digits 20", "--max-bits 100", "--method certified --stats"] {
         let (code, _, stderr) = run(anywhere(), &words(&format!("{line} {other}")));
         assert_eq!(code, 2, "{other}");
         assert!(stderr.contains("cannot be used with"), "{other}: {stderr}");

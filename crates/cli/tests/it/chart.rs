@@ -1,6 +1,6 @@
 //! `wavestep chart`: its files, and what stands in them.
 
-use super::{anywhere, run};
+use super::{anywhere, run, words};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -141,4 +141,45 @@ fn bad_requests_are_refused() {
     let (code, _, errors) =
         run(anywhere(), &["chart", "two-bars", "--set", "r=1", "--quick", "-o", "/dev/null/no"]);
     assert!(code != 0 && errors.contains("cannot be made"));
+}
+
+/// Costs are measured, shown beside those in use, and written so that `eval` reads them.
+#[test]
+fn costs_are_measured_and_used() {
+    let folder = super::folder("chart-costs");
+    let (code, told, errors) = run(&folder, &words("chart --costs --quick -o own.txt"));
+    assert_eq!(code, 0, "{errors}");
+    let names: Vec<&str> = told.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    let file = std::fs::read_to_string(folder.join("own.txt")).unwrap();
+    let written = file.lines().skip(2).filter_map(|line| line.split_whitespace().next());
+    let rows = &names[1..names.len() - 1];
+    assert_eq!(rows, written.collect::<Vec<_>>(), "{told}");
+    for line in told.lines().skip(1).take(rows.len()) {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let [measured, used, ratio] = [1, 2, 3].map(|i| words[i].parse::<f64>().unwrap());
+        assert!(
+            measured > 0.0 && (measured / used / ratio - 1.0).abs() < 0.1 + 0.005 / ratio,
+            "{line}"
+        );
+    }
+    let eval = "eval rigid-mass --set mu=1 --quantity f --at 5 --tol 1e-6 --explain";
+    assert!(run(&folder, &words(eval)).2.contains("by the built-in table"));
+    let (code, _, errors) = run(&folder, &words(&format!("{eval} --costs own.txt")));
+    assert!(code == 0 && errors.contains("by own.txt"), "{errors}");
+    std::fs::write(folder.join("bad.txt"), file.replace("ball ", "bell ")).unwrap();
+    for (name, message) in [
+        ("bad.txt", "error: the costs in `bad.txt` cannot be read, line 3: `bell` is no work"),
+        ("none.txt", "error: the costs in `none.txt` cannot be read: "),
+    ] {
+        let (code, out, errors) = run(&folder, &words(&format!("{eval} --costs {name}")));
+        assert_eq!((code, out.as_str()), (2, ""), "{errors}");
+        assert!(errors.starts_with(message), "{errors}");
+        assert!(
+            errors.contains("\nhelp: measure them with `wavestep chart --costs -o FILE`"),
+            "{errors}"
+        );
+    }
+    for line in ["chart", "chart --costs rigid-mass", "chart rigid-mass", "chart --costs --to 4"] {
+        assert_eq!(run(&folder, &words(line)).0, 2, "{line}");
+    }
 }

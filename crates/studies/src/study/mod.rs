@@ -1,11 +1,13 @@
 //! Studies: how far off ways are, and how long they take, measured on one problem.
 //!
 //! A [`Reference`] holds values known to more than a hundred bits at times drawn by a seed. Errors are
-//! differences from it, relative to the largest value; times are the least of several runs.
+//! differences from it, relative to the largest value; times are the least of several runs. [`measured_costs`] takes
+//! those by which ways are weighed.
 
 mod charts;
 mod confluence;
 mod cost;
+mod costs;
 mod curves;
 mod harness;
 mod loss;
@@ -17,6 +19,7 @@ mod zeros;
 pub use charts::{Charted, Charts, Effort, ToChart, charts, usual_end};
 pub use confluence::near_confluence;
 pub use cost::{cost_over_order, derivation_cost};
+pub use costs::measured_costs;
 pub use curves::{
     DOUBLES, HALF, USELESS, at_arrivals, near_jump, over_courant, over_order, over_time,
 };
