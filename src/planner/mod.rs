@@ -10,7 +10,10 @@ mod energy;
 
 use crate::expression::{Fraction, Root};
 use crate::history::{self, FollowedSignal, Follower, HistoryError};
-use crate::network::{FieldBars, Network, Observed, ObservedValue, Squared, Term};
+use crate::network::{
+    Contacts, ElementLaw, FieldBars, Layout, Lumped, Network, Node, Observed, ObservedValue,
+    Squared, Term,
+};
 use crate::recurrence::Observation;
 use crate::signal::{
     ClosedForm, ClosedSignal, Difference, EvaluateError, Operation, Scale, Signal, Taps, Vibrating,
@@ -59,6 +62,22 @@ const FOLLOWED_FROM: f64 = 64e6;
 /// Following takes ever more bits and memory for more digits; a closed form goes on beyond these.
 const MOST_FOLLOWED_DIGITS: usize = 100;
 
+/// A node with more masses and springs than this has more rates than a closed form is quick with.
+const MANY_STATES: usize = 6;
+
+/// Whether a place between bars has so many masses and springs.
+fn is_crowded(network: &Network) -> bool {
+    let states = |node: &Node<Fraction>| {
+        let moves = |own: &&Lumped<Fraction>| match &own.law {
+            ElementLaw::Mass { .. } => true,
+            law => law.resistance().is_some_and(|[stiffness, _]| !stiffness.is_zero()),
+        };
+        node.elements.iter().filter(moves).count()
+    };
+    let layout = Layout::of(network.scene(), network.model(), Contacts::of(network.scene()));
+    layout.nodes.iter().any(|node| states(node) > MANY_STATES)
+}
+
 /// Where values come from.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Origin {
@@ -70,7 +89,7 @@ pub enum Origin {
 
 /// Where values until a time of the user's come from at the least cost; a scene whose contacts open has no closed form.
 pub fn origin(network: &Network, to: &Rational, purpose: Purpose) -> Origin {
-    if !has_periods(network) {
+    if !has_periods(network) || is_crowded(network) && purpose != Purpose::Echoes {
         return Origin::Followed;
     }
     let most = match purpose {

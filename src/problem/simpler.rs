@@ -1,8 +1,10 @@
 //! Simpler answers than the exact one, and how far they are from it, with proof.
 
 use super::{Problem, ProblemError, Wanted};
+use crate::export::expression_text;
 use crate::language::{self, Change, ChangeError, Source};
 use crate::model::Modes;
+use crate::network::NetworkError;
 use crate::planner::{self, Purpose};
 use crate::signal::{Goal, Place, Search, Signal};
 use std::fmt;
@@ -136,6 +138,32 @@ impl Problem {
     pub fn changed(&self, changes: &[Change]) -> Result<Problem, ProblemError> {
         let source = language::changed(&self.source, changes)?;
         Problem::of(source, self.values.clone())
+    }
+
+    /// The same for formulas: where symbols are left and one bar is a spring that swings with one mass, its rate has the name
+    /// `omega`, which is told beside the scene.
+    ///
+    /// # Errors
+    /// As [`Problem::changed`].
+    pub fn model(&self, changes: &[Change]) -> Result<(Problem, Option<String>), ProblemError> {
+        let model = self.changed(changes)?;
+        let scene = self.scaled()?.scene();
+        if model.symbols().is_empty() || *changes != [Change::Spring(None, None)] {
+            return Ok((model, None));
+        }
+        let Some(square) = scene.square_of_rate() else { return Ok((model, None)) };
+        let square = square.map_err(NetworkError::from)?;
+        let text = format!("{}\nsymbol omega > 0\n", model.source.text());
+        let text = text.replace("as = spring", "as = spring, rate = omega");
+        let source = Source::new(model.source.name(), text)?;
+        let told = format!("omega^2 = {}", expression_text(&square.into()));
+        Ok((Problem::of(source, self.values.clone())?, Some(told)))
+    }
+
+    /// Whether waves come back: of a scene, whether a bar lies between two places.
+    pub fn waves_return(&self) -> bool {
+        let mut bars = self.scaled().map(|scaled| scaled.model().bars.values());
+        bars.as_mut().map_or(true, |bars| bars.any(|bar| bar.travel.is_some()))
     }
 
     /// What it was read from.

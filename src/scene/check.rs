@@ -153,7 +153,7 @@ impl Check<'_> {
         let Some(ideal) = &bar.ideal else { return };
         let held = self.scene.is_held(index);
         let refuse = |mistake| (mistake, vec![Part::Property(index, Property::As)]);
-        if let Ideal::Spring { share: Some(share) } = ideal {
+        if let Ideal::Spring { share: Some(share), .. } = ideal {
             self.positive(index, Property::Share, share);
         }
         let mistake = match ideal {

@@ -20,6 +20,9 @@ pub enum Ideal {
     Spring {
         /// The share of its mass at each end that can move: a third where one end is held, else a half.
         share: Option<Fraction>,
+        /// The rate `ω` at which it swings with the masses at its one moving end, where its stiffness is told by that:
+        /// `k = ω² M`.
+        rate: Option<Fraction>,
     },
 }
 
@@ -92,6 +95,33 @@ impl Scene {
         Ok(Scene { elements, line, observables, ..self.clone() })
     }
 
+    /// All lumped masses.
+    fn masses(&self) -> Fraction {
+        let masses = self.elements.iter().filter_map(|own| match &own.kind {
+            Kind::Mass(mass) => Some(&mass.mass),
+            _ => None,
+        });
+        masses.fold(Fraction::zero(), |sum, mass| &sum + mass)
+    }
+
+    /// `ω² = k/(M + m/3)`, where the line is one bar with a held end and masses at the other.
+    pub(crate) fn square_of_rate(&self) -> Option<Result<Fraction, NotAUnit>> {
+        let mut bar = None;
+        for (index, element) in self.elements.iter().enumerate() {
+            match &element.kind {
+                Kind::Bar(own) if bar.is_none() => bar = Some((index, own)),
+                Kind::Mass(_) => {}
+                _ => return None,
+            }
+        }
+        let (index, bar) = bar.filter(|(index, _)| self.is_held(*index) != [false; 2])?;
+        let of = |[mass, stiffness, _]: [Fraction; 3]| {
+            let whole = &(&mass * &number(1, 3)) + &self.masses();
+            Ok(&stiffness * &whole.inverse()?)
+        };
+        (self.is_held(index) != [true; 2]).then(|| properties(&bar.body).and_then(of))
+    }
+
     /// Whether the left and the right end of an element are joined to a fixed end of the line.
     pub(super) fn is_held(&self, element: ElementIndex) -> [bool; 2] {
         let Line { left, elements, right, .. } = &self.line;
@@ -111,16 +141,20 @@ impl Scene {
         };
         let [mass, stiffness, _] = properties(&bar.body)?;
         let velocity = velocity.clone();
-        let share = match ideal {
+        let (share, rate) = match ideal {
             Ideal::Rigid => {
                 let mass = Kind::Mass(Mass { mass, velocity });
                 return Ok(Now::One(add(name.clone(), mass)));
             }
-            Ideal::Spring { share } => share.clone(),
+            Ideal::Spring { share, rate } => (share, rate),
         };
         let held = self.is_held(index);
-        let usual = || if held == [false; 2] { number(1, 2) } else { number(1, 3) };
-        let share = &mass * &share.unwrap_or_else(usual);
+        let usual = if held == [false; 2] { number(1, 2) } else { number(1, 3) };
+        let share = &mass * share.as_ref().unwrap_or(&usual);
+        let stiffness = match rate {
+            Some(rate) => &rate.pow(2) * &(&share + &self.masses()),
+            None => stiffness,
+        };
         let masses = [0, 1].map(|side: usize| {
             let mut own = format!("{name}_{}", ["left", "right"][side]);
             while self.elements.iter().any(|element| element.name == own) {

@@ -34,6 +34,7 @@ mod scene_language;
 mod scenes;
 mod signal;
 mod silence;
+mod simpler;
 mod source;
 mod source_form;
 mod support;

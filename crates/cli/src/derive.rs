@@ -10,25 +10,54 @@ use super::validity;
 use serde_json::{Value, json};
 use wavestep::export::{self, Formula};
 use wavestep::problem::{
-    Derived, Form, Functions, GeneralFormulas, Orders, Problem, Symbols, ToDerive,
+    Derived, Form, Functions, GeneralFormulas, Orders, Problem, ProblemError, Simpler, Symbols,
+    ToDerive,
 };
 use wavestep::signal::Arrival;
 use wavestep::solution::ObservedStretch;
 
 pub fn run(options: &Derive) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;
+    let model = options.model.as_deref().map(|model| formulas_of(&problem, model)).transpose()?;
     if let Some(derived) = first_contact::derive(&problem, options)? {
         return Ok(derived);
     }
-    let derived = match options.explain {
-        true => explanation(&problem, options)?,
-        false => {
-            let (derived, names) = derived(&problem, options)?;
-            with_constants(&problem, derived, names.as_deref(), options)?
-        }
-    };
+    let exact = formulas(&problem, options, options.orders())?;
     validity::note_derivation(&problem);
-    Ok(derived)
+    let (Some(name), Some((model, definition))) = (&options.model, model) else {
+        return Ok(exact);
+    };
+    let mark = if options.format == Format::Latex { "%" } else { "#" };
+    let definition: String = definition.iter().map(|line| format!("{mark} {line}\n")).collect();
+    let (orders, holds) = match model.waves_return() {
+        true => (options.orders(), "period by period"),
+        false => (None, "at all times"),
+    };
+    let derived = formulas(&model, options, orders)?;
+    Ok(format!("{exact}\n{mark} {name}, {holds}\n{definition}{derived}"))
+}
+
+/// A scene with something left out, of which formulas are derived, and what stands for its rate.
+fn formulas_of(problem: &Problem, model: &str) -> Result<(Problem, Option<String>), Failure> {
+    match model.parse::<Simpler>().map_err(ProblemError::from)? {
+        Simpler::Scene(changes) => Ok(problem.model(&changes)?),
+        Simpler::Modes(_) | Simpler::Arrivals(_) => {
+            let message = format!("{model} is no scene of which formulas could be derived");
+            Err(Failure::usage(message, "name a change of the scene, such as `third`"))
+        }
+    }
+}
+
+fn formulas(
+    problem: &Problem,
+    options: &Derive,
+    orders: Option<Orders>,
+) -> Result<String, Failure> {
+    if options.explain {
+        return explanation(problem, options);
+    }
+    let (derived, names) = derived(problem, options, orders)?;
+    with_constants(problem, derived, names.as_deref(), options)
 }
 
 fn explanation(problem: &Problem, options: &Derive) -> Result<String, Failure> {
@@ -62,7 +91,11 @@ fn with_constants(
 }
 
 /// What is derived, and the same as text where it is written otherwise and holds few of the constants.
-fn derived(problem: &Problem, options: &Derive) -> Result<(String, Option<String>), Failure> {
+fn derived(
+    problem: &Problem,
+    options: &Derive,
+    orders: Option<Orders>,
+) -> Result<(String, Option<String>), Failure> {
     let what = match (&options.wave, &options.observable) {
         (_, Some(name)) => ToDerive::Observable(name),
         (Some(name), None) => ToDerive::Wave(name),
@@ -74,7 +107,11 @@ fn derived(problem: &Problem, options: &Derive) -> Result<(String, Option<String
         return Ok((written_general(problem, &formulas, options)?, None));
     }
     let progress = progress::spinner("deriving");
-    let orders = options.orders().unwrap_or_else(|| {
+    let orders = orders.unwrap_or_else(|| {
+        // Where nothing returns, the first function holds at all times.
+        if !problem.waves_return() {
+            return Orders::Through(0, 0);
+        }
         let (orders, stopped) = problem.first_orders(what, options.from);
         if let Some(reason) = stopped {
             progress.suspend(|| eprintln!("note: {reason}; --through N derives more"));

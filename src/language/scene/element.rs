@@ -48,6 +48,7 @@ const UNTIL: Form = ("until", "a time", Dimension::TIME);
 const MAX_TERMS_SQUARED: usize = 300;
 
 const SHARE: Form = ("share", "a share of the mass", Dimension::NONE);
+const RATE: Form = ("rate", "a rate", Dimension::TIME.inverse());
 
 /// Names, not quantities.
 const MATERIAL: &str = "material";
@@ -59,7 +60,7 @@ fn known(kind: Declared) -> Vec<&'static str> {
         Declared::Material => "modulus density wave_speed",
         Declared::Bar => {
             "material diameter length velocity strain area inner_diameter modulus density \
-             wave_speed impedance travel as share"
+             wave_speed impedance travel as share rate"
         }
         Declared::Mass => "mass velocity",
         Declared::Spring | Declared::Support => "stiffness damping",
@@ -293,15 +294,17 @@ impl<'a> Lowering<'a> {
     /// What a bar is taken to be: `as = rigid`, `as = spring`, the latter with a `share` of its mass at each end.
     fn ideal(&mut self, given: &Given<'_>) -> Option<Option<Ideal>> {
         let share = self.optional(given, SHARE).ok()?;
+        let rate = self.optional(given, RATE).ok()?;
+        let of_spring = given.get(SHARE.0).or(given.get(RATE.0));
         let ideal = given.get(AS).map(|property| match &property.value.value {
             Node::Name(name) if property.unit.is_none() => match name.as_str() {
                 "rigid" => Ok(Ideal::Rigid),
-                "spring" => Ok(Ideal::Spring { share: share.clone() }),
+                "spring" => Ok(Ideal::Spring { share: share.clone(), rate: rate.clone() }),
                 _ => Err(property),
             },
             _ => Err(property),
         });
-        match (ideal, given.get(SHARE.0)) {
+        match (ideal, of_spring) {
             (Some(Err(property)), _) => {
                 let error =
                     self.error("a bar is a spring or rigid", property.value.span, "neither");
@@ -309,9 +312,11 @@ impl<'a> Lowering<'a> {
                 self.refuse(error.with_remedy(remedy))
             }
             (None | Some(Ok(Ideal::Rigid)), Some(share)) => {
-                let message = "a bar has a share of its mass at its ends where it is a spring";
-                let error = self.error(message, share.name.span, "a share of what?");
-                self.refuse(error.with_remedy("write `as = spring` too, or remove `share`"))
+                let name = &share.name.value;
+                let message = format!("a bar has a {name} where it is a spring");
+                let error = self.error(message, share.name.span, "of no spring");
+                let remedy = format!("write `as = spring` too, or remove `{name}`");
+                self.refuse(error.with_remedy(remedy))
             }
             (Some(Ok(ideal)), _) => Some(Some(ideal)),
             (None, None) => Some(None),

@@ -53,6 +53,10 @@ pub struct Derive {
     #[arg(long, conflicts_with_all = ["wave", "observable", "general", "form", "source_form",
           "through", "from", "piece"])]
     pub explain: bool,
+    /// Derive a simpler model too, below the exact formulas: `rigid` (no bar yields), `third` (bars are springs with a
+    /// third of their mass), or another change of the scene, as `find --minus` takes it
+    #[arg(long, value_name = "MODEL", conflicts_with_all = ["explain", "source_form"])]
+    pub model: Option<String>,
     /// Written how
     #[arg(long, default_value = "text", value_parser = named([
         ("text", Format::Text, "Plain text; pieces and echoes in the scene's own symbols can be read back"),

@@ -1,0 +1,360 @@
+//! Simpler answers: bars that are springs or rigid, changes of a text, distances with proof, and advice.
+
+use wavestep::language::{Change, changed};
+use wavestep::planner::Purpose;
+use wavestep::problem::{Need, Simpler, Size, Verdict};
+use wavestep::signal::Search;
+use wavestep::{Method, Problem};
+use wavestep_polynomial::Rational;
+
+fn rational(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(numerator.into(), denominator.into())
+}
+
+fn scene(body: &str) -> Problem {
+    Problem::read("test.wave", format!("scene \"Test\"\n{body}")).unwrap()
+}
+
+fn builtin(name: &str, mu: &str) -> Problem {
+    Problem::builtin(name).unwrap().with("mu", mu).unwrap()
+}
+
+/// The reason why a text is refused, or what makes of it another scene.
+fn refused(body: &str) -> String {
+    let text = format!("scene \"Test\"\n{body}");
+    Problem::read("test.wave", text).err().expect("it is refused").to_string()
+}
+
+fn doubles(problem: &Problem, name: &str, times: &[f64]) -> Vec<f64> {
+    let found = problem.signal(name).unwrap().values(times, "abs:1e-12".parse().unwrap());
+    found.unwrap().values
+}
+
+/// A bar as a spring is Rayleigh's model, derived here from masses and springs, there from its equation.
+#[test]
+fn a_bar_as_a_spring_is_rayleighs_model() {
+    for mu in ["1/10", "1", "4"] {
+        let rod = builtin("mass-on-fixed-bar", mu);
+        let third = rod.changed(&[Change::Spring(None, None)]).unwrap();
+        let times: Vec<f64> = (0..40).map(|i| f64::from(i) / 7.0).collect();
+        for name in ["velocity", "strain_impact", "strain_fixed"] {
+            let own = doubles(&third, name, &times);
+            let model = rod.signal(name).unwrap().values_by(&times, Method::Third).unwrap().values;
+            for (own, model) in own.iter().zip(&model) {
+                assert!((own - model).abs() < 1e-11, "{mu} {name}: {own} {model}");
+            }
+        }
+    }
+}
+
+/// The same for a rigid bar between springs, and its momentum.
+#[test]
+fn a_rigid_bar_is_the_rigid_body() {
+    let text = "bar rod { impedance = 2, travel = 3/2, velocity = 1 }\nmass m { mass = 1/2 }\n\
+        support soil { stiffness = 3, damping = 1/4 }\nline free - m - rod - soil - free\n\
+        observe v = velocity(m)\nobserve u = displacement(m)\nobserve f = force(soil)";
+    let bar = scene(text);
+    let rigid = bar.changed(&[Change::Rigid(Some("rod".to_owned()))]).unwrap();
+    let times: Vec<f64> = (0..40).map(|i| f64::from(i) / 7.0).collect();
+    for name in ["v", "u", "f"] {
+        let own = doubles(&rigid, name, &times);
+        let model = bar.signal(name).unwrap().values_by(&times, Method::Rigid).unwrap().values;
+        for (own, model) in own.iter().zip(&model) {
+            assert!((own - model).abs() < 1e-11, "{name}: {own} {model}");
+        }
+    }
+}
+
+/// With units a strain, a stress and a momentum of a bar that is a spring keep their units: `ε = −X/EA`, `σ = X/A` but for its
+/// sign, and the momentum of a velocity that is linear along the bar is `m (v_left + v_right)/2`.
+#[test]
+fn measures_of_a_bar_as_a_spring_have_their_units() {
+    let bar = scene(
+        "bar rod { modulus = 200 GPa, density = 8000 kg/m^3, area = 5 cm^2, length = 2 m, as = spring }\n\
+         mass m { mass = 3 kg, velocity = 4 m/s }\nline free - m - rod - free\n\
+         observe strain = strain(rod.at(1/3))\nobserve stress = stress(rod.left)\n\
+         observe force = force(rod.right)\nobserve momentum = momentum(rod)\n\
+         observe middle = velocity(rod.at(0.5 m))\nobserve left = velocity(rod.left)\n\
+         observe right = velocity(rod.right)\nobserve all = momentum(line)\nobserve e = energy(rod)\n\
+         observe u = displacement(rod.left) - displacement(rod.right)",
+    );
+    let at = |name: &str| bar.signal(name).unwrap().at("130us", 15).unwrap().to_f64();
+    let is = |name: &str, value: f64| {
+        let own = at(name);
+        assert!((own - value).abs() < 1e-9 * value.abs(), "{name}: {own} {value}");
+    };
+    let (area, modulus, mass) = (5e-4, 200e9, 8000.0 * 5e-4 * 2.0);
+    is("strain", -at("force") / (modulus * area));
+    is("stress", -at("force") / area);
+    is("force", modulus * area / 2.0 * at("u"));
+    is("middle", 0.75 * at("left") + 0.25 * at("right"));
+    is("momentum", mass * (at("left") + at("right")) / 2.0);
+    is("all", 12.0);
+    let stored = at("force").powi(2) / (2.0 * modulus * area / 2.0);
+    is("e", mass / 4.0 * (at("left").powi(2) + at("right").powi(2)) + stored);
+    assert_eq!(bar.signal("strain").unwrap().unit(), "");
+    assert_eq!(bar.signal("stress").unwrap().unit(), "Pa");
+    assert_eq!(bar.signal("momentum").unwrap().unit(), "N*s");
+}
+
+/// A share of its mass at the end that moves changes the rate: `ω² = k/(M + αm)`.
+#[test]
+fn a_share_of_the_mass_moves_with_the_end() {
+    for (share, whole) in [("1/2", 1.5), ("1/4", 1.25)] {
+        let bar = scene(&format!(
+            "bar rod {{ impedance = 1, travel = 1, as = spring, share = {share} }}\n\
+             mass m {{ mass = 1, velocity = 1 }}\nline free - m - rod - fixed\nobserve v = velocity(m)"
+        ));
+        let own = bar.signal("v").unwrap().at("3/2", 12).unwrap().to_f64();
+        let exact = (1.5_f64 / f64::sqrt(whole)).cos() / whole;
+        assert!((own - exact).abs() < 1e-11, "{share}: {own} {exact}");
+    }
+}
+
+#[test]
+fn bars_without_waves_are_refused_where_they_make_no_sense() {
+    let line =
+        "\nmass m { mass = 1, velocity = 1 }\nline free - m - rod - fixed\nobserve v = velocity(m)";
+    let bar = |as_what: &str| format!("bar rod {{ impedance = 1, travel = 1, {as_what} }}{line}");
+    assert!(refused(&bar("as = rigid")).contains("this bar cannot move"));
+    assert!(refused(&bar("as = rubber")).contains("a bar is a spring or rigid"));
+    assert!(refused(&bar("share = 1/3")).contains("a bar has a share where it is a spring"));
+    assert!(refused(&bar("as = rigid, share = 1/3")).contains("has a share where it is a spring"));
+    assert!(refused(&bar("as = spring, strain = 1")).contains("no strain at the start"));
+    assert!(refused(&bar("as = spring, share = 0")).contains("not certainly positive"));
+    let endless = "bar rod { impedance = 1, as = spring }\nmass m { mass = 1, velocity = 1 }\n\
+        line free - m - rod - endless\nobserve v = velocity(m)";
+    assert!(refused(endless).contains("an endless bar is no mass and no spring"));
+    let rigid = "bar rod { impedance = 1, travel = 1, as = rigid, velocity = 1 }\nline free - rod - free\n\
+        observe f = force(rod.left)";
+    assert!(refused(rigid).contains("what happens in a rigid bar is not known"));
+}
+
+const PILE: &str = "scene \"Pile\"\nmaterial concrete { modulus = 30 GPa, density = 2400 kg/m^3 }\n\
+    mass ram { mass = 5000 kg, velocity = 4 m/s }   # falls\nspring cushion { stiffness = 1 GN/m }\n\
+    # The pile itself.\nbar pile { material = concrete, diameter = 500 mm, length = 20 m }\n\
+    bar tip { length = 1 m, material = concrete, diameter = 400 mm }\nsupport toe { damping = 0.5 MN*s/m }\n\
+    line free - ram | cushion - pile - tip - toe - free\ncontacts open\n\
+    observe head = force(cushion)\nobserve end = velocity(tip.right)\nobserve energy = energy(line)\n";
+
+/// What a change makes of a text, read by eye in the snapshot.
+#[test]
+fn changes_keep_what_the_author_wrote() {
+    let pile = Problem::read("pile.wave", PILE).unwrap();
+    let mut told = String::new();
+    for change in [
+        "without:cushion",
+        "without:ram",
+        "rigid:pile",
+        "spring:tip,2/5",
+        "third",
+        "endless:pile.right",
+        "endless:tip.left",
+        "closed",
+        "closed+without:toe+rigid",
+    ] {
+        let Ok(Simpler::Scene(changes)) = change.parse() else { panic!("{change}") };
+        let text = match changed(pile.source(), &changes) {
+            Ok(source) => source.text().to_owned(),
+            Err(error) => format!("{error}\n"),
+        };
+        told += &format!("== {change}\n{text}\n");
+    }
+    insta::with_settings!({ snapshot_path => "../../snapshots/simpler", prepend_module_to_snapshot => false }, {
+        insta::assert_snapshot!("changes", told);
+    });
+    for wrong in ["without:x", "rigid:ram", "endless:toe.right"] {
+        let Ok(Simpler::Scene(changes)) = wrong.parse() else { panic!("{wrong}") };
+        assert!(changed(pile.source(), &changes).is_err(), "{wrong}");
+    }
+    for wrong in
+        ["", "thirds", "modes:0", "modes:x", "without:", "endless:pile", "rigid+", "echoes:-1"]
+    {
+        assert!(wrong.parse::<Simpler>().is_err(), "{wrong}");
+    }
+}
+
+/// Proven distances hold those of samples, and are within 1e-6 of the largest of them.
+#[test]
+fn distances_are_those_of_samples() {
+    const SAMPLES: i32 = 20_000;
+    for (mu, to) in [
+        ("1/100", rational(1, 10)),
+        ("1/10", rational(1, 1)),
+        ("1", rational(6, 1)),
+        ("10", rational(60, 1)),
+    ] {
+        let rod = builtin("mass-on-fixed-bar", mu);
+        let wanted = rod.wanted("velocity").unwrap();
+        let (zero, end) = (Rational::default(), num_traits::ToPrimitive::to_f64(&to).unwrap());
+        let times: Vec<f64> =
+            (0..=SAMPLES).map(|i| end * f64::from(i) / f64::from(SAMPLES)).collect();
+        let exact = doubles(&rod, "velocity", &times);
+        for (what, method) in [("third", Method::Third), ("modes:10", Method::Modes { count: 10 })]
+        {
+            let other = rod.simpler(&what.parse().unwrap()).unwrap();
+            let signal = rod.difference_on(&other, &wanted, [&zero, &to], Purpose::Search).unwrap();
+            let Size { bounds, .. } = Size::of(&*signal, 9, 1 << 12).unwrap();
+            let [low, high] = bounds.map(|bound| num_traits::ToPrimitive::to_f64(&bound).unwrap());
+            let model = rod.signal("velocity").unwrap().values_by(&times, method).unwrap().values;
+            let seen = exact.iter().zip(&model).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(seen <= high + 1e-11 && high - seen < 1e-6, "{mu} {what}: {low} {high} {seen}");
+            // The same, less narrowly.
+            let near = Search::new(&*signal).unwrap().largest(&zero).unwrap().bounds;
+            let [less, more] = near.map(|bound| num_traits::ToPrimitive::to_f64(&bound).unwrap());
+            assert!(
+                less <= high && low <= more && more <= less * 1.01,
+                "{mu} {what}: {less} {more}"
+            );
+        }
+    }
+}
+
+/// After the last arrival that counts the function goes on: of a rigid mass its first piece is `e^(−s)` for ever.
+#[test]
+fn arrivals_that_do_not_count_leave_the_last_function() {
+    let rod = builtin("mass-on-fixed-bar", "1");
+    let (wanted, zero, to) = (rod.wanted("velocity").unwrap(), Rational::default(), rational(5, 1));
+    let other = rod.simpler(&Simpler::Arrivals(1)).unwrap();
+    let signal = rod.difference_on(&other, &wanted, [&zero, &to], Purpose::Search).unwrap();
+    let exact = doubles(&rod, "velocity", &[3.0, 4.5]);
+    let known = doubles(&rod, "velocity", &[1.0])[0];
+    assert!((known - f64::exp(-1.0)).abs() < 1e-12);
+    // The first arrival is that at 2: f_1 = e^(−s)(−2s + 1 + e^(−2)), less the second half, which the far end gives.
+    let first = |s: f64| f64::exp(-s) * (f64::exp(-2.0) - 2.0 * s);
+    for (time, exact) in [3.0, 4.5].into_iter().zip(exact) {
+        let at = Rational::from_float(time).unwrap();
+        let point = signal.point(&at, wavestep::signal::Limit::Right).unwrap();
+        let off = point.value(15, 1 << 12).unwrap().to_f64();
+        assert!((off - (exact - first(time - 2.0))).abs() < 1e-12, "{time}: {off}");
+    }
+}
+
+/// What is enough keeps to the tolerance at all samples, and what is not has a time at which it does not.
+#[test]
+fn advice_is_proven_and_has_witnesses() {
+    let cases = [
+        (builtin("mass-on-fixed-bar", "1/10"), "velocity", rational(1, 1), rational(1, 10)),
+        (builtin("mass-on-fixed-bar", "1/10"), "velocity", rational(1, 1), rational(1, 200)),
+        (builtin("struck-free-bar", "1/2"), "velocity", rational(3, 1), rational(1, 20)),
+    ];
+    for (problem, name, to, tolerance) in cases {
+        let wanted = problem.wanted(name).unwrap();
+        let zero = Rational::default();
+        let need = Need { wanted: &wanted, window: [&zero, &to], tolerance };
+        let advice = problem.advise(&need, &|_| ()).unwrap();
+        assert!(advice.enough().is_some(), "{advice:?}");
+        let scale = &advice.largest.bounds;
+        for own in &advice.tried {
+            let Ok(other) = problem.simpler(&own.simpler) else {
+                assert!(matches!(own.verdict, Verdict::Unsuited(_)));
+                continue;
+            };
+            let off = |time: &Rational| {
+                let signal =
+                    problem.difference_on(&other, &wanted, [&zero, &to], Purpose::Search).unwrap();
+                let point = signal.point(time, wavestep::signal::Limit::Right).unwrap();
+                let [low, high] = point.value(9, 1 << 10).unwrap().bounds();
+                low.max(-high)
+            };
+            match &own.verdict {
+                Verdict::Misses { by, at } => {
+                    assert!(*by > need.tolerance);
+                    assert!(off(at) > &need.tolerance * &scale[0], "{} at {at}", own.simpler);
+                }
+                Verdict::Enough([least, most]) => {
+                    assert!(least <= most && *most <= need.tolerance);
+                    for i in 0..=64 {
+                        assert!(
+                            off(&(&to * rational(i, 64))) <= most * &scale[1],
+                            "{}",
+                            own.simpler
+                        );
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// A light mass and a soft support far away do not matter: both go, and the scene that is left is read and near.
+#[test]
+fn elements_that_do_not_matter_are_left_out() {
+    let text = "mass hammer { mass = 1, velocity = 1 }\nbar rod { impedance = 1, travel = 1 }\n\
+        mass collar { mass = 1e-5 }\nbar tail { impedance = 1, travel = 4 }\n\
+        support soft { stiffness = 1e-6 }\nline free - hammer - rod - collar - tail - soft - free\n\
+        observe v = velocity(hammer)";
+    let problem = scene(text);
+    let (wanted, zero, to) = (problem.wanted("v").unwrap(), Rational::default(), rational(11, 1));
+    let tolerance = rational(1, 1000);
+    let need = Need { wanted: &wanted, window: [&zero, &to], tolerance: tolerance.clone() };
+    let advice = problem.advise(&need, &|_| ()).unwrap();
+    let (own, changes) = advice.scene().expect("a scene is enough");
+    let reduced = problem.changed(changes).unwrap();
+    let text = reduced.source().text();
+    assert!(!text.contains("collar") && !text.contains("soft"), "{}: {text}", own.simpler);
+    let times: Vec<f64> = (0..=1100).map(|i| f64::from(i) / 100.0).collect();
+    let (exact, left) = (doubles(&problem, "v", &times), doubles(&reduced, "v", &times));
+    let off = exact.iter().zip(&left).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(off > 0.0 && off <= 1e-3, "{off}");
+}
+
+/// Formulas of the model with a third of the mass hold its rate by name; put in, they are the values of the model.
+#[test]
+fn formulas_of_a_third_hold_the_rate_by_name() {
+    let rod = Problem::builtin("mass-on-fixed-bar").unwrap();
+    let (model, told) = rod.model(&[Change::Spring(None, None)]).unwrap();
+    assert_eq!(told.as_deref(), Some("omega^2 = 3/(mu*(3 + mu))"));
+    let formula = model.derive("strain_fixed", 0..=0).unwrap().remove(0);
+    assert_eq!(formula.to_string(), "strain_fixed[0](s) = -omega*sin(omega*s)");
+    // With mu = 1 the square of the rate is 3/4; 433013/500000 is near its root.
+    let near = model.with("mu", 1).unwrap().with("omega", "433012702/500000000").unwrap();
+    let third = rod.with("mu", 1).unwrap().changed(&[Change::Spring(None, None)]).unwrap();
+    let (own, exact) =
+        (doubles(&near, "strain_fixed", &[0.7])[0], doubles(&third, "strain_fixed", &[0.7])[0]);
+    assert!((own - exact).abs() < 1e-7, "{own} {exact}");
+}
+
+/// A vibration as a signal is the sum of its modes, with its derivatives.
+#[test]
+fn modes_are_a_signal() {
+    let bar = builtin("struck-free-bar", "1/2");
+    let (wanted, zero, to) = (bar.wanted("velocity").unwrap(), Rational::default(), rational(3, 1));
+    let other = bar.simpler(&Simpler::Modes(7)).unwrap();
+    let signal = bar.difference_on(&other, &wanted, [&zero, &to], Purpose::Search).unwrap();
+    let times = [0.3, 1.1, 2.6];
+    let exact = doubles(&bar, "velocity", &times);
+    let modes = bar
+        .signal("velocity")
+        .unwrap()
+        .values_by(&times, Method::Modes { count: 7 })
+        .unwrap()
+        .values;
+    signal.count().unwrap();
+    for ((time, exact), modes) in times.iter().zip(exact).zip(modes) {
+        let at = Rational::from_float(*time).unwrap();
+        let stretch = signal.stretch_at(&at, wavestep::signal::Limit::Right).unwrap().unwrap();
+        let value = |order: usize, at: &Rational| {
+            let ball = signal.enclose(stretch, order, wavestep::signal::At::Time(at), 192).unwrap();
+            ball.to_double().0
+        };
+        assert!((value(0, &at) - (exact - modes)).abs() < 1e-11, "{time}");
+        // Taylor polynomials of each order hold values beside their middle.
+        let half = rational(1, 50);
+        let beside = &at + rational(1, 100);
+        for order in 0..3 {
+            let taylor = signal.taylor(stretch, order, (&at, &half), 24, 192).unwrap();
+            let sum = taylor
+                .coefficients
+                .iter()
+                .enumerate()
+                .fold(0.0, |sum, (k, own)| sum + own.to_double().0 * 0.5_f64.powi(k as i32));
+            let value = value(order, &beside);
+            assert!(
+                (sum - value).abs() < 1e-9 * value.abs().max(1.0),
+                "{time} {order}: {sum} {value}"
+            );
+        }
+    }
+}
