@@ -66,14 +66,15 @@ fn share(value: &BigRational) -> String {
     format!("{} %", Decimal::from_rational(&(value * hundredth), DIGITS).0)
 }
 
-fn each(time: Duration) -> String {
-    match time.as_secs_f64() {
-        own if own < 1e-3 => format!("{:.0} us", own * 1e6),
-        own => format!("{:.1} ms", own * 1e3),
-    }
-}
-
 impl Told<'_> {
+    /// How long a value took, where that is asked for.
+    fn each(&self, time: Duration) -> String {
+        match self.options.stats {
+            true => format!(", {:.3} ms a value", time.as_secs_f64() * 1e3),
+            false => String::new(),
+        }
+    }
+
     fn time(&self, time: &BigRational) -> String {
         let second = if self.problem.has_units() { " s" } else { "" };
         format!("{}{second}", Decimal::from_rational(time, DIGITS).0)
@@ -107,13 +108,13 @@ impl Told<'_> {
             let mark = if enough.is_some_and(|one| std::ptr::eq(one, own)) { "*" } else { " " };
             let work = match own.work.is_empty() {
                 true => String::new(),
-                false => format!("; {}, {} a value", own.work, each(own.each)),
+                false => format!("; {}{}", own.work, self.each(own.each)),
             };
             [format!("{mark} {}", own.simpler), self.verdict(&own.verdict) + &work]
         };
         let mut rows: Vec<[String; 2]> = tried.iter().map(row).collect();
         let mark = if enough.is_none() { "*" } else { " " };
-        rows.push([format!("{mark} exact"), format!("0; {work}, {} a value", each(*time))]);
+        rows.push([format!("{mark} exact"), format!("0; {work}{}", self.each(*time))]);
         let width = rows.iter().map(|[what, _]| what.chars().count()).max().unwrap_or_default();
         let tolerance = share(&self.need.tolerance);
         let mut text =

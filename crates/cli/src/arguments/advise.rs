@@ -27,6 +27,9 @@ pub struct Advise {
     /// The last time of the window [default: four periods, or twice the way along the line]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub to: Option<String>,
+    /// Tell how long a value of each took, too
+    #[arg(long)]
+    pub stats: bool,
     /// Write the smallest scene that is enough into this file
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,

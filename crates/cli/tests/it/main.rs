@@ -6,6 +6,7 @@ mod chart;
 mod command;
 mod dispersion;
 mod documents;
+mod enough;
 mod events;
 mod extremes;
 mod find;

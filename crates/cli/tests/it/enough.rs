@@ -1,0 +1,190 @@
+//! `advise`, `find --distance` and `derive --model`; and the table of `docs/enough.md`.
+//!
+//! With `UPDATE_DOCUMENTS=1` the table is written anew, in a minute or two; read it before you keep it. Without, the rows
+//! that are quick are held against it.
+
+use super::{ROOT, anywhere, folder, run, words};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use wavestep::scenes::SCENES;
+
+const TOLERANCES: [&str; 5] = ["1e-1", "1e-2", "1e-3", "1e-6", "1e-9"];
+
+/// What is tried on every run of the tests.
+const QUICK: [&str; 6] = [
+    "bars-of-unequal-length",
+    "cushioned-impact",
+    "mass-on-fixed-bar",
+    "mass-on-free-bar",
+    "stepped-striker",
+    "struck-free-bar",
+];
+
+/// Those without a usual window, and the end of one.
+const ENDS: [(&str, &str); 2] = [("hertz-striker", "60us"), ("local-contact", "60us")];
+
+const MARKS: [&str; 2] =
+    ["<!-- enough: made by crates/cli/tests/it/enough.rs -->\n", "<!-- end of enough -->"];
+
+/// What is enough of a shipped scene, all of its symbols a half.
+fn enough(scene: &str, symbols: &[&str], tolerance: &str) -> (String, String) {
+    let mut line = vec!["advise", scene, "--tol", tolerance, "--format", "json"];
+    let values: Vec<String> = symbols.iter().map(|symbol| format!("{symbol}=1/2")).collect();
+    values.iter().for_each(|value| line.extend(["--set", value]));
+    if let Some((_, end)) = ENDS.iter().find(|(name, _)| *name == scene) {
+        line.extend(["--to", end]);
+    }
+    let (code, text, errors) = run(anywhere(), &line);
+    assert_eq!(code, 0, "{line:?}: {errors}");
+    let told: Value = serde_json::from_str(&text).unwrap();
+    check(&told);
+    let name = told["quantity"].as_str().unwrap().to_owned();
+    (name, told["enough"].as_str().unwrap_or("exact").to_owned())
+}
+
+/// What is enough keeps to the tolerance; what misses it does so by more.
+fn check(told: &Value) {
+    let number = |value: &Value| value.as_str().unwrap().parse::<f64>().unwrap();
+    let tolerance = number(&told["tolerance"].as_str().map_or(Value::Null, |text| {
+        let (top, bottom) = text.split_once('/').unwrap_or((text, "1"));
+        Value::from((top.parse::<f64>().unwrap() / bottom.parse::<f64>().unwrap()).to_string())
+    }));
+    for own in told["tried"].as_array().unwrap() {
+        let verdict = &own["verdict"];
+        if let Some(share) = verdict["enough"].as_array() {
+            assert!(number(&share[0]) <= number(&share[1]), "{own}");
+            assert!(number(&share[1]) <= tolerance * (1.0 + 1e-8), "{own}");
+        }
+        if verdict["misses"].is_string() {
+            assert!(number(&verdict["misses"]) >= tolerance, "{own}");
+            assert!(verdict["at"].is_string(), "{own}");
+        }
+    }
+}
+
+fn symbols(text: &str) -> Vec<&str> {
+    let lines = text.lines().filter_map(|line| line.strip_prefix("symbol "));
+    let all = lines.flat_map(|line| line.split('#').next().unwrap_or_default().split(','));
+    all.filter_map(|symbol| symbol.split_whitespace().next()).collect()
+}
+
+#[test]
+fn what_is_enough_of_shipped_scenes_is_as_the_page_says() {
+    let page = Path::new(ROOT).join("docs/enough.md");
+    let text = fs::read_to_string(&page).unwrap();
+    let update = std::env::var_os("UPDATE_DOCUMENTS").is_some();
+    let mut table = format!("\n| scene | quantity | {} |\n|---|---|", TOLERANCES.join(" | "));
+    table += &"---|".repeat(TOLERANCES.len());
+    table.push('\n');
+    let mut rows = BTreeMap::new();
+    for scene in SCENES.iter().filter(|scene| scene.text.contains("\nscene ")) {
+        if !update && !QUICK.contains(&scene.name) {
+            continue;
+        }
+        let symbols = symbols(scene.text);
+        let told: Vec<_> =
+            TOLERANCES.map(|tolerance| enough(scene.name, &symbols, tolerance)).into();
+        let answers: Vec<String> = told.iter().map(|(_, answer)| format!("`{answer}`")).collect();
+        let row = format!("| `{}` | `{}` | {} |\n", scene.name, told[0].0, answers.join(" | "));
+        table += &row;
+        rows.insert(scene.name, row);
+    }
+    let (start, end) =
+        (text.find(MARKS[0]).unwrap() + MARKS[0].len(), text.find(MARKS[1]).unwrap());
+    if update {
+        fs::write(page, format!("{}{table}\n{}", &text[..start], &text[end..])).unwrap();
+        return;
+    }
+    assert_eq!(rows.len(), QUICK.len());
+    for row in rows.values() {
+        assert!(text[start..end].contains(row.as_str()), "not in docs/enough.md: {row}");
+    }
+}
+
+#[test]
+fn the_smallest_scene_is_a_file_that_runs() {
+    let here = folder("advise");
+    let text = "scene \"Collar\"\nsymbol m > 0\nmass hammer { mass = m, velocity = 1 }\n\
+        bar rod { impedance = 1, travel = 1 }\nmass collar { mass = 1e-5 } # hardly there\n\
+        bar tail { impedance = 1, travel = 4 }\nline free - hammer - rod - collar - tail - free\n\
+        observe v = velocity(hammer)\n";
+    fs::write(here.join("collar.wave"), text).unwrap();
+    let line = "advise collar.wave --set m=1 --tol 1e-3 --to 9 -o reduced.wave";
+    let (code, told, errors) = run(&here, &words(line));
+    assert_eq!((code, errors.as_str()), (0, ""));
+    assert!(told.contains("\nEnough: `"), "{told}");
+    let reduced = fs::read_to_string(here.join("reduced.wave")).unwrap();
+    assert!(
+        reduced
+            .starts_with("# What is left of \"Collar\" for v within 0.1 % of its largest value,\n")
+    );
+    assert!(reduced.contains("# 0 <= t <= 9, with --set m=1.\n"), "{reduced}");
+    assert!(!reduced.contains("collar {"), "{reduced}");
+    let line = "find collar.wave --set m=1 --distance v --minus reduced.wave --to 9 --format json";
+    let (code, told, errors) = run(&here, &words(line));
+    assert_eq!(code, 0, "{errors}");
+    let told: Value = serde_json::from_str(&told).unwrap();
+    let relative = &told["distances"][0]["relative"]["decimal"];
+    assert!(relative.as_str().unwrap().parse::<f64>().unwrap() <= 1e-3, "{told}");
+}
+
+#[test]
+fn distances_are_told_in_all_formats() {
+    let line = "find mass-on-fixed-bar --set mu=1 --distance --minus third --to 4 --digits 6";
+    let (code, text, errors) = run(anywhere(), &words(line));
+    assert_eq!((code, errors.as_str()), (0, ""));
+    assert!(
+        text.starts_with("velocity: third is off by at most 0.255753, 0.255753 of the largest"),
+        "{text}"
+    );
+    assert!(text.contains("energy: third is off by at most 0.125 = 1/8, 0.25 = 1/4"), "{text}");
+    let (_, csv, _) = run(anywhere(), &words(&format!("{line} --format csv")));
+    let mut rows = csv.lines();
+    assert_eq!(rows.next(), Some("quantity,distance,largest,relative"));
+    assert!(rows.any(|row| row == "energy,1/8,1/2,1/4"), "{csv}");
+    let (_, json, _) = run(anywhere(), &words(&format!("{line} --format json")));
+    let told: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(told["distances"].as_array().unwrap().len(), 5);
+}
+
+#[test]
+fn formulas_of_a_model_stand_below_the_exact_ones() {
+    let line = "derive mass-on-fixed-bar --observable strain_fixed --through 0 --model third";
+    let (code, text, errors) = run(anywhere(), &words(line));
+    assert_eq!((code, errors.as_str()), (0, ""));
+    assert!(text.starts_with("strain_fixed[0](s) = -2*exp(-s)\n"), "{text}");
+    assert!(
+        text.ends_with(
+            "\n# third, at all times\n# omega^2 = 3/(mu*(3 + mu))\nstrain_fixed[0](s) = -omega*sin(omega*s)\n"
+        ),
+        "{text}"
+    );
+}
+
+#[test]
+fn what_cannot_be_weighed_is_told() {
+    let scene = "mass-on-fixed-bar --set mu=1";
+    for (line, reason, remedy) in [
+        (format!("advise {scene} --tol 0"), "not positive", "1e-2"),
+        (format!("advise {scene} --tol x"), "x", "number"),
+        (format!("advise {scene} --quantity velocty"), "velocty", "velocity"),
+        (format!("advise {scene} --from 3 --to 2"), "is empty", ""),
+        ("advise mass-on-fixed-bar --to 1".to_owned(), "mu", "--set"),
+        ("advise hertz-striker".to_owned(), "no end", "--to"),
+        ("advise rigid-mass --set mu=1".to_owned(), "states equations", "describe it"),
+        (format!("find {scene} --distance velocity --to 1"), "--minus", ""),
+        (format!("find {scene} --distance velocity --minus thirds:x --to 1"), "thirds:x", "third"),
+        (
+            format!("find {scene} --distance velocity --minus rigid --to 1"),
+            "cannot move",
+            "leave out",
+        ),
+        (format!("derive {scene} --model modes:3"), "no scene", "third"),
+    ] {
+        let (code, text, errors) = run(anywhere(), &words(&line));
+        assert!(code == 2 && text.is_empty(), "{line}: {code} {text} {errors}");
+        assert!(errors.contains(reason) && errors.contains(remedy), "{line}: {errors}");
+    }
+}
