@@ -5,10 +5,11 @@
 //! would become negative closes; the cell ends there, and the next one begins with other equations.
 //! Every node has a time of its own and is at most a travel time ahead of its neighbours.
 
-use crate::ball::{Ball, Magnitude, Number};
+use crate::ball::{Magnitude, Number};
 use crate::expression::Fraction;
+use crate::history::cells::Cells;
 use crate::history::contacts::{Cause, Contact, Guard, Happening};
-use crate::history::error::{HistoryError, NotFollowed, Question, When};
+use crate::history::error::{HistoryError, NotFollowed, Question};
 use crate::history::load::Course;
 use crate::history::moment::{Clock, Moment};
 use crate::history::motion::Motion;
@@ -25,7 +26,7 @@ use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// Doubles tell instants apart that differ by more than this part of the later one.
-const TOLD_APART: f64 = 1e-12;
+pub const TOLD_APART: f64 = 1e-12;
 
 /// The most changes of contacts of one node at one instant.
 const MAX_CHANGES: usize = 16;
@@ -34,9 +35,8 @@ const MAX_CHANGES: usize = 16;
 const SPARE_BITS: i64 = 48;
 const LEAST_BITS: u64 = 96;
 
-/// Memory is foreseen each time that so many times as much of a window has passed, from this share of it on.
+/// Memory is foreseen each time that so many times as much of a window has passed.
 const OFTEN: f64 = 1.125;
-const TELLING: f64 = 1.0 / 16.0;
 
 /// What a node did on one cell.
 pub(crate) struct Cell {
@@ -55,12 +55,10 @@ pub(crate) struct Cell {
 }
 
 impl Cell {
-    /// How many coefficients are held of it, with those of the waves that leave.
-    fn coefficients(&self) -> usize {
+    /// How many bytes it takes, about.
+    pub fn bytes(&self) -> u64 {
         let all = [&self.velocities, &self.compressions, &self.forces, &self.gaps];
-        let held = all.into_iter().flatten().map(|series| series.coefficients.len() + 1);
-        held.sum::<usize>()
-            + self.velocities.iter().map(|series| series.coefficients.len()).sum::<usize>()
+        all.into_iter().flatten().map(Series::bytes).sum()
     }
 }
 
@@ -105,12 +103,14 @@ struct Planned {
 /// A node as it is.
 pub(crate) struct State {
     pub now: Moment,
+    /// As a double.
+    pub about: f64,
     pub system: System<Number>,
     pub passivity: Passivity,
     pub state: Vec<Number>,
     /// Of each block of the state.
     pub errors: Vec<StateError>,
-    arriving: [Arriving; 2],
+    pub arriving: [Arriving; 2],
     displacements: Vec<Number>,
     /// How long its last cell beside a pressed local contact was allowed to be.
     pressed_for: Option<Rational>,
@@ -127,15 +127,17 @@ pub(crate) struct Engine {
     pub bars: Vec<(Number, Option<Fraction>)>,
     /// Of each bar the waves to the right and to the left, as they leave its ends.
     pub waves: Vec<[Track; 2]>,
-    /// What each node did, with the start of each cell.
-    pub cells: Vec<Vec<(Moment, Cell)>>,
+    /// What each node did.
+    pub cells: Vec<Cells<Cell>>,
     pub happenings: Vec<Happening>,
     pub states: Vec<State>,
     pub open: Vec<Contact>,
     pub places: Vec<String>,
-    count: usize,
-    /// What the cells hold, about.
-    bytes: u64,
+    pub count: usize,
+    /// What the cells hold that are kept, about.
+    pub bytes: u64,
+    /// The time before which nothing is asked for.
+    pub asked_from: f64,
     /// The size of the largest wave so far, at the start of its cell, and of the terms that its values are the sum of.
     loudest: Magnitude,
     steepest: Magnitude,
@@ -236,6 +238,7 @@ impl Engine {
             places,
             count: 0,
             bytes: 0,
+            asked_from: 0.0,
             loudest: Magnitude::ZERO,
             steepest: Magnitude::ZERO,
             errors: network.local_contact().is_none().then_some(ErrorEnergy::NONE),
@@ -316,6 +319,7 @@ impl Engine {
             let now = start.clone();
             self.states.push(State {
                 now,
+                about: 0.0,
                 system,
                 passivity,
                 state,
@@ -324,7 +328,7 @@ impl Engine {
                 displacements,
                 pressed_for: None,
             });
-            self.cells.push(Vec::new());
+            self.cells.push(Cells::default());
         }
         Ok(())
     }
@@ -373,81 +377,37 @@ impl Engine {
     }
 
     fn follow_all(&mut self, until: &Moment) -> Outcome<()> {
-        let mut looked = 0.0;
+        let (mut looked, end) = (0.0, self.clock.about(until));
         while let Some((node, now)) = self.behind() {
             if self.clock.compare(now, until)? == Ordering::Greater {
                 break;
             }
-            let passed = self.clock.about(now) / self.clock.about(until);
+            let passed = self.states[node].about / end;
             tell_followed(passed);
             if passed > OFTEN * looked {
                 looked = passed;
-                self.foresee_memory(node, passed)?;
+                self.foresee_memory(node, until)?;
             }
             self.advance(node)?;
         }
         Ok(())
     }
 
-    /// Refuses at once what takes too many cells: a node is at most a travel time ahead of its neighbours, so that
-    /// none of its cells is longer than two of these.
-    fn foresee_cells(&self, until: &Moment) -> Outcome<()> {
-        let mut cells = self.count as f64;
-        for (node, state) in self.nodes.iter().zip(&self.states) {
-            let left = self.clock.since(&state.now, until)?;
-            let mut most = 0.0_f64;
-            for side in [node.left, node.right] {
-                let Side::Bar(bar) = side else { continue };
-                let Some(travel) = &self.bars[bar].1 else { continue };
-                let rate = self.clock.number(travel)?.reciprocal(self.cut.bits)?;
-                let passages = left.multiply(&rate, self.cut.bits).ball(64).to_double().0;
-                most = most.max(passages / 2.0);
-            }
-            cells += most;
-        }
-        match (cells > MAX_HISTORY_CELLS as f64, self.behind()) {
-            (true, Some((node, _))) => Err(self.too_many_cells(node)?),
-            _ => Ok(()),
-        }
-    }
-
-    /// Refuses what will take too much memory, once some of it is taken. Memory is assumed to grow as the square of
-    /// time: cells hold more and more, and there may be more of them.
-    fn foresee_memory(&self, node: usize, passed: f64) -> Outcome<()> {
-        let (taken, most) = (self.bytes as f64, memory() as f64);
-        match taken > most * TELLING && taken > most * passed.powi(2) {
-            true => Err(self.too_much_memory(node)?),
-            false => Ok(()),
-        }
-    }
-
-    /// How far a node was followed, as it is told.
-    fn reached(&self, node: usize) -> Outcome<When> {
-        Ok(self.clock.told(&self.clock.time(&self.states[node].now)?))
-    }
-
-    fn too_much_memory(&self, node: usize) -> Outcome<HistoryError> {
-        let (megabytes, when) = (memory() / 1_000_000, self.reached(node)?);
-        Ok(HistoryError::TooMuchMemory { megabytes, when })
-    }
-
-    fn too_many_cells(&self, node: usize) -> Outcome<HistoryError> {
-        Ok(HistoryError::TooManyCells { limit: MAX_HISTORY_CELLS, when: self.reached(node)? })
-    }
-
     /// The node that was followed the least far, and how far. What arrives there has left the others:
     /// one that is further, however little, may ask for what is not known yet.
     pub fn behind(&self) -> Option<(usize, &Moment)> {
-        let now = self.states.iter().map(|state| &state.now).enumerate();
-        now.reduce(|least, other| if self.is_earlier(other.1, least.1) { other } else { least })
+        let states = self.states.iter().enumerate();
+        let behind = states
+            .reduce(|least, other| if self.is_earlier(other.1, least.1) { other } else { least });
+        behind.map(|(node, state)| (node, &state.now))
     }
 
-    /// Which instant is earlier, by doubles where these tell; what nothing tells apart is not earlier.
-    fn is_earlier(&self, one: &Moment, other: &Moment) -> bool {
-        let [a, b] = [one, other].map(|moment| self.clock.about(moment));
+    /// Which node was followed less far, by doubles where these tell; what nothing tells apart is not earlier.
+    fn is_earlier(&self, one: &State, other: &State) -> bool {
+        let (a, b) = (one.about, other.about);
         match (a - b).abs() > TOLD_APART * a.abs().max(b.abs()) {
             true => a < b,
-            false => matches!(self.clock.compare(one, other), Ok(Ordering::Less)),
+            false => matches!(self.clock.compare(&one.now, &other.now), Ok(Ordering::Less)),
         }
     }
 
@@ -547,6 +507,7 @@ impl Engine {
         self.cut.bits = self.bits_of(node);
         let advanced = self.advance_over(node);
         self.cut.bits = all;
+        self.forget(node);
         advanced
     }
 
@@ -757,6 +718,7 @@ impl Engine {
                 Some(errors) => errors.settle(wave, &passage, &cut),
                 None => wave,
             };
+            self.bytes += wave.bytes();
             self.waves[bar][direction].push(wave, end.clone(), length.clone());
         }
         for block in &state.passivity.blocks {
@@ -775,9 +737,9 @@ impl Engine {
         let (forces, gaps) = guards.into_iter().map(Guard::into_force_and_gap).unzip();
         let length = norm.length;
         let cell = Cell { velocities, displacements, length, compressions, forces, gaps };
-        let each = size_of::<Number>() as u64 + Ball::further_bytes(cut.bits);
-        self.bytes += cell.coefficients() as u64 * each;
-        self.cells[node].push((now, cell));
+        self.bytes += cell.bytes();
+        self.cells[node].push(now, cell);
+        self.states[node].about = self.clock.about(&end);
         self.states[node].now = end;
         Ok(())
     }

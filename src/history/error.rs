@@ -67,6 +67,9 @@ pub enum HistoryError {
     /// A time after the last one that was asked for.
     #[error("a time after the last one that was followed")]
     AfterLast,
+    /// A time before those that were asked for.
+    #[error("a time before what is kept")]
+    Forgotten,
     /// A value that is not enclosed.
     #[error(transparent)]
     Evaluate(Box<EvaluateError>),

@@ -8,10 +8,11 @@
 //! Read `engine` for the way from cell to cell, `contacts` for which of them are closed, `reading` for what is taken
 //! from it, `crossing` and `positive` for the proof that nothing is passed over, `observe` and `phased` for what is seen
 //! of it, `validity` for how long closed contacts are true, `closed_form` for instants in closed form, `series` for the
-//! arithmetic, `pressing` for local contacts, `passivity` and `passive` for what becomes of errors, at a node and in the
+//! arithmetic, `cells` and `memory` for what is kept of it, `pressing` for local contacts, `passivity` and `passive` for what becomes of errors, at a node and in the
 //! line, `energy` for what a wave holds, `body` for energies and momenta of bodies and for why they never meet again.
 
 mod body;
+pub mod cells;
 pub mod closed_form;
 mod contacts;
 pub mod crossing;
@@ -21,6 +22,7 @@ mod error;
 #[expect(clippy::module_inception, reason = "the module is named after what it tells")]
 mod history;
 pub mod load;
+mod memory;
 pub mod moment;
 pub mod motion;
 mod observe;

@@ -152,7 +152,7 @@ impl Engine {
     /// A wave from an instant on.
     fn series_at(&self, track: &Track, now: &Moment) -> Outcome<Series> {
         let cell = track.cell(&self.clock, now, Limit::Right)?;
-        let (start, wave) = &track.cells[cell];
+        let (start, wave) = track.cells.get(cell);
         Ok(wave.series().shift(&self.clock.since(start, now)?, &self.cut))
     }
 
@@ -214,12 +214,12 @@ impl Engine {
     pub fn breaks_of(&self, part: &Part) -> Vec<Vec<Moment>> {
         let Source::Wave { bar, direction, delay } = &part.source else {
             let Source::Node { node, .. } = part.source else { return Vec::new() };
-            return vec![self.cells[node].iter().map(|(start, _)| start.clone()).collect()];
+            return vec![self.cells[node].starts().cloned().collect()];
         };
         let Some(delay) = delay else { return Vec::new() };
         let cells = &self.waves[*bar][*direction].cells;
         let after = |delay: &Fraction| -> Vec<Moment> {
-            cells.iter().map(|own| own.0.after(delay)).collect()
+            cells.starts().map(|start| start.after(delay)).collect()
         };
         match &part.over {
             Window::Last(length) => vec![after(delay), after(&(delay + length))],

@@ -6,6 +6,7 @@ use crate::expression::{Expression, Fraction, Root};
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::history::{LEAST_BITS, undecided};
+use crate::history::memory::Asked;
 use crate::history::moment::Moment;
 use crate::history::part::{Part, Source};
 use crate::history::series::{Series, Truncation};
@@ -80,15 +81,22 @@ struct Followed {
 /// A scene whose contacts open, followed until an instant: once for all signals that are seen of it.
 pub(crate) struct Follower<'a> {
     network: &'a Network,
+    asked: Asked,
     until: Moment,
     known: RefCell<Rc<Engine>>,
 }
 
 impl<'a> Follower<'a> {
-    /// Follows the scene until a time of the user's.
-    pub fn new(network: &'a Network, until: &Rational) -> Result<Rc<Follower<'a>>, HistoryError> {
-        let until = Moment::at(network.scaled_time(until));
-        let attempt = |bits| match Follower::follow(network, &until, bits) {
+    /// Follows the scene until the end of a window of the user's time, and forgets what is not asked for to see an
+    /// observable on it, if only one is.
+    pub fn new(
+        network: &'a Network,
+        observed: Option<&Observed>,
+        [from, to]: [&Rational; 2],
+    ) -> Result<Rc<Follower<'a>>, HistoryError> {
+        let asked = Asked::of(network, observed, from);
+        let until = Moment::at(network.scaled_time(to));
+        let attempt = |bits| match Follower::follow(network, &asked, &until, bits) {
             Ok(known) => Ok(Attempt::Done(Ok(known))),
             Err(error) => undecided(error),
         };
@@ -97,13 +105,25 @@ impl<'a> Follower<'a> {
             Some(_) => 2 * LEAST_BITS,
         };
         let known = Precisions::growing_by_half(first, MAX_HISTORY_BITS).raise(attempt)?.best()?;
-        Ok(Rc::new(Follower { network, until, known: RefCell::new(known) }))
+        Ok(Rc::new(Follower { network, asked, until, known: RefCell::new(known) }))
     }
 
-    fn follow(network: &Network, until: &Moment, bits: u64) -> Result<Rc<Engine>, HistoryError> {
+    fn follow(
+        network: &Network,
+        asked: &Asked,
+        until: &Moment,
+        bits: u64,
+    ) -> Result<Rc<Engine>, HistoryError> {
         let mut engine = Engine::new(network, Contacts::of(network.scene()), bits)?;
+        engine.ask_for(asked);
         engine.follow_until(until)?;
         Ok(Rc::new(engine))
+    }
+
+    /// How many cells of nodes were worked out, and how many are kept with those of waves.
+    pub fn cells(&self) -> [usize; 2] {
+        let known = self.known.borrow();
+        [known.count(), known.kept()]
     }
 
     /// The highest precision of stretches. Those of a scene with a local contact keep the one that they have first.
@@ -122,7 +142,7 @@ impl<'a> Follower<'a> {
         }
         let bits = bits.next_multiple_of(STEP_BITS);
         // The window was followed before, so nothing but the precision can be wanting.
-        let finer = Follower::follow(self.network, &self.until, bits)
+        let finer = Follower::follow(self.network, &self.asked, &self.until, bits)
             .map_err(|_| EvaluateError::NotFollowed { bits })?;
         *self.known.borrow_mut() = Rc::clone(&finer);
         Ok(finer)
@@ -157,7 +177,10 @@ impl<'a> FollowedSignal<'a> {
         observed: &Observed,
         window: [&Rational; 2],
     ) -> Result<Self, HistoryError> {
-        let follower = follower(network, window)?;
+        if window[1] < window[0] || *window[0] < Rational::zero() {
+            return Err(EvaluateError::EmptyWindow.into());
+        }
+        let follower = Follower::new(network, Some(observed), window)?;
         let readings = (&*observed.readings, &observed.unit);
         let signal = FollowedSignal::linear(&follower, readings, window)?;
         Ok(FollowedSignal { silence: Silence::of(network, observed), ..signal })
@@ -303,17 +326,6 @@ fn undecided_point<'a>(enclose: impl Fn(u64) -> Result<Ball, EvaluateError> + 'a
 /// A wave as it enters a bar.
 fn entering(bar: usize, direction: usize) -> Part {
     Part::of(Source::Wave { bar, direction, delay: Some(Fraction::zero()) }, Number::one())
-}
-
-/// The scene of a window, followed until its end.
-fn follower<'a>(
-    network: &'a Network,
-    [from, to]: [&Rational; 2],
-) -> Result<Rc<Follower<'a>>, HistoryError> {
-    match to < from || *from < Rational::zero() {
-        true => Err(EvaluateError::EmptyWindow.into()),
-        false => Follower::new(network, to),
-    }
 }
 
 impl Followed {

@@ -27,7 +27,7 @@ impl Engine {
         let own = &self.nodes[node];
         let start = Moment::at(Fraction::zero());
         if limit == Limit::Left && self.clock.compare(moment, &start)? == Ordering::Equal {
-            let (_, cell) = &self.cells[node][0];
+            let (_, cell) = self.cells[node].get(0);
             let value = |run: usize| {
                 let known = self.velocity_before(own, run);
                 known.unwrap_or_else(|| cell.velocities[run].coefficient(0))
@@ -67,7 +67,7 @@ impl Engine {
         let first = self.cell_number(node, from, Limit::Right)?;
         let last = self.cell_number(node, to, Limit::Left)?;
         for number in first..=last {
-            let (start, cell) = &self.cells[node][number];
+            let (start, cell) = self.cells[node].get(number);
             let force = &cell.forces[place];
             if force.is_zero() {
                 continue;
@@ -87,27 +87,17 @@ impl Engine {
     /// # Errors
     /// As [`Track::cell`].
     pub fn cell(&self, node: usize, moment: &Moment, limit: Limit) -> Outcome<(&Moment, &Cell)> {
-        let (start, cell) = &self.cells[node][self.cell_number(node, moment, limit)?];
+        let (start, cell) = self.cells[node].get(self.cell_number(node, moment, limit)?);
         Ok((start, cell))
     }
 
     /// Where the n-th cell of a node ends.
     fn end_of(&self, node: usize, number: usize) -> &Moment {
-        self.cells[node].get(number + 1).map_or(self.now(node), |(start, _)| start)
+        self.cells[node].end_of(number, self.now(node))
     }
 
     fn cell_number(&self, node: usize, moment: &Moment, limit: Limit) -> Outcome<usize> {
-        let (mut low, mut high) = (0, self.cells[node].len());
-        while low < high {
-            let middle = low.midpoint(high);
-            let behind = match self.clock.compare(self.end_of(node, middle), moment)? {
-                Ordering::Less => false,
-                Ordering::Equal => limit == Limit::Left,
-                Ordering::Greater => true,
-            };
-            if behind { high = middle } else { low = middle + 1 }
-        }
-        if low < self.cells[node].len() { Ok(low) } else { Err(HistoryError::AfterLast) }
+        self.cells[node].find(&self.clock, (moment, limit), self.now(node))
     }
 
     /// The velocity beside a contact before the start: of a mass, a bar or a wall.

@@ -13,7 +13,7 @@
 //! What a local contact sends out is analytic only near the cell, so that its derivatives grow as factorials. Its
 //! errors are bounded in a weaker norm, that of a [`Roughness`].
 
-use crate::ball::{Magnitude, Number};
+use crate::ball::{Ball, Magnitude, Number};
 use crate::signal::Signed;
 use std::cmp::Ordering;
 
@@ -257,6 +257,16 @@ fn sign_of_sum(parts: [(&Series, &Number); 2]) -> Option<Signed> {
 }
 
 impl Series {
+    /// How many bytes it takes, about.
+    pub fn bytes(&self) -> u64 {
+        let further = self.coefficients.iter().map(|c| match c {
+            Number::Exact(_) => 0,
+            Number::Enclosed(ball) => Ball::further_bytes(ball.midpoint().bits()),
+        });
+        let room = self.coefficients.capacity() * size_of::<Number>() + size_of::<Series>();
+        room as u64 + further.sum::<u64>()
+    }
+
     /// A constant.
     pub fn constant(value: Number) -> Series {
         Series::new(vec![value], Magnitude::ZERO)

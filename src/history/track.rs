@@ -3,6 +3,7 @@
 use crate::ball::{Magnitude, Number};
 use crate::enclosure::EnclosureError;
 use crate::expression::Fraction;
+use crate::history::cells::Cells;
 use crate::history::energy::{Integrand, Wave};
 use crate::history::error::HistoryError;
 use crate::history::moment::{Clock, Moment};
@@ -15,8 +16,12 @@ use std::cmp::Ordering;
 /// # Invariants
 /// There is a cell before the start. Cells follow each other without gaps; the last one reaches to `end`.
 pub struct Track {
-    pub cells: Vec<(Moment, Wave)>,
+    pub cells: Cells<Wave>,
     pub end: Moment,
+    /// The first cell, which is never forgotten.
+    first: (Moment, Wave),
+    /// `∫ f dt` over the cells that are forgotten, where it is asked for.
+    passed: Option<Number>,
 }
 
 impl Track {
@@ -27,51 +32,65 @@ impl Track {
     pub fn new(value: Number, time: &Fraction, clock: &Clock) -> Result<Track, EnclosureError> {
         let start = Moment::at(-time);
         let end = Moment::at(Fraction::zero());
-        let wave = Wave::new(Series::constant(value), clock.number(time)?);
-        Ok(Track { cells: vec![(start, wave)], end })
+        let length = clock.number(time)?;
+        let wave = || Wave::new(Series::constant(value.clone()), length.clone());
+        let first = (start.clone(), wave());
+        let mut cells = Cells::default();
+        cells.push(start, wave());
+        Ok(Track { cells, end, first, passed: Some(Number::zero()) })
     }
 
     /// What it was before the start.
     pub fn before(&self) -> &Series {
-        self.cells[0].1.series()
+        self.first.1.series()
     }
 
     /// Goes on with a cell until an instant, which is `length` after its start.
     pub fn push(&mut self, series: Series, end: Moment, length: Number) {
         let start = std::mem::replace(&mut self.end, end);
-        self.cells.push((start, Wave::new(series, length)));
+        self.cells.push(start, Wave::new(series, length));
+    }
+
+    /// From now on forgets the integrals of what is forgotten.
+    pub fn forget_integral(&mut self) {
+        self.passed = None;
+    }
+
+    /// Forgets cells whose end has passed, but none from the n-th on; gives how many bytes they held.
+    pub fn forget(
+        &mut self,
+        number: usize,
+        has_passed: impl Fn(&Moment) -> bool,
+        cut: &Truncation,
+    ) -> u64 {
+        let mut bytes = 0;
+        while self.cells.forgotten() < number
+            && let Some(wave) = self.cells.forget(&has_passed)
+        {
+            if let Some(passed) = &mut self.passed {
+                *passed = passed.add(wave.whole(Integrand::Wave, cut), cut.bits);
+            }
+            bytes += wave.series().bytes();
+        }
+        bytes
     }
 
     /// Where the n-th cell ends.
     pub fn end_of(&self, number: usize) -> &Moment {
-        self.cells.get(number + 1).map_or(&self.end, |(start, _)| start)
+        self.cells.end_of(number, &self.end)
     }
 
     /// The cell that an instant is in; where cells meet, the limit tells which.
     ///
     /// # Errors
-    /// [`HistoryError::AfterLast`] after the end; as [`Clock::compare`].
+    /// As [`Cells::find`].
     pub fn cell(
         &self,
         clock: &Clock,
         moment: &Moment,
         limit: Limit,
     ) -> Result<usize, HistoryError> {
-        let (mut low, mut high) = (0, self.cells.len());
-        // The first cell that ends behind the instant.
-        while low < high {
-            let middle = low.midpoint(high);
-            let is_behind = match clock.compare(self.end_of(middle), moment)? {
-                Ordering::Less => false,
-                Ordering::Equal => limit == Limit::Left,
-                Ordering::Greater => true,
-            };
-            if is_behind { high = middle } else { low = middle + 1 }
-        }
-        if low == self.cells.len() {
-            return Err(HistoryError::AfterLast);
-        }
-        Ok(low)
+        self.cells.find(clock, (moment, limit), &self.end)
     }
 
     /// The value at an instant.
@@ -85,13 +104,13 @@ impl Track {
         limit: Limit,
         cut: &Truncation,
     ) -> Result<Number, HistoryError> {
-        let (start, wave) = &self.cells[self.cell(clock, moment, limit)?];
+        let (start, wave) = self.cells.get(self.cell(clock, moment, limit)?);
         Ok(wave.series().value(&clock.since(start, moment)?, cut))
     }
 
     /// `∫ f dt` or `∫ f² dt` from one instant to another, both within the track: the whole of all cells that
     /// end before the last one, up to the end in that one, and less what the first one holds before the
-    /// start.
+    /// start. Of `∫ f dt` since the start or before the whole of what is forgotten is known.
     ///
     /// # Errors
     /// As [`Track::cell`].
@@ -102,21 +121,31 @@ impl Track {
         [from, to]: [&Moment; 2],
         cut: &Truncation,
     ) -> Result<Number, HistoryError> {
-        let mut sum = Number::zero();
         if clock.compare(from, to)? != Ordering::Less {
-            return Ok(sum);
+            return Ok(Number::zero());
         }
-        let first = self.cell(clock, from, Limit::Right)?;
-        let last = self.cell(clock, to, Limit::Left)?;
-        let until = |number: usize, moment: &Moment| -> Result<Number, HistoryError> {
-            let (start, wave) = &self.cells[number];
+        let until = |(start, wave): &(Moment, Wave), moment: &Moment| -> Result<_, HistoryError> {
             Ok(wave.until(integrand, &clock.since(start, moment)?, cut))
         };
-        for (_, wave) in &self.cells[first..last] {
-            sum = sum.add(wave.whole(integrand, cut), cut.bits);
+        let forgotten = self.cells.forgotten();
+        let passed = self.passed.as_ref();
+        let passed = passed.filter(|_| integrand == Integrand::Wave && forgotten > 0);
+        let start = Moment::at(Fraction::zero());
+        let (mut sum, first, begun) = match passed {
+            Some(passed) if clock.compare(from, &start)? != Ordering::Greater => {
+                (passed.clone(), forgotten, &self.first)
+            }
+            _ => {
+                let first = self.cell(clock, from, Limit::Right)?;
+                (Number::zero(), first, self.cells.get(first))
+            }
+        };
+        let last = self.cell(clock, to, Limit::Left)?;
+        for number in first..last {
+            sum = sum.add(self.cells.get(number).1.whole(integrand, cut), cut.bits);
         }
-        sum = sum.add(&until(last, to)?, cut.bits);
-        Ok(sum.subtract(&until(first, from)?, cut.bits))
+        sum = sum.add(&until(self.cells.get(last), to)?, cut.bits);
+        Ok(sum.subtract(&until(begun, from)?, cut.bits))
     }
 }
 
@@ -153,7 +182,7 @@ impl Arriving {
             Arriving::Nothing => Ok(Series::zero()),
             Arriving::Constant(value) => Ok(Series::constant(value.clone())),
             Arriving::Delayed { bar, direction, travel, cell } => {
-                let (start, wave) = &waves[*bar][*direction].cells[*cell];
+                let (start, wave) = waves[*bar][*direction].cells.get(*cell);
                 Ok(wave.series().shift(&clock.since(&start.after(travel), now)?, cut))
             }
         }
@@ -163,7 +192,7 @@ impl Arriving {
     pub fn error(&self, waves: &[[Track; 2]]) -> Magnitude {
         match self {
             Arriving::Delayed { bar, direction, cell, .. } => {
-                waves[*bar][*direction].cells[*cell].1.series().error
+                waves[*bar][*direction].cells.get(*cell).1.series().error
             }
             _ => Magnitude::ZERO,
         }

@@ -25,6 +25,25 @@ pub struct Observed {
     pub dimension: Dimension,
 }
 
+impl Observed {
+    /// All that is read for it.
+    pub(crate) fn all_readings(&self) -> impl Iterator<Item = &Reading> {
+        let energies: &[EnergyTerm] = match &self.value {
+            ObservedValue::Linear(_) => &[],
+            ObservedValue::Energy(terms) => terms,
+        };
+        let squared = energies.iter().filter_map(|term| match &term.squared {
+            Squared::Reading(reading) => Some(reading),
+            Squared::Entering { .. } => None,
+        });
+        let times = energies.iter().filter_map(|term| term.times.as_ref());
+        let flow = self.balance.iter().flat_map(|balance| &balance.flow);
+        let factors = flow.flat_map(|term| &term.factors).map(|(reading, _)| reading);
+        let linear = self.readings.iter().map(|term| &term.of);
+        linear.chain(squared).chain(times).chain(factors)
+    }
+}
+
 /// An observable in the scales of its scene.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum ObservedValue {

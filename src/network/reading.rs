@@ -81,6 +81,22 @@ pub enum Energy {
     InBar(usize),
 }
 
+impl<V> Reading<V> {
+    /// Whether it is an integral of waves over time.
+    pub fn is_integral(&self) -> bool {
+        matches!(self, Reading::InBar(Field::Displacement, _) | Reading::Momentum(_))
+    }
+
+    /// How long before the waves that it reads in a section entered the bar.
+    pub fn delays(&self) -> impl Iterator<Item = &V> {
+        let section = match self {
+            Reading::InBar(_, section) => Some(section),
+            _ => None,
+        };
+        section.into_iter().flat_map(|section| section.delays.iter().flatten())
+    }
+}
+
 impl<V> Section<V> {
     /// How far it is from the left end, or from the one end of an endless bar, in time of a wave.
     pub fn distance(&self) -> &V {

@@ -23,7 +23,7 @@ pub(super) fn of_scene<'a>(
         return Ok(Box::new(Operation::new(&scale, rule, unit, window)));
     }
     let one = Root::from(Fraction::one());
-    let sources = Sources::until(origin, network, window)?;
+    let sources = Sources::on(origin, network, observed, window)?;
     let of: Box<dyn Signal + 'a> = match &observed.value {
         ObservedValue::Energy(terms) => energy::of_sources(&sources, terms, &one, window)?,
         ObservedValue::Linear(value) => sources.signal(value, &observed.readings, window)?,

@@ -2,7 +2,7 @@
 
 use super::{SignalError, Sources};
 use crate::expression::{Fraction, Root};
-use crate::network::{EnergyTerm, Squared, Window};
+use crate::network::{EnergyTerm, Network, Squared, Window};
 use crate::signal::{Combination, EvaluateError, Integral, Operation, Product, Scale, Signal};
 use num_traits::{Signed as _, Zero as _};
 use std::rc::Rc;
@@ -21,7 +21,7 @@ pub(super) fn of_sources<'a>(
     let network = sources.network;
     let scale = Scale::of(network);
     let reaches: Vec<Rational> =
-        terms.iter().map(|term| reach(&scale, term, from)).collect::<Result<_, _>>()?;
+        terms.iter().map(|term| reach_of(&scale, term, from)).collect::<Result<_, _>>()?;
     let seen = terms.iter().zip(&reaches);
     let squared = seen.map(|(term, from)| (&term.of, term.squared.clone(), [from, to]));
     let others = terms
@@ -68,8 +68,23 @@ fn combination<'a>(
     Combination { scale: Rc::clone(scale), operands, products }
 }
 
-/// A time before which a term is not asked for its quantity.
-fn reach(scale: &Scale<'_>, term: &EnergyTerm, from: &Rational) -> Result<Rational, EvaluateError> {
+/// A time before which no term is asked for its quantity.
+pub(super) fn reach(
+    network: &Network,
+    terms: &[EnergyTerm],
+    from: &Rational,
+) -> Result<Rational, EvaluateError> {
+    let scale = Scale::of(network);
+    let mut terms = terms.iter();
+    terms.try_fold(from.clone(), |least, term| Ok(least.min(reach_of(&scale, term, from)?)))
+}
+
+/// The same of one term.
+fn reach_of(
+    scale: &Scale<'_>,
+    term: &EnergyTerm,
+    from: &Rational,
+) -> Result<Rational, EvaluateError> {
     let reach = match &term.window {
         Window::Now => from.clone(),
         Window::Last(travel) => {

@@ -200,7 +200,7 @@ pub fn of_origin<'a>(
         return balance::of_scene(origin, network, observed, known, window);
     }
     if let ObservedValue::Energy(terms) = &observed.value {
-        let sources = Sources::until(origin, network, window)?;
+        let sources = Sources::on(origin, network, observed, window)?;
         return energy::of_sources(&sources, terms, &observed.unit, window);
     }
     if origin == Origin::Followed {
@@ -217,6 +217,18 @@ pub fn of_origin<'a>(
     }))
 }
 
+/// How many cells are worked out where an observable is followed on a window, and how many of them, with those of waves,
+/// are kept.
+#[doc(hidden)]
+pub fn cells(
+    network: &Network,
+    observed: &Observed,
+    window: [&Rational; 2],
+) -> Result<[usize; 2], SignalError> {
+    let sources = Sources::on(Origin::Followed, network, observed, window)?;
+    Ok(sources.follower.expect("it is followed").cells())
+}
+
 /// Where signals come from of which one is made: they share one closed form or one history.
 struct Sources<'a> {
     network: &'a Network,
@@ -230,17 +242,23 @@ struct Sources<'a> {
 type Seen<'s> = (&'s Observation, Squared, [&'s Rational; 2]);
 
 impl<'a> Sources<'a> {
-    fn until(
+    /// For an observable on a window.
+    fn on(
         origin: Origin,
         network: &'a Network,
+        observed: &Observed,
         [from, to]: [&Rational; 2],
     ) -> Result<Self, SignalError> {
         if to < from {
             return Err(EvaluateError::EmptyWindow.into());
         }
+        let from = match &observed.value {
+            ObservedValue::Energy(terms) => &energy::reach(network, terms, from)?,
+            ObservedValue::Linear(_) => from,
+        };
         let follower = match origin {
             Origin::Closed => None,
-            Origin::Followed => Some(Follower::new(network, to)?),
+            Origin::Followed => Some(Follower::new(network, Some(observed), [from, to])?),
         };
         Ok(Sources { network, to: to.clone(), follower })
     }
@@ -291,7 +309,7 @@ pub(crate) fn entering_waves<'a>(
     let window = [&Rational::zero(), last];
     let follower = match origin(network, last, Purpose::Stretches) {
         Origin::Closed => None,
-        Origin::Followed => match Follower::new(network, last) {
+        Origin::Followed => match Follower::new(network, None, window) {
             Err(HistoryError::Refused(_)) if has_periods(network) => None,
             follower => Some(follower?),
         },

@@ -5,6 +5,7 @@ mod characteristics;
 mod closed_form;
 mod crossing;
 mod energies;
+mod late;
 mod load;
 mod locks;
 mod order;

@@ -26,7 +26,8 @@ fn direct(track: &Track, integrand: Integrand, window: [i64; 2], cut: &Truncatio
     let eighths = |moment: &Moment| moment.delay.as_constant().unwrap() * rational(8, 1);
     let [from, to] = window.map(|time| rational(time, 1));
     let mut sum = Number::zero();
-    for (number, (start, wave)) in track.cells.iter().enumerate() {
+    for number in 0..track.cells.count() {
+        let (start, wave) = track.cells.get(number);
         let start = eighths(start);
         let begin = start.clone().max(from.clone());
         let end = eighths(track.end_of(number)).min(to.clone());

@@ -348,12 +348,25 @@ fn what_cannot_be_computed_is_explained() {
         ("division", 1, "derive resonance.wave".into()),
         ("bits-few", 3, format!("{eval} --at 33/10 --max-bits 16")),
         ("bits-none", 3, format!("{eval} --at 33/10 --max-bits 0")),
-        ("memory-of-echoes", 1, "eval hopkinson --quantity force --at 50ms --memory 10MB".into()),
+        (
+            "memory-of-echoes",
+            1,
+            "eval hopkinson --quantity force --from 0s --to 50ms --points 2 --memory 10MB".into(),
+        ),
         ("memory-of-cells", 1, "events mass-that-bounces --memory 1MB".into()),
         ("cells-many", 1, "eval hopkinson-with-release --quantity force --at 1000s".into()),
     ] {
         assert_fails(&folder, name, &words(&line), code);
     }
+}
+
+/// What has passed is forgotten where one late value is asked for; a window from the start on takes more, as the snapshot
+/// `memory-of-echoes` tells.
+#[test]
+fn late_values_take_little_memory() {
+    let line = "eval hopkinson --quantity force --at 50ms --digits 9 --memory 3MB";
+    let (code, stdout, _) = run(anywhere(), &words(line));
+    assert_eq!((code, stdout.as_str()), (0, "force(0.05 s) = 737.539602 N\n"));
 }
 
 /// What no estimate foresees is ended by a watch: nothing is written, and the error tells how far it came.

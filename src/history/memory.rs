@@ -1,0 +1,135 @@
+//! What following takes: cells and memory, foreseen, and what is forgotten because nobody will ask for it.
+
+use crate::expression::Fraction;
+use crate::history::cells::Cells;
+use crate::history::engine::{Engine, TOLD_APART};
+use crate::history::error::{HistoryError, When};
+use crate::history::moment::Moment;
+use crate::history::track::{Arriving, Track};
+use crate::limits::{MAX_HISTORY_CELLS, memory};
+use crate::network::{Network, Observed, Reading, Side};
+use wavestep_polynomial::Rational;
+
+/// Memory is foreseen from this share of it on.
+const TELLING: f64 = 1.0 / 16.0;
+
+type Outcome<T> = Result<T, HistoryError>;
+
+/// What is asked for of a motion that is followed.
+pub struct Asked {
+    /// Nothing before this time of the scene, but for waves that entered a bar a travel time before, or one of these
+    /// delays.
+    from: Fraction,
+    delays: Vec<Fraction>,
+    /// Whether integrals of waves since the start are.
+    is_integrated: bool,
+}
+
+impl Asked {
+    /// For an observable from a time of the user's on; without one, for all of it.
+    pub fn of(network: &Network, observed: Option<&Observed>, from: &Rational) -> Asked {
+        let readings = || observed.into_iter().flat_map(Observed::all_readings);
+        Asked {
+            from: network.scaled_time(from),
+            delays: readings().flat_map(Reading::delays).cloned().collect(),
+            is_integrated: observed.is_none() || readings().any(Reading::is_integral),
+        }
+    }
+}
+
+impl Engine {
+    /// From now on forgets what is not asked for.
+    pub fn ask_for(&mut self, Asked { from, delays, is_integrated }: &Asked) {
+        let about = |time: &Fraction| self.clock.about(&Moment::at(time.clone()));
+        let back = delays.iter().map(about).fold(self.longest_travel(), f64::max);
+        self.asked_from = about(from) * (1.0 - TOLD_APART) - back;
+        if !is_integrated {
+            self.waves.iter_mut().flatten().for_each(Track::forget_integral);
+        }
+    }
+
+    fn longest_travel(&self) -> f64 {
+        let travels = self.bars.iter().filter_map(|(_, travel)| travel.clone());
+        travels.map(|travel| self.clock.about(&Moment::at(travel))).fold(0.0, f64::max)
+    }
+
+    /// Forgets cells of a node, of what arrives there, and of what leaves it for ever.
+    pub fn forget(&mut self, node: usize) {
+        if self.asked_from <= 0.0 {
+            return;
+        }
+        let is_early = self.states[node].about < self.asked_from;
+        let has_passed = |end: &Moment| is_early || self.clock.about(end) < self.asked_from;
+        while let Some(cell) = self.cells[node].forget(has_passed) {
+            self.bytes -= cell.bytes();
+        }
+        let own = &self.nodes[node];
+        for (side, arriving) in self.states[node].arriving.iter().enumerate() {
+            let (bar, direction, number) = match (arriving, [own.left, own.right][side]) {
+                (Arriving::Delayed { bar, direction, cell, .. }, _) => (*bar, *direction, *cell),
+                (_, Side::Bar(bar)) => (bar, 1 - side, usize::MAX),
+                _ => continue,
+            };
+            self.bytes -= self.waves[bar][direction].forget(number, has_passed, &self.cut);
+        }
+    }
+
+    /// How many cells of nodes and of waves are kept.
+    pub fn kept(&self) -> usize {
+        let waves = self.waves.iter().flatten().map(|track| track.cells.kept());
+        self.cells.iter().map(Cells::kept).chain(waves).sum()
+    }
+
+    /// How long a time is kept of what was followed until a time.
+    fn kept_until(&self, time: f64) -> f64 {
+        time.min((time - self.asked_from).max(self.longest_travel()))
+    }
+
+    /// Refuses at once what takes too many cells: a node is at most a travel time ahead of its neighbours, so that
+    /// none of its cells is longer than two of these.
+    pub fn foresee_cells(&self, until: &Moment) -> Outcome<()> {
+        let mut cells = self.count as f64;
+        for (node, state) in self.nodes.iter().zip(&self.states) {
+            let left = self.clock.since(&state.now, until)?;
+            let mut most = 0.0_f64;
+            for side in [node.left, node.right] {
+                let Side::Bar(bar) = side else { continue };
+                let Some(travel) = &self.bars[bar].1 else { continue };
+                let rate = self.clock.number(travel)?.reciprocal(self.cut.bits)?;
+                let passages = left.multiply(&rate, self.cut.bits).ball(64).to_double().0;
+                most = most.max(passages / 2.0);
+            }
+            cells += most;
+        }
+        match (cells > MAX_HISTORY_CELLS as f64, self.behind()) {
+            (true, Some((node, _))) => Err(self.too_many_cells(node)?),
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses what will take too much memory, once some of it is taken. What a time takes is assumed to grow in
+    /// proportion to when it is: cells hold more and more, and there may be more of them.
+    pub fn foresee_memory(&self, node: usize, until: &Moment) -> Outcome<()> {
+        let (taken, most) = (self.bytes as f64, memory() as f64);
+        let (now, end) = (self.states[node].about, self.clock.about(until));
+        let grown = (end / now) * (self.kept_until(end) / self.kept_until(now));
+        match taken > most * TELLING && taken * grown > most {
+            true => Err(self.too_much_memory(node)?),
+            false => Ok(()),
+        }
+    }
+
+    /// How far a node was followed, as it is told.
+    fn reached(&self, node: usize) -> Outcome<When> {
+        Ok(self.clock.told(&self.clock.time(&self.states[node].now)?))
+    }
+
+    pub fn too_much_memory(&self, node: usize) -> Outcome<HistoryError> {
+        let (megabytes, when) = (memory() / 1_000_000, self.reached(node)?);
+        Ok(HistoryError::TooMuchMemory { megabytes, when })
+    }
+
+    pub fn too_many_cells(&self, node: usize) -> Outcome<HistoryError> {
+        Ok(HistoryError::TooManyCells { limit: MAX_HISTORY_CELLS, when: self.reached(node)? })
+    }
+}

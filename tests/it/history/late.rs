@@ -1,0 +1,97 @@
+//! Late values, for which what has passed is forgotten, against those of windows that begin at the start.
+
+use super::{network_of, rational};
+use wavestep::network::Network;
+use wavestep::planner::{Origin, Purpose, cells, of_origin};
+use wavestep::scenes::SCENES;
+use wavestep::signal::{Limit, digits};
+use wavestep_polynomial::Rational;
+
+/// A load that has acted, and a bar on which a mass hangs by a local contact.
+const OTHERS: [(&str, &str); 2] = [
+    (
+        "load",
+        "scene \"Load\"\nload push { force = 1, until = 3/2 }\nbar rod { impedance = 1, travel = 1 }\n\
+         mass end { mass = 2 }\nline free - push - rod - end - free\nobserve v = velocity(end)\n\
+         observe u = displacement(rod.at(1/3))\nobserve held = energy(rod)\nobserve p = momentum(line)\n",
+    ),
+    (
+        "far",
+        "scene \"Far\"\nload push { force = 1, until = 3/2 }\nbar rod { impedance = 1, travel = 1 }\n\
+         spring soft { stiffness = 1 }\nbar far { impedance = 2 }\n\
+         line free - push - rod - soft - far - endless\nobserve seen = force(far.at(5))\n\
+         observe u = displacement(far.at(4))\nobserve p = momentum(far)\nobserve e = energy(far)\n",
+    ),
+];
+
+fn networks() -> impl Iterator<Item = (&'static str, Network)> {
+    let shipped = SCENES.iter().map(|scene| (scene.name, scene.text)).chain(OTHERS);
+    shipped.filter_map(|(name, text)| {
+        let values = [("mu", "4/3"), ("r", "4/3"), ("m", "4/3")];
+        let named = |name: &str| text.contains(&format!("symbol {name} "));
+        let values: Vec<_> = values.into_iter().filter(|(name, _)| named(name)).collect();
+        // The second one takes half a minute.
+        let is_followed = text.contains("\nline ") && name != "hertz-striker";
+        is_followed.then(|| (name, network_of(text, &values)))
+    })
+}
+
+/// Just before and just after the end of a window.
+fn told(network: &Network, observable: usize, window: [&Rational; 2]) -> [String; 2] {
+    let observed = &network.observables()[observable];
+    let count = if network.local_contact().is_some() { 6 } else { 20 };
+    let purpose = Purpose::Values { digits: count };
+    let signal = of_origin(Origin::Followed, network, observed, window, purpose);
+    let signal = signal.unwrap_or_else(|error| panic!("{}: {error}", observed.name));
+    [Limit::Left, Limit::Right].map(|limit| {
+        let value = digits(&*signal, window[1], limit, count, 1 << 12);
+        value.unwrap_or_else(|error| panic!("{}: {error}", observed.name)).to_text(count)
+    })
+}
+
+/// Values, energies, displacements and momenta of all scenes that can be followed, within cells and, without units, where
+/// they meet, from either side.
+#[test]
+fn what_is_forgotten_changes_no_digit() {
+    let (mut compared, mut forgetful) = (0, 0);
+    for (name, network) in networks() {
+        let unit = rational(1, if network.scene().dimensional { 5000 } else { 1 });
+        let times = match network.local_contact() {
+            Some(_) => vec![rational(23, 10)],
+            None => vec![rational(17, 2), rational(10, 1)],
+        };
+        for (observable, observed) in network.observables().iter().enumerate() {
+            for time in &times {
+                let (start, at) = (Rational::default(), time * &unit);
+                let windows = [[&start, &at], [&at, &at]];
+                let [kept, late] = windows.map(|window| told(&network, observable, window));
+                assert_eq!(kept, late, "{name} {} at {at}", observed.name);
+                compared += 1;
+                if network.local_contact().is_some() {
+                    continue;
+                }
+                let [first, second] =
+                    windows.map(|window| cells(&network, observed, window).unwrap());
+                assert_eq!(first[0], second[0], "{name}");
+                forgetful += usize::from(2 * second[1] < first[1]);
+            }
+        }
+    }
+    assert!(compared > 150 && forgetful > 100, "{compared} {forgetful}");
+}
+
+/// What is kept does not grow with time, but for what needs all since the start.
+#[test]
+fn few_cells_are_kept_for_late_values() {
+    let (_, network) = networks().find(|(name, _)| *name == "hopkinson").unwrap();
+    let kept = |name: &str, milliseconds: i64| {
+        let observed = network.observables().iter().find(|own| own.name == name).unwrap();
+        let at = rational(milliseconds, 1000);
+        cells(&network, observed, [&at, &at]).unwrap()
+    };
+    for name in ["force", "gauge_output", "momentum"] {
+        assert_eq!([kept(name, 5), kept(name, 20)], [[257, 49], [1031, 49]], "{name}");
+    }
+    // What has gone into the endless bar is summed up since the start.
+    assert_eq!(kept("energy", 20), [1031, 2754]);
+}
