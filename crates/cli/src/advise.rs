@@ -66,6 +66,11 @@ fn share(value: &BigRational) -> String {
     format!("{} %", Decimal::from_rational(&(value * hundredth), DIGITS).0)
 }
 
+/// So many 200ths of a share: what rounding to three digits takes from it, or adds to it, keeps the claim.
+fn rounded(value: &BigRational, parts: u64) -> BigRational {
+    value * BigRational::new(parts.into(), 200.into())
+}
+
 impl Told<'_> {
     /// How long a value took, where that is asked for.
     fn each(&self, time: Duration) -> String {
@@ -90,11 +95,13 @@ impl Told<'_> {
 
     fn verdict(&self, verdict: &Verdict) -> String {
         match verdict {
-            Verdict::Enough([_, most]) => match share(most) {
+            Verdict::Enough([_, most]) => match share(&rounded(most, 201)) {
                 little if little.starts_with("less") => little,
                 most => format!("at most {most}"),
             },
-            Verdict::Misses { by, at } => format!("{} at t = {}", share(by), self.time(at)),
+            Verdict::Misses { by, at } => {
+                format!("{} at t = {}", share(&rounded(by, 199)), self.time(at))
+            }
             Verdict::Unproven(why) => format!("not proven: {why}"),
             Verdict::Unsuited(why) => format!("does not suit: {why}"),
         }
