@@ -135,7 +135,7 @@ impl<'a> Edits<'a> {
                 let (_, span) = self.declaration(name)?;
                 self.remove(span);
                 self.rewrite_line(|line| leave_out(line, name));
-                self.remove_observables(&[name.clone()], None);
+                self.remove_observables(std::slice::from_ref(name), None);
             }
             Change::Rigid(name) => self.idealise(name.as_deref(), "rigid")?,
             Change::Spring(name, share) => {

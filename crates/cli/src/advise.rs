@@ -21,7 +21,7 @@ const DIGITS: usize = 3;
 
 pub fn run(options: &Advise) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;
-    let tolerance = number("--tol", &*options.tol)?;
+    let tolerance = number("--tol", &options.tol)?;
     if tolerance <= BigRational::default() {
         return Err(Failure::usage("the tolerance is not positive", "write --tol 1e-2"));
     }

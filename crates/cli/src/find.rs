@@ -70,7 +70,7 @@ pub fn run(options: &Find) -> Result<String, Failure> {
 
 /// What is subtracted.
 enum Compared {
-    Scene(input::Asked),
+    Scene(Box<input::Asked>),
     Simpler(Other),
 }
 
@@ -142,7 +142,7 @@ fn scenes(options: &Find) -> Result<(input::Asked, Option<Compared>), Failure> {
     let (mut owns, mut others) = (values.clone(), values);
     owns.retain(|name, _| of(&own, name) || !of(&other, name));
     others.retain(|name, _| of(&other, name));
-    let other = Compared::Scene(input::problem_with(minus, &others)?);
+    let other = Compared::Scene(Box::new(input::problem_with(minus, &others)?));
     Ok((input::problem_with(scene, &owns)?, Some(other)))
 }
 
