@@ -44,6 +44,8 @@ pub enum ChangeError {
     NotABar(String),
     #[error("the bar `{0}` is rigid, or a spring, already")]
     Ideal(String),
+    #[error("there is no bar in this scene")]
+    NoBar,
     #[error("the bar `{0}` goes on for ever already")]
     Endless(String),
     #[error("contacts stay closed in this scene")]
@@ -189,20 +191,22 @@ impl<'a> Edits<'a> {
         let has_ideal = |bar: &Declaration| bar.properties.iter().any(|own| own.name.value == "as");
         let bars: Vec<&Declaration> = match name {
             Some(name) => {
-                let bar = self.bar(name)?;
-                if has_ideal(bar) {
-                    return Err(ChangeError::Ideal(name.to_owned()));
-                }
-                vec![bar]
+                vec![self.bar(name)?]
             }
             None => {
                 let declarations = self.tree.statements.iter().filter_map(|own| match &own.value {
                     SceneStatementKind::Declaration(own) if own.kind == Declared::Bar => Some(own),
                     _ => None,
                 });
-                declarations.filter(|bar| !has_ideal(bar)).collect()
+                declarations.collect()
             }
         };
+        if let Some(bar) = bars.iter().find(|bar| has_ideal(bar)) {
+            return Err(ChangeError::Ideal(bar.name.value.clone()));
+        }
+        if bars.is_empty() {
+            return Err(ChangeError::NoBar);
+        }
         for bar in bars {
             let Some(last) = bar.properties.last() else { continue };
             let end = last.unit.as_ref().map_or(last.value.span.end, |unit| unit.span.end);

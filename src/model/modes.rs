@@ -14,7 +14,6 @@ use crate::model::error::{BadSetting, ModelError, NotRepresented, NotSeen};
 use crate::model::line::Line;
 use crate::model::shape::{Part, Shape, frequency};
 use crate::network::{ElementLaw, Face, Field, Lump, Reading, ScaledScene, Side};
-use crate::signal::Vibration;
 
 const NAME: &str = "modes of vibration";
 
@@ -26,6 +25,15 @@ struct Mode {
     velocity: f64,
     /// `p`, the force of what is strained at the start, over the modal mass.
     push: f64,
+}
+
+/// `c + s t + Σ (a cos ωt + b sin ωt)` of the user's time, in the unit of its values.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Vibration {
+    /// `c` and `s`.
+    pub drift: [f64; 2],
+    /// `ω`, `a` and `b` of each mode.
+    pub modes: Vec<[f64; 3]>,
 }
 
 /// The first modes of vibration of a line.

@@ -17,7 +17,6 @@ use crate::network::{
 use crate::recurrence::Observation;
 use crate::signal::{
     ClosedForm, ClosedSignal, Difference, EvaluateError, Operation, Scale, Signal, Taps, Vibrating,
-    Vibration,
 };
 use num_traits::Zero as _;
 use std::rc::Rc;
@@ -128,14 +127,15 @@ pub(crate) fn difference<'a>(
     Box::new(Operation::new(&scale, Difference { scales, operands, arrivals }, unit, window))
 }
 
-/// A sum of modes of a scene in its user's time and unit; none where a number of it is none.
+/// A drift and modes of a scene in its user's time and unit, `c + s t + Σ (a cos ωt + b sin ωt)`; none where one of the
+/// numbers `c, s` and `ω, a, b` is none.
 pub(crate) fn vibration<'a>(
     network: &'a Network,
-    vibration: &Vibration,
+    (drift, modes): ([f64; 2], &[[f64; 3]]),
     window: [&Rational; 2],
 ) -> Option<Box<dyn Signal + 'a>> {
     let scale = Scale::of(network);
-    let rule = Vibrating::new(&scale, vibration)?;
+    let rule = Vibrating::new(&scale, drift, modes)?;
     Some(Box::new(Operation::new(&scale, rule, Root::from(Fraction::one()), window)))
 }
 

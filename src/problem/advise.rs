@@ -27,6 +27,9 @@ const NEGLIGIBLE: u64 = 1 << 20;
 const MAX_MODES: usize = 64;
 const MAX_ARRIVALS: usize = 64;
 
+/// How many larger numbers are tried where samples pass and no proof is found.
+const MORE: usize = 3;
+
 /// The shares of its mass that a bar may have at an end, in 60ths.
 const SHARES: [i64; 13] = [6, 10, 12, 15, 18, 20, 22, 23, 24, 25, 27, 30, 36];
 
@@ -394,8 +397,10 @@ impl Adviser<'_, '_> {
         if low > 0 {
             self.attempt(of(low));
         }
-        while !self.attempt(of(high)) && high < most {
-            high = (high + high.div_ceil(4)).min(most);
+        // Where samples pass and no proof is found, a few more may do.
+        let mut tries = 0;
+        while !self.attempt(of(high)) && high < most && tries < MORE {
+            (high, tries) = ((high + high.div_ceil(4)).min(most), tries + 1);
         }
     }
 }

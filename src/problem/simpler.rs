@@ -6,7 +6,7 @@ use crate::language::{self, Change, ChangeError, Source};
 use crate::model::Modes;
 use crate::network::NetworkError;
 use crate::planner::{self, Purpose};
-use crate::signal::{Goal, Place, Search, Signal};
+use crate::signal::{EvaluateError, Goal, Place, Search, Signal};
 use std::fmt;
 use std::str::FromStr;
 use wavestep_polynomial::Rational;
@@ -109,20 +109,34 @@ pub struct Size {
 }
 
 impl Size {
-    /// The size of a signal, enclosed to about so many digits.
-    pub fn of(signal: &dyn Signal, digits: usize, bits: u64) -> Result<Size, ProblemError> {
+    /// The size of a signal to so many digits, where its extremes are found; else between nearer bounds, or below what is
+    /// negligible.
+    pub fn of(
+        signal: &dyn Signal,
+        (digits, bits): (usize, u64),
+        negligible: &Rational,
+    ) -> Result<Size, ProblemError> {
         let search = Search::new(signal)?;
-        let most = search.extremum(Goal::Largest, digits, bits)?;
-        let least = search.extremum(Goal::Smallest, digits, bits)?;
-        let ([low, high], [lowest, highest]) = (most.value.bounds(), least.value.bounds());
-        let (low, high, above) = (-highest, -lowest, [low, high]);
-        let places = match above[1] >= high {
-            true => most.places,
-            false => least.places,
+        let near = search.largest(negligible)?;
+        if near.bounds[1] <= *negligible {
+            return Ok(Size { bounds: near.bounds, places: Vec::new() });
+        }
+        let found = |goal| search.extremum(goal, digits, bits);
+        let (most, least) = match (found(Goal::Largest), found(Goal::Smallest)) {
+            (Ok(most), Ok(least)) => (most, least),
+            (Err(error), _) | (_, Err(error))
+                if !matches!(error, EvaluateError::AccuracyNotReached { .. }) =>
+            {
+                return Err(error.into());
+            }
+            _ => return Ok(Size { bounds: near.bounds, places: Vec::new() }),
         };
-        let zero = Rational::default();
-        let [first, last] = above;
-        Ok(Size { bounds: [first.max(low).max(zero.clone()), last.max(high).max(zero)], places })
+        let ([low, high], [lowest, highest]) = (most.value.bounds(), least.value.bounds());
+        let places = if high >= -&lowest { most.places } else { least.places };
+        // Both are proven: what either knows of it holds.
+        let [first, last] = near.bounds;
+        let bounds = [low.max(-highest).max(first), high.max(-lowest).min(last)];
+        Ok(Size { bounds, places })
     }
 
     /// Between which numbers this size over another lies; none where the other may be zero.
@@ -201,8 +215,9 @@ impl Problem {
             }
             Against::Modes(modes) => {
                 let place = wanted.place.ok_or_else(|| self.unknown(&wanted.name))?;
-                let vibration = modes.vibration(place)?;
-                let signal = planner::vibration(own, &vibration, window);
+                let own_modes = modes.vibration(place)?;
+                let sum = (own_modes.drift, &own_modes.modes[..]);
+                let signal = planner::vibration(own, sum, window);
                 (own, signal.ok_or_else(|| self.unknown(&wanted.name))?, None)
             }
             Against::Arrivals(count) => {
@@ -217,11 +232,15 @@ impl Problem {
     /// The quantity of the same name in another scene.
     fn same(&self, other: &Problem, wanted: &Wanted) -> Result<Wanted, ProblemError> {
         let title = || other.title().to_owned();
-        let others = other.wanted(&wanted.name).map_err(|_| {
-            let names = other.waves().into_iter().chain(other.observables()).map(str::to_owned);
+        // A wave of the other scene may have the name of what is observed here.
+        let others = other.wanted(&wanted.name).ok();
+        let others = others.filter(|others| others.place.is_some() == wanted.place.is_some());
+        let Some(others) = others else {
+            let waves = if wanted.place.is_none() { other.waves() } else { Vec::new() };
+            let names = waves.into_iter().chain(other.observables()).map(str::to_owned);
             let (name, names) = (wanted.name.clone(), names.collect());
-            ProblemError::UnknownThere { name, title: title(), names }
-        })?;
+            return Err(ProblemError::UnknownThere { name, title: title(), names });
+        };
         if others.dimension != wanted.dimension || self.has_units() != other.has_units() {
             return Err(ProblemError::Apart { name: wanted.name.clone(), title: title() });
         }

@@ -161,6 +161,7 @@ impl Check<'_> {
             _ if !bar.strain.is_zero() => {
                 (Mistake::IdealStrained, vec![Part::Property(index, Property::Strain)])
             }
+            _ if self.scene.may_part_from_a_wall(index) => refuse(Mistake::IdealAtWall),
             Ideal::Rigid if held != [false; 2] => refuse(Mistake::IdealHeld),
             Ideal::Spring { .. } if held == [true; 2] => refuse(Mistake::IdealHeld),
             _ => return,

@@ -144,6 +144,9 @@ pub enum Mistake {
     IdealStrained,
     #[error("this bar cannot move")]
     IdealHeld,
+    /// An ideal bar that would part from a fixed end.
+    #[error("a bar without waves does not part from a fixed end")]
+    IdealAtWall,
     /// The force in a rigid bar.
     #[error("what happens in a rigid bar is not known")]
     NoForceInRigid,

@@ -130,6 +130,13 @@ impl Scene {
         [at(left, elements.first()), at(right, elements.last())]
     }
 
+    /// Whether a contact between an element and a fixed end may open.
+    pub(super) fn may_part_from_a_wall(&self, element: ElementIndex) -> bool {
+        let joints = [self.line.joints.first(), self.line.joints.last()];
+        let mut ends = self.is_held(element).into_iter().zip(joints);
+        self.contacts_open && ends.any(|(held, joint)| held && joint == Some(&Joint::Contact))
+    }
+
     fn expand(&self, index: ElementIndex, elements: &mut Vec<Element>) -> Result<Now, NotAUnit> {
         let Element { name, kind } = &self.elements[index];
         let mut add = |name: String, kind| {

@@ -33,7 +33,6 @@ pub use method::{
     Certified, Compiled, Evaluator, Marched, MethodError, StablePrecision, Summation, Summed,
     instructions,
 };
-pub use operations::Vibration;
 pub(crate) use operations::{
     Balanced, Combination, Constant, Difference, Integral, Operation, Product, Scale, Vibrating,
 };

@@ -125,6 +125,9 @@ fn bars_without_waves_are_refused_where_they_make_no_sense() {
     let endless = "bar rod { impedance = 1, as = spring }\nmass m { mass = 1, velocity = 1 }\n\
         line free - m - rod - endless\nobserve v = velocity(m)";
     assert!(refused(endless).contains("an endless bar is no mass and no spring"));
+    let wall = "bar rod { impedance = 1, travel = 1, velocity = 1, as = spring }\nline free - rod | fixed\n\
+        contacts open\nobserve v = velocity(rod.left)";
+    assert!(refused(wall).contains("does not part from a fixed end"));
     let rigid = "bar rod { impedance = 1, travel = 1, as = rigid, velocity = 1 }\nline free - rod - free\n\
         observe f = force(rod.left)";
     assert!(refused(rigid).contains("what happens in a rigid bar is not known"));
@@ -194,7 +197,7 @@ fn distances_are_those_of_samples() {
         {
             let other = rod.simpler(&what.parse().unwrap()).unwrap();
             let signal = rod.difference_on(&other, &wanted, [&zero, &to], Purpose::Search).unwrap();
-            let Size { bounds, .. } = Size::of(&*signal, 9, 1 << 12).unwrap();
+            let Size { bounds, .. } = Size::of(&*signal, (9, 1 << 12), &zero).unwrap();
             let [low, high] = bounds.map(|bound| num_traits::ToPrimitive::to_f64(&bound).unwrap());
             let model = rod.signal("velocity").unwrap().values_by(&times, method).unwrap().values;
             let seen = exact.iter().zip(&model).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
@@ -355,4 +358,67 @@ fn modes_are_a_signal() {
             );
         }
     }
+}
+
+/// Constants of two scenes with one name and different values are not one: with irrational travel times arrivals stay in
+/// their own order, and nothing is seen before it arrives.
+#[test]
+fn arrivals_of_two_scenes_keep_their_order() {
+    let drill = Problem::builtin("percussive-drill").unwrap();
+    let (wanted, zero) = (drill.wanted("rock_force").unwrap(), Rational::default());
+    let to = rational(500, 1_000_000);
+    let changes = "spring:bit,2/5+rigid:piston".parse().unwrap();
+    let other = drill.simpler(&changes).unwrap();
+    let signal = drill.difference_on(&other, &wanted, [&zero, &to], Purpose::Search).unwrap();
+    // Nothing has come to the rock before 232 us in either.
+    for time in [57, 58, 59, 100, 200] {
+        let at = rational(time, 1_000_000);
+        let stretch = {
+            signal.count().unwrap();
+            signal.stretch_at(&at, Limit::Right).unwrap().unwrap()
+        };
+        let off = signal.enclose(stretch, 0, At::Time(&at), 192).unwrap().to_double().0;
+        assert!(off.abs() < 1e-20, "{time} us: {off}");
+    }
+    let [low, high] = Search::new(&*signal).unwrap().largest(&zero).unwrap().bounds;
+    let [low, high] = [low, high].map(|bound| num_traits::ToPrimitive::to_f64(&bound).unwrap());
+    assert!(low > 71_000.0 && high < 80_000.0, "{low} {high}");
+}
+
+/// A wave of the reduced scene may have the name of what was observed: it is not compared.
+#[test]
+fn observables_are_compared_with_observables() {
+    let rod = scene(
+        "mass m { mass = 1, velocity = 1 }\nbar rod { impedance = 1, travel = 1 }\nline free - m - rod - fixed\n\
+         observe v = velocity(m)\nobserve f = displacement(rod.at(1/2))",
+    );
+    let other = rod.simpler(&"endless:rod.right".parse().unwrap()).unwrap();
+    let (wanted, window) = (rod.wanted("f").unwrap(), [&rational(0, 1), &rational(2, 1)]);
+    assert!(rod.difference_on(&other, &wanted, window, Purpose::Search).is_err());
+    assert!(rod.difference_on(&other, &rod.wanted("v").unwrap(), window, Purpose::Search).is_ok());
+}
+
+#[test]
+fn what_is_no_change_is_refused() {
+    let spring = scene(
+        "mass m { mass = 1, velocity = 1 }\nbar rod { impedance = 1, travel = 1, as = spring }\n\
+         line free - m - rod - free\nobserve v = velocity(m)",
+    );
+    for change in ["rigid", "third", "rigid:rod"] {
+        let Ok(Simpler::Scene(changes)) = change.parse() else { panic!("{change}") };
+        let error = spring.changed(&changes).err().expect("it is refused").to_string();
+        assert!(error.contains("is rigid, or a spring, already"), "{change}: {error}");
+    }
+}
+
+/// A scene is no distance from itself, where the search for extremes has nothing to find.
+#[test]
+fn no_distance_is_below_what_is_negligible() {
+    let own = Problem::builtin("percussive-drill").unwrap();
+    let other = Problem::builtin("percussive-drill").unwrap();
+    let (wanted, zero, to) =
+        (own.wanted("rock_force").unwrap(), rational(0, 1), rational(4, 10_000));
+    let signal = own.difference_on(&other, &wanted, [&zero, &to], Purpose::Search).unwrap();
+    let size = Size::of(&*signal, (9, 1 << 12), &rational(1, 1_000_000)).unwrap();
+    assert!(size.bounds[1] <= rational(1, 1_000_000) && size.places.is_empty());
 }

@@ -87,6 +87,7 @@ impl Told<'_> {
 
     fn window(&self) -> String {
         let [from, to] = self.need.window.map(|time| match self.problem.has_units() {
+            true if time.denom().bits() > 64 => self.time(time),
             true => format!("{} s", in_decimals(time)),
             false => time.to_string(),
         });
@@ -189,7 +190,13 @@ impl Told<'_> {
                 let verdict = self.verdict(&own.verdict);
                 (changes, format!("# `{}`: off by {verdict} of it, proven.\n", own.simpler))
             }
-            None => (&[], "# Nothing in it can be left out.\n".to_owned()),
+            None => match self.advice.enough() {
+                Some(own) => (
+                    &[],
+                    format!("# `{}` is enough, but no scene; this is the whole.\n", own.simpler),
+                ),
+                None => (&[], "# Nothing in it can be left out.\n".to_owned()),
+            },
         };
         let text = match changes {
             [] => self.problem.source().text().to_owned(),

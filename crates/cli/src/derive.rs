@@ -28,13 +28,20 @@ pub fn run(options: &Derive) -> Result<String, Failure> {
         return Ok(exact);
     };
     let mark = if options.format == Format::Latex { "%" } else { "#" };
-    let definition: String = definition.iter().map(|line| format!("{mark} {line}\n")).collect();
     let (orders, holds) = match model.waves_return() {
         true => (options.orders(), "period by period"),
         false => (None, "at all times"),
     };
     let derived = formulas(&model, options, orders)?;
-    Ok(format!("{exact}\n{mark} {name}, {holds}\n{definition}{derived}"))
+    if options.format == Format::Json {
+        let read = |text: &str| serde_json::from_str::<Value>(text).expect("what was just written");
+        let document = json!({
+            "exact": read(&exact), "model": name, "rate": definition, "formulas": read(&derived),
+        });
+        return Ok(format!("{document}\n"));
+    }
+    let rate: String = definition.iter().map(|line| format!("{mark} {line}\n")).collect();
+    Ok(format!("{exact}\n{mark} {name}, {holds}\n{rate}{derived}"))
 }
 
 /// A scene with something left out, of which formulas are derived, and what stands for its rate.

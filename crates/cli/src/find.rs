@@ -8,10 +8,11 @@ use super::input;
 use super::output::plural;
 use super::progress;
 use super::validity;
+use num_rational::BigRational;
 use wavestep::language::ChangeError;
 use wavestep::planner::Purpose;
 use wavestep::problem::{Against, Other, Problem, ProblemError, Simpler, Size};
-use wavestep::signal::{Place, Search, Signal};
+use wavestep::signal::{Place, Search};
 
 pub fn run(options: &Find) -> Result<String, Failure> {
     input::digits(options.digits)?;
@@ -107,22 +108,31 @@ fn distances(
         _ => vec![name],
     };
     let _progress = progress::spinner("searching");
+    // What is so much smaller than the quantity is no distance.
+    let nothing = BigRational::new(1.into(), num_bigint::BigInt::from(1) << 100_u32);
     let mut rows = Vec::new();
     for name in names {
         let wanted = problem.wanted(name)?;
         let difference =
             problem.difference_on(other, &wanted, window.each_ref(), Purpose::Search)?;
         let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?;
-        let size = |signal: &dyn Signal| Size::of(signal, options.digits, options.max_bits);
-        rows.push((wanted, size(&*difference)?, size(&*signal)?));
+        let asked = (options.digits, options.max_bits);
+        let size = Size::of(&*signal, asked, &Default::default())?;
+        let negligible = &size.bounds[0] * &nothing;
+        rows.push((wanted, Size::of(&*difference, asked, &negligible)?, size));
     }
-    Ok(found::distances(&rows, problem, &window, options))
+    let (report, undecided) = found::distances(&rows, problem, &window, options);
+    settled(report, undecided, "distance")
 }
 
 /// The scene, and what is taken from it: another scene, or this one with something left out. Each has the values that it
 /// has symbols for; a value for a symbol of neither is given to the first, which says so.
 fn scenes(options: &Find) -> Result<(input::Asked, Option<Compared>), Failure> {
     let Some(minus) = &options.minus else { return Ok((input::problem(&options.scene)?, None)) };
+    if minus.trim().is_empty() {
+        let remedy = "name a scene, or what is left out of this one, such as `third`";
+        return Err(Failure::usage("`--minus` names nothing", remedy));
+    }
     let scene = &options.scene.scene;
     if !input::is_scene(minus) {
         let simpler: Simpler = minus.parse().map_err(|error| match error {

@@ -80,16 +80,28 @@ pub fn distances(
     problem: &Problem,
     window: &[BigRational; 2],
     options: &Find,
-) -> String {
+) -> (String, usize) {
     let minus = options.minus.as_deref().unwrap_or_default();
     let bounded = |[low, high]: &[BigRational; 2]| match low == high {
         true => Value::Exact(low.clone()),
         false => Value::of(&Number::Enclosed(enclosed(low, high)), options.digits),
     };
     let share = |distance: &Size, size: &Size| distance.over(size).as_ref().map(bounded);
+    let is_nothing = |distance: &Size| distance.places.is_empty();
+    let is_open = |(_, distance, _): &&(Wanted, Size, Size)| {
+        !is_nothing(distance) && matches!(bounded(&distance.bounds), Value::Enclosed(_))
+    };
+    let little = BigRational::new(1.into(), 1_000_000_000_000_000_u64.into());
+    let undecided = rows.iter().filter(is_open).count();
     if options.format == Format::Text {
         let row = |(wanted, distance, size): &(Wanted, Size, Size)| {
             let told = Told { options, name: minus, level: "", problem, wanted, window };
+            if is_nothing(distance) && distance.over(size).is_some_and(|share| share[1] < little) {
+                return format!(
+                    "{}: {minus} is off by less than 1e-15 of the largest value\n",
+                    wanted.name
+                );
+            }
             let share = share(distance, size).map_or(String::new(), |share| {
                 format!(", {} of the largest value", share.to_text(options.digits))
             });
@@ -100,7 +112,7 @@ pub fn distances(
                 places.collect::<String>()
             )
         };
-        return rows.iter().map(row).collect();
+        return (rows.iter().map(row).collect(), undecided);
     }
     let rows = rows.iter().map(|(wanted, distance, size)| {
         let mut body = json!({
@@ -123,19 +135,21 @@ pub fn distances(
                 .find_map(|key| value[*key].as_str().map(str::to_owned))
         };
         let line = |row: &Json| {
-            let cells =
+            let [distance, largest, relative] =
                 ["distance", "largest", "relative"].map(|key| text(&row[key]).unwrap_or_default());
-            format!("{},{}\n", row["quantity"].as_str().unwrap_or_default(), cells.join(","))
+            let name = row["quantity"].as_str().unwrap_or_default();
+            let radius = row["distance"]["radius"].as_str().unwrap_or("0");
+            format!("{name},{distance},{radius},{largest},{relative}\n")
         };
-        return "quantity,distance,largest,relative\n".to_owned()
-            + &rows.iter().map(line).collect::<String>();
+        let lines = rows.iter().map(line).collect::<String>();
+        return ("quantity,distance,radius,largest,relative\n".to_owned() + &lines, undecided);
     }
     let [from, to] = window.each_ref().map(BigRational::to_string);
     let document = json!({
         "schema_version": SCHEMA_VERSION, "title": problem.title(), "minus": minus,
         "set": options.scene.set, "from": from, "to": to, "distances": rows,
     });
-    format!("{document}\n")
+    (format!("{document}\n"), undecided)
 }
 
 fn enclosed(from: &BigRational, to: &BigRational) -> Ball {

@@ -313,6 +313,10 @@ fn plain(mistake: Mistake) -> (&'static [&'static str], &'static str) {
             &["fixed to the end of the line"],
             "leave out `as`, or a rigid bar altogether; `as = spring` needs one end that can move",
         ),
+        Mistake::IdealAtWall => (
+            &["in contact with the end of the line"],
+            "leave out `as`, join the bar to the end with `-`, or leave out `contacts open`",
+        ),
         Mistake::NoForceInRigid => (
             &["of a rigid bar"],
             "observe its velocity, or the force in a spring or another bar beside it",

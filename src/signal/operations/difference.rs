@@ -22,18 +22,24 @@ pub(crate) struct Difference<'a> {
     pub arrivals: Option<usize>,
 }
 
-/// Whether it means the same in every scene.
-fn is_common(time: &Fraction) -> bool {
-    let symbols = Expression::from(time.clone()).symbols();
-    symbols.iter().all(|symbol| symbol.square().is_some() || symbol.name() == PI)
-}
-
 impl<'a> Difference<'a> {
-    /// A time in the scale of one scene, in that of the other.
+    /// Whether a number means the same in both scenes: it holds square roots, `pi`, and constants with one name and one
+    /// definition, as all those that they may rest on have.
+    fn is_common(&self, number: &Fraction) -> bool {
+        let [own, other] = self.scales.each_ref().map(|scale| &scale.network.model().constants);
+        let shared = own.iter().zip(other).take_while(|(own, other)| own == other);
+        let shared: Vec<_> = shared.map(|(own, _)| &own.symbol).collect();
+        let symbols = Expression::from(number.clone()).symbols();
+        symbols.iter().all(|symbol| {
+            symbol.square().is_some() || symbol.name() == PI || shared.contains(&symbol)
+        })
+    }
+
+    /// A time in the scale of one scene, in that of the other, where the units of time have an exact ratio.
     fn rescaled(&self, time: &Fraction, [from, to]: [usize; 2]) -> Option<Fraction> {
-        let inverse = self.scales[from].slowness().inverse().ok()?;
-        let time = &(time * &inverse) * self.scales[to].slowness();
-        is_common(&time).then_some(time)
+        let unit = |scene: usize| &self.scales[scene].network.model().scale.time;
+        let ratio = unit(from).over(unit(to)).ok()?.exact()?;
+        self.is_common(time).then(|| time * &ratio)
     }
 
     /// How many stretches of the second operand count.
@@ -65,6 +71,11 @@ impl<'a> Difference<'a> {
 impl Rule for Difference<'_> {
     fn ranges(&self) -> Outcome<Vec<Range<usize>>> {
         Ok(vec![0..self.operands[0].count()?, 0..self.places()?])
+    }
+
+    /// Arrivals of two scenes may be one instant that no normal form shows.
+    fn takes_ties(&self) -> bool {
+        true
     }
 
     fn mark(&self, operand: usize, place: usize) -> Mark<'_> {

@@ -18,7 +18,6 @@ pub(crate) use constant::Constant;
 pub(crate) use difference::Difference;
 pub(crate) use integral::Integral;
 pub(crate) use vibration::Vibrating;
-pub use vibration::Vibration;
 
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
 use crate::enclosure::Numbers;
@@ -192,6 +191,11 @@ pub(crate) trait Rule {
     /// The places on the first stretch, and the ends of those that follow, one range for each operand.
     fn ranges(&self) -> Outcome<Vec<Range<usize>>>;
 
+    /// Whether breaks that are not told apart by thousands of bits count as one.
+    fn takes_ties(&self) -> bool {
+        false
+    }
+
     /// When an operand comes to a place.
     fn mark(&self, operand: usize, place: usize) -> Mark<'_>;
 
@@ -292,7 +296,13 @@ impl<'a, R: Rule> Operation<'a, R> {
                 let Some(mark) = marks[operand].get(places[operand] - range.start) else {
                     continue;
                 };
-                match first.first().map(|known| mark.compare(known.1)).transpose()? {
+                let order = first.first().map(|known| match mark.compare(known.1) {
+                    Err(EvaluateError::AccuracyNotReached { .. }) if self.rule.takes_ties() => {
+                        Ok(Ordering::Equal)
+                    }
+                    order => order,
+                });
+                match order.transpose()? {
                     Some(Ordering::Greater) => {}
                     Some(Ordering::Equal) => first.push((operand, mark)),
                     Some(Ordering::Less) | None => first = vec![(operand, mark)],

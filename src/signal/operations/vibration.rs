@@ -11,16 +11,7 @@ use std::ops::Range;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
-/// `c + s t + Σ (a cos ωt + b sin ωt)` of the user's time, in the unit of its values.
-#[derive(Clone, PartialEq, Debug, Default)]
-pub struct Vibration {
-    /// `c` and `s`.
-    pub drift: [f64; 2],
-    /// `ω`, `a` and `b` of each mode.
-    pub modes: Vec<[f64; 3]>,
-}
-
-/// The same in balls without radius, as a signal without breaks.
+/// `c + s t + Σ (a cos ωt + b sin ωt)` of the user's time, in the unit of its values, in balls without radius.
 pub(crate) struct Vibrating<'a> {
     scale: Rc<Scale<'a>>,
     drift: [Ball; 2],
@@ -36,9 +27,13 @@ const DOUBLE_BITS: u64 = 64;
 
 impl<'a> Vibrating<'a> {
     /// None where a number is infinite, or no number.
-    pub fn new(scale: &Rc<Scale<'a>>, vibration: &Vibration) -> Option<Vibrating<'a>> {
-        let [constant, slope] = vibration.drift.map(exact);
-        let modes = vibration.modes.iter().map(|mode| {
+    pub fn new(
+        scale: &Rc<Scale<'a>>,
+        drift: [f64; 2],
+        modes: &[[f64; 3]],
+    ) -> Option<Vibrating<'a>> {
+        let [constant, slope] = drift.map(exact);
+        let modes = modes.iter().map(|mode| {
             let [frequency, cosine, sine] = mode.map(exact);
             Some([frequency?, cosine?, sine?])
         });

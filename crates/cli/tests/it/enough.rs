@@ -142,8 +142,8 @@ fn distances_are_told_in_all_formats() {
     assert!(text.contains("energy: third is off by at most 0.125 = 1/8, 0.25 = 1/4"), "{text}");
     let (_, csv, _) = run(anywhere(), &words(&format!("{line} --format csv")));
     let mut rows = csv.lines();
-    assert_eq!(rows.next(), Some("quantity,distance,largest,relative"));
-    assert!(rows.any(|row| row == "energy,1/8,1/2,1/4"), "{csv}");
+    assert_eq!(rows.next(), Some("quantity,distance,radius,largest,relative"));
+    assert!(rows.any(|row| row == "energy,1/8,0,1/2,1/4"), "{csv}");
     let (_, json, _) = run(anywhere(), &words(&format!("{line} --format json")));
     let told: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(told["distances"].as_array().unwrap().len(), 5);
@@ -161,6 +161,32 @@ fn formulas_of_a_model_stand_below_the_exact_ones() {
         ),
         "{text}"
     );
+}
+
+#[test]
+fn a_model_beside_exact_formulas_is_one_document() {
+    let line = "derive mass-on-fixed-bar --observable strain_fixed --through 0 --model third --format json";
+    let (code, text, errors) = run(anywhere(), &words(line));
+    assert_eq!((code, errors.as_str()), (0, ""));
+    let told: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(
+        (&told["model"], &told["rate"]),
+        (&"third".into(), &"omega^2 = 3/(mu*(3 + mu))".into())
+    );
+    assert!(told["exact"]["functions"].is_array() || told["exact"]["waves"].is_array(), "{told}");
+}
+
+/// A distance of nothing is told as that, and one that is not proven to its digits ends with exit code 3.
+#[test]
+fn distances_say_what_is_known_of_them() {
+    let line =
+        "find percussive-drill --distance rock_force --minus rigid:piston --to 500us --digits 6";
+    let (code, text, errors) = run(anywhere(), &words(line));
+    assert_eq!((code, errors.as_str()), (0, ""), "{text}");
+    let line = "find mass-on-fixed-bar --set mu=1 --distance velocity --minus echoes:99 --to 7";
+    let (code, text, errors) = run(anywhere(), &words(line));
+    assert_eq!((code, errors.as_str()), (0, ""), "{text}");
+    assert_eq!(text, "velocity: echoes:99 is off by less than 1e-15 of the largest value\n");
 }
 
 #[test]
