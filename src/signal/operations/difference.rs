@@ -31,8 +31,8 @@ fn is_common(time: &Fraction) -> bool {
 impl<'a> Difference<'a> {
     /// A time in the scale of one scene, in that of the other.
     fn rescaled(&self, time: &Fraction, [from, to]: [usize; 2]) -> Option<Fraction> {
-        let inverse = self.scales[from].slowness().inverse().ok()?;
-        let time = &(time * &inverse) * self.scales[to].slowness();
+        let inverse = self.scales[from].slowness.inverse().ok()?;
+        let time = &(time * &inverse) * &self.scales[to].slowness;
         is_common(&time).then_some(time)
     }
 
@@ -116,7 +116,7 @@ impl Rule for Difference<'_> {
     /// Numbers alone mean the same in both scenes.
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {
         // At all times at once only what is constant in both is a number.
-        let all = |scale: &Scale<'_>| Fraction::symbol(&scale.network.scene().time);
+        let all = |scale: &Scale<'_>| Fraction::symbol(scale.clock);
         let times = match *at == all(&self.scales[0]) {
             true => self.scales.each_ref().map(|scale| all(scale)),
             false => [at.clone(), self.rescaled(at, [0, 1])?],
