@@ -28,8 +28,12 @@ pub(super) fn of_recurrence(statement: &Statement) -> BTreeMap<String, String> {
     }
     for Quadratic { name, terms, .. } in &statement.quadratics {
         let term = |ProductTerm { coefficient, factors }: &ProductTerm| {
-            let factors: Vec<String> =
-                factors.iter().map(|own| grouped(observed(own, statement))).collect();
+            let factor_text = |own: &Observation| {
+                let text = observed(own, statement);
+                let is_one = own.waves.len() == 1 && own.forcing.is_zero();
+                if is_one && !text.starts_with('-') { text } else { grouped(text) }
+            };
+            let factors: Vec<String> = factors.iter().map(factor_text).collect();
             factor(fraction(coefficient)) + &factors.join("*")
         };
         let terms: Vec<String> = terms.iter().map(term).collect();
