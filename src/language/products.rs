@@ -88,7 +88,11 @@ impl Lowering<'_> {
             };
             if self.depends_on_time(&plain) {
                 return Err(self
-                    .error("the factor of a product of waves depends on time", tree.span, "a time")
+                    .error(
+                        "the factor of a product of waves depends on time",
+                        tree.span,
+                        "depends on time",
+                    )
                     .with_remedy("coefficients are numbers and symbols"));
             }
             coefficient = self.times(&coefficient, &plain, tree.span)?;

@@ -14,12 +14,11 @@ use crate::network::{
     Contacts, ElementLaw, FieldBars, Layout, Lumped, Network, Node, Observed, ObservedValue,
     Squared, Term,
 };
-use crate::recurrence::{Observation, ProductTerm, Quadratic};
+use crate::recurrence::Observation;
 use crate::signal::{
-    ClosedForm, ClosedSignal, Combination, Difference, EvaluateError, Operation, Product, Scale,
-    Signal, Taps, Vibrating, Vibration,
+    ClosedForm, ClosedSignal, Difference, EvaluateError, Operation, Scale, Signal, Taps, Vibrating,
+    Vibration,
 };
-use crate::solution::Solution;
 use num_traits::Zero as _;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
@@ -114,39 +113,6 @@ pub fn of_scene<'a>(
     purpose: Purpose,
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
     chosen(network, observed, window, purpose).map(|(_, signal)| signal)
-}
-
-/// A wave or an observable of a recurrence on a window of time; none where nothing has this name.
-pub fn of_recurrence<'a>(
-    solution: &'a Solution,
-    name: &str,
-    window: [&Rational; 2],
-) -> Result<Option<Box<dyn Signal + 'a>>, EvaluateError> {
-    let recurrence = solution.recurrence();
-    if let Some(observation) = recurrence.observation(name) {
-        return Ok(Some(Box::new(ClosedSignal::of_recurrence(solution, &observation, window)?)));
-    }
-    let Some(Quadratic { terms, .. }) = recurrence.quadratic(name) else { return Ok(None) };
-    let mut seen: Vec<&Observation> = Vec::new();
-    let mut place = |factor| match seen.iter().position(|known| *known == factor) {
-        Some(place) => place,
-        None => {
-            seen.push(factor);
-            seen.len() - 1
-        }
-    };
-    let product = |ProductTerm { coefficient, factors }: &'a ProductTerm| Product {
-        coefficient: coefficient.clone(),
-        factors: factors.iter().map(&mut place).collect(),
-    };
-    let products = terms.iter().map(product).collect();
-    let mut operands: Vec<Rc<dyn Signal + 'a>> = Vec::new();
-    for observation in seen {
-        operands.push(Rc::new(ClosedSignal::of_recurrence(solution, observation, window)?));
-    }
-    let scale = Scale::of_recurrence(recurrence);
-    let sum = Combination { scale: Rc::clone(&scale), operands, products };
-    Ok(Some(Box::new(Operation::new(&scale, sum, Root::from(Fraction::one()), window))))
 }
 
 /// How far a signal of one scene is from one of another, both on this window and in one unit; of the second only the

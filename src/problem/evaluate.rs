@@ -195,7 +195,7 @@ impl Problem {
                 Ok(planner::of_scene(network, observed, window, purpose)?)
             }
             (Kind::Equations(solution), _) => {
-                let signal = planner::of_recurrence(solution, &wanted.name, window)?;
+                let signal = signal::of_recurrence(solution, &wanted.name, window)?;
                 signal.ok_or_else(|| self.unknown(&wanted.name))
             }
             _ => Err(self.unknown(&wanted.name)),

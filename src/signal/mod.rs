@@ -33,10 +33,10 @@ pub use method::{
     Certified, Compiled, Evaluator, Marched, MethodError, StablePrecision, Summation, Summed,
     instructions,
 };
-pub use operations::Vibration;
 pub(crate) use operations::{
     Balanced, Combination, Constant, Difference, Integral, Operation, Product, Scale, Vibrating,
 };
+pub use operations::{Vibration, of_recurrence};
 pub use signal::{At, EchoCount, Effort, Instant, Limit, Point, Signal, Signed};
 pub(crate) use signal::{Enclosure, Known, MAX_FLATNESS, has_begun, last_begun};
 pub(crate) use silence::Silence;

@@ -10,6 +10,7 @@ mod combination;
 mod constant;
 mod difference;
 mod integral;
+mod observed;
 mod vibration;
 
 pub(crate) use balanced::Balanced;
@@ -17,6 +18,7 @@ pub(crate) use combination::{Combination, Product};
 pub(crate) use constant::Constant;
 pub(crate) use difference::Difference;
 pub(crate) use integral::Integral;
+pub use observed::of_recurrence;
 pub(crate) use vibration::Vibrating;
 pub use vibration::Vibration;
 
