@@ -28,13 +28,13 @@ pub(super) fn of_recurrence(statement: &Statement) -> BTreeMap<String, String> {
     }
     for Quadratic { name, terms, .. } in &statement.quadratics {
         let term = |ProductTerm { coefficient, factors }: &ProductTerm| {
-            let factor_text = |own: &Observation| {
+            let texts = factors.iter().map(|own| {
                 let text = observed(own, statement);
-                let is_one = own.waves.len() == 1 && own.forcing.is_zero();
-                if is_one && !text.starts_with('-') { text } else { grouped(text) }
-            };
-            let factors: Vec<String> = factors.iter().map(factor_text).collect();
-            factor(fraction(coefficient)) + &factors.join("*")
+                let is_single = own.waves.len() == 1 && own.forcing.is_zero();
+                let stands_alone = factors.len() == 1 || is_single && !text.starts_with('-');
+                if stands_alone { text } else { grouped(text) }
+            });
+            factor(fraction(coefficient)) + &texts.collect::<Vec<_>>().join("*")
         };
         let terms: Vec<String> = terms.iter().map(term).collect();
         stated.insert(format!("observable {name}"), sum(&terms));

@@ -42,7 +42,7 @@ pub struct Quadratic {
     pub terms: Vec<ProductTerm>,
 }
 
-/// A coefficient, free of time, times one or two factors.
+/// A coefficient, free of time, times two factors; or one factor alone, with the coefficient 1.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ProductTerm {
     pub coefficient: Fraction,

@@ -4,7 +4,9 @@
 //! it stands still at `2 + e^(−2)/2`, and is fastest on its way back at `3 + e^(−2)/2`, with `v = −2 e^(−s)`.
 
 use num_traits::Signed;
+use wavestep::Problem;
 use wavestep::language::{Source, parse_number, read_recurrence};
+use wavestep::lock::{Derivable, Lock, Request};
 use wavestep::signal::{Goal, Limit, Place, Root, Search, Signal, Value, of_recurrence, value};
 use wavestep::solution::Solution;
 use wavestep_polynomial::Rational;
@@ -141,4 +143,22 @@ fn products_keep_their_place_among_observables() {
     ];
     assert_eq!(statement.observed(), names);
     assert_eq!(statement.quadratics[0].terms[0].factors.len(), 2);
+}
+
+/// There are no pieces of products; values are locked with the rest, and told as they are stated.
+#[test]
+fn products_are_locked_by_value_and_not_derived() {
+    let problem = Problem::read("rigid", RIGID).unwrap();
+    let refused = problem.derive("energy", 0..=1).unwrap_err().to_string();
+    assert!(refused.contains("energy holds products of waves"), "{refused}");
+    let rigid = solution(RIGID);
+    let request = Request { times: vec![number("5/2")], digits: 20, ..Request::default() };
+    let lock = Lock::of_pieces(Derivable::Equations(&rigid), None, &request).unwrap().to_text();
+    for line in [
+        "stated observable energy = 1/2*(f(t) + g(t))*(f(t) + g(t))\n",
+        "stated observable mixed = 1/3*f(t)*g(t - 1) - 2*f(t)*f(t) + 1/2*g(t) + 1 - exp(-t)\n",
+        "value energy(5/2) = 0.13752162571739995137\n",
+    ] {
+        assert!(lock.contains(line), "{line} in {lock}");
+    }
 }
