@@ -153,6 +153,7 @@ fn kind(error: &ProblemError) -> Kind {
         | ProblemError::NoClosedForm { .. }
         | ProblemError::ModelOfLocalContact(_)
         | ProblemError::EnergyHasNoPieces(_)
+        | ProblemError::ProductsHaveNoPieces(_)
         | ProblemError::NoCommonPeriods(_)
         | ProblemError::UnknownOrder(_)
         | ProblemError::NoPeriodsToExplain
@@ -313,7 +314,7 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
         ProblemError::NoPeriods(_)
         | ProblemError::NoPeriodsWhereContactsOpen
         | ProblemError::NoPeriodsWithLocalContact(_) => "give times",
-        ProblemError::EnergyHasNoPieces(_) => "evaluate it",
+        ProblemError::EnergyHasNoPieces(_) | ProblemError::ProductsHaveNoPieces(_) => "evaluate it",
         ProblemError::NoCommonPeriods(_) => "evaluate it, or derive its waves",
         ProblemError::UnknownOrder(_) => "give the symbols values, or evaluate it",
         ProblemError::TooManyTerms(_) => "ask for a smaller order, one wave, or one piece",

@@ -64,7 +64,7 @@ impl From<Expression> for Linear {
 }
 
 impl Linear {
-    fn scaled(mut self, factor: &Expression) -> Linear {
+    pub fn scaled(mut self, factor: &Expression) -> Linear {
         self.rest = &self.rest * factor;
         self.waves.iter_mut().for_each(|term| term.coefficient = &term.coefficient * factor);
         self.waves.retain(|term| !term.coefficient.is_zero());
@@ -88,7 +88,7 @@ pub(super) enum Place {
 impl Scope {
     /// Lowers an expression.
     pub fn lower(&self, tree: &Tree, place: Place) -> Outcome<Linear> {
-        Lowering { scope: self, place, summed: None }.lower(tree)
+        Lowering::new(self, place).lower(tree)
     }
 
     /// Lowers an expression that may hold neither waves nor time; `what` names it in errors.
@@ -112,14 +112,18 @@ impl Scope {
 }
 
 /// An expression in the course of being lowered: where it stands, and the index of a sum around it.
-struct Lowering<'a> {
-    scope: &'a Scope,
+pub(super) struct Lowering<'a> {
+    pub scope: &'a Scope,
     place: Place,
     summed: Option<&'a str>,
 }
 
 impl<'a> Lowering<'a> {
-    fn error(
+    pub fn new(scope: &'a Scope, place: Place) -> Self {
+        Lowering { scope, place, summed: None }
+    }
+
+    pub fn error(
         &self,
         message: impl Into<String>,
         span: Span,
@@ -128,7 +132,7 @@ impl<'a> Lowering<'a> {
         self.scope.error(message, span, label)
     }
 
-    fn lower(&self, tree: &Tree) -> Outcome<Linear> {
+    pub fn lower(&self, tree: &Tree) -> Outcome<Linear> {
         match &tree.value {
             Node::Number(value) => Ok(Expression::constant(value).into()),
             Node::Name(name) => self.name(name, tree.span).map(Linear::from),
@@ -156,6 +160,10 @@ impl<'a> Lowering<'a> {
             rests.push(value.rest);
             waves.append(&mut value.waves);
         }
+        Ok(Linear { rest: self.sum_of(rests, span)?, waves })
+    }
+
+    pub fn sum_of(&self, mut rests: Vec<Expression>, span: Span) -> Outcome<Expression> {
         // Added up in pairs: one after the other would copy a long sum once for each term.
         while rests.len() > 1 {
             let pairs = rests.chunks(2).map(|pair| match pair {
@@ -165,11 +173,11 @@ impl<'a> Lowering<'a> {
             });
             rests = pairs.collect::<Outcome<_>>()?;
         }
-        Ok(Linear { rest: rests.pop().unwrap_or_default(), waves })
+        Ok(rests.pop().unwrap_or_default())
     }
 
     /// An expression without waves.
-    fn plain(&self, tree: &Tree, instead: &str) -> Outcome<Expression> {
+    pub fn plain(&self, tree: &Tree, instead: &str) -> Outcome<Expression> {
         let linear = self.lower(tree)?;
         match linear.waves.first() {
             None => Ok(linear.rest),
@@ -473,7 +481,7 @@ impl<'a> Lowering<'a> {
         Ok(product)
     }
 
-    fn depends_on_time(&self, value: &Expression) -> bool {
+    pub fn depends_on_time(&self, value: &Expression) -> bool {
         self.scope.time.as_ref().is_some_and(|time| value.contains(time))
     }
 
@@ -489,7 +497,7 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    fn scaled(&self, linear: Linear, factor: &Expression, span: Span) -> Outcome<Linear> {
+    pub fn scaled(&self, linear: Linear, factor: &Expression, span: Span) -> Outcome<Linear> {
         let coefficients = linear.waves.iter().map(|term| &term.coefficient);
         if std::iter::once(&linear.rest).chain(coefficients).all(|c| product_is_moderate(c, factor))
         {
@@ -498,7 +506,7 @@ impl<'a> Lowering<'a> {
         Err(self.too_large(span))
     }
 
-    fn times(&self, left: &Expression, right: &Expression, span: Span) -> Outcome<Expression> {
+    pub fn times(&self, left: &Expression, right: &Expression, span: Span) -> Outcome<Expression> {
         if product_is_moderate(left, right) { Ok(left * right) } else { Err(self.too_large(span)) }
     }
 
@@ -515,7 +523,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// `1/tree`, factor by factor.
-    fn inverse(&self, tree: &Tree) -> Outcome<Expression> {
+    pub fn inverse(&self, tree: &Tree) -> Outcome<Expression> {
         match &tree.value {
             Node::Product(factors) => {
                 let mut inverse = Expression::one();

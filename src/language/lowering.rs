@@ -8,6 +8,7 @@ use wavestep_polynomial::{Rational, Symbol};
 use super::diagnostic::Diagnostic;
 use super::linear::{Linear, Place, Reference};
 use super::parameters;
+use super::products::Products;
 use super::scope::{Scope, symbol};
 use super::source::Source;
 use super::syntax::{self, Name, Span, Spanned, StatementKind};
@@ -15,7 +16,7 @@ use super::written;
 use crate::expression::{Assumptions, Expression, Fraction, NotInvertible};
 use crate::recurrence::{
     Clause, Continuity, Fault, InvalidRecurrence, LinearForm, Observable, Observation,
-    ObservedWave, Recurrence, SourceNotation, Statement,
+    ObservedWave, ProductTerm, Quadratic, Recurrence, SourceNotation, Statement,
 };
 
 type Outcome<T> = Result<T, Diagnostic>;
@@ -42,9 +43,10 @@ pub(super) fn recurrence(
         equations: lowering.equations()?,
         continuity: lowering.continuity()?,
         observables: Vec::new(),
+        quadratics: Vec::new(),
         notation: SourceNotation::default(),
     };
-    statement.observables = lowering.observables(&statement)?;
+    lowering.observables(&mut statement)?;
     statement.notation = written::notation(tree, &lowering.scope)?;
     statement.assumptions = lowering.scope.assumptions.clone();
     Recurrence::new(statement).map_err(|invalid| lowering.refusal(&invalid))
@@ -239,31 +241,56 @@ impl<'a> Lowering<'a> {
         Ok(rules)
     }
 
-    fn observables(&mut self, statement: &Statement) -> Outcome<Vec<Observable>> {
-        let mut observables = Vec::new();
+    fn observables(&mut self, statement: &mut Statement) -> Outcome<()> {
         for (kind, _) in self.statements() {
             let StatementKind::Observe { name, value } = kind else { continue };
             self.declare(name)?;
-            let linear = self.scope.lower(value, Place::Observable)?;
-            let mut observation = Observation { forcing: linear.rest, waves: Vec::new() };
-            for term in linear.waves {
-                let (slope, delay) = match term.reference {
-                    Reference::Lagged { lag, primes } => {
-                        (primes > 0, statement.period.scale(&Rational::from_integer(lag.into())))
-                    }
-                    Reference::Delayed { delay } => (false, delay),
-                    Reference::Summed { .. } => {
-                        return Err(self
-                            .error("a sum over periods cannot be observed", term.span, "a sum")
-                            .with_remedy("give the sum a wave of its own, by an equation"));
-                    }
-                };
-                let (coefficient, wave) = (term.coefficient, term.wave);
-                observation.waves.push(ObservedWave { coefficient, wave, slope, delay });
+            let Products { linear, pairs } = self.scope.lower_products(value)?;
+            let name = name.value.clone();
+            let observation = self.observation(linear, &statement.period)?;
+            if pairs.is_empty() {
+                statement.observables.push(Observable { name, observation });
+                continue;
             }
-            observables.push(Observable { name: name.value.clone(), observation });
+            let mut terms = Vec::new();
+            for (coefficient, [mut first, second]) in pairs {
+                // What is no fraction is put into a factor.
+                let coefficient = coefficient.as_fraction().unwrap_or_else(|| {
+                    first = std::mem::take(&mut first).scaled(&coefficient);
+                    Fraction::one()
+                });
+                let factors = [first, second].map(|own| self.observation(own, &statement.period));
+                let factors = factors.into_iter().collect::<Outcome<_>>()?;
+                terms.push(ProductTerm { coefficient, factors });
+            }
+            if observation != Observation::default() {
+                let (coefficient, factors) = (Fraction::one(), vec![observation]);
+                terms.push(ProductTerm { coefficient, factors });
+            }
+            let place = statement.observables.len() + statement.quadratics.len();
+            statement.quadratics.push(Quadratic { name, place, terms });
         }
-        Ok(observables)
+        Ok(())
+    }
+
+    fn observation(&self, linear: Linear, period: &Fraction) -> Outcome<Observation> {
+        let mut observation = Observation { forcing: linear.rest, waves: Vec::new() };
+        for term in linear.waves {
+            let (slope, delay) = match term.reference {
+                Reference::Lagged { lag, primes } => {
+                    (primes > 0, period.scale(&Rational::from_integer(lag.into())))
+                }
+                Reference::Delayed { delay } => (false, delay),
+                Reference::Summed { .. } => {
+                    return Err(self
+                        .error("a sum over periods cannot be observed", term.span, "a sum")
+                        .with_remedy("give the sum a wave of its own, by an equation"));
+                }
+            };
+            let (coefficient, wave) = (term.coefficient, term.wave);
+            observation.waves.push(ObservedWave { coefficient, wave, slope, delay });
+        }
+        Ok(observation)
     }
 
     /// What the recurrence refused, at its place in the text.

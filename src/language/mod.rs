@@ -20,6 +20,7 @@ mod number;
 mod parameters;
 mod parser;
 mod print;
+mod products;
 mod scene;
 mod scope;
 mod source;

@@ -8,7 +8,7 @@ use crate::lock::{Contents, LIMIT_BITS, Lock, LockError, Request, Values};
 use crate::network::Network;
 use crate::planner::{self, Purpose};
 use crate::recurrence::WaveIndex;
-use crate::signal::{Arrival, ClosedSignal, Limit, Signal, arrivals, digits};
+use crate::signal::{self, Arrival, Limit, Signal, arrivals, digits};
 use crate::solution::Solution;
 use std::collections::{BTreeMap, BTreeSet};
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
@@ -94,14 +94,13 @@ impl Lock {
 /// The values of all waves and observables of a recurrence.
 fn of_solution(solution: &Solution, request: &Request) -> Result<Values, LockError> {
     let statement = solution.recurrence().statement();
-    let observables = statement.observables.iter().map(|observable| &observable.name);
-    let names = statement.waves.iter().chain(observables);
+    let names: Vec<String> = statement.observed().into_iter().map(str::to_owned).collect();
+    let names = statement.waves.iter().chain(&names);
     let signal = |name: &String, window| {
-        let quantity = solution.recurrence().observation(name).expect("a known name");
-        Ok(ClosedSignal::of_recurrence(solution, &quantity, window)?)
+        Ok(signal::of_recurrence(solution, name, window)?.expect("a known name"))
     };
     request.values(names.map(|name| (name, name)), signal, |_, signal, time| {
-        rounded(signal, time, request)
+        rounded(&**signal, time, request)
     })
 }
 

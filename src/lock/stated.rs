@@ -4,7 +4,7 @@ use crate::enclosure::Numbers;
 use crate::export::expression_text;
 use crate::expression::Fraction;
 use crate::network::Network;
-use crate::recurrence::{Observation, Statement};
+use crate::recurrence::{Observation, ProductTerm, Quadratic, Statement};
 use crate::scene::{Observable, Place, Position, Scene, Seen};
 use std::collections::BTreeMap;
 
@@ -25,6 +25,19 @@ pub(super) fn of_recurrence(statement: &Statement) -> BTreeMap<String, String> {
     for observable in &statement.observables {
         let seen = observed(&observable.observation, statement);
         stated.insert(format!("observable {}", observable.name), seen);
+    }
+    for Quadratic { name, terms, .. } in &statement.quadratics {
+        let term = |ProductTerm { coefficient, factors }: &ProductTerm| {
+            let texts = factors.iter().map(|own| {
+                let text = observed(own, statement);
+                let is_single = own.waves.len() == 1 && own.forcing.is_zero();
+                let stands_alone = factors.len() == 1 || is_single && !text.starts_with('-');
+                if stands_alone { text } else { grouped(text) }
+            });
+            factor(fraction(coefficient)) + &texts.collect::<Vec<_>>().join("*")
+        };
+        let terms: Vec<String> = terms.iter().map(term).collect();
+        stated.insert(format!("observable {name}"), sum(&terms));
     }
     stated
 }

@@ -119,6 +119,7 @@ impl Network {
             equations: laws.laws.iter().map(|law| difference(&law.left, &law.right)).collect(),
             continuity: laws.continuity,
             observables,
+            quadratics: Vec::new(),
             notation: SourceNotation::default(),
         }
     }

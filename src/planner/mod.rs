@@ -124,7 +124,12 @@ pub(crate) fn difference<'a>(
 ) -> Box<dyn Signal + 'a> {
     let scales = networks.map(Scale::of);
     let (scale, unit) = (Rc::clone(&scales[0]), Root::from(Fraction::one()));
-    Box::new(Operation::new(&scale, Difference { scales, operands, arrivals }, unit, window))
+    Box::new(Operation::new(
+        &scale,
+        Difference { networks, scales, operands, arrivals },
+        unit,
+        window,
+    ))
 }
 
 /// A drift and modes of a scene in its user's time and unit, `c + s t + Σ (a cos ωt + b sin ωt)`; none where one of the

@@ -8,7 +8,7 @@ use super::{Kind, Problem, ProblemError};
 use crate::export::{self, Derivation, Formula, SourceForm};
 use crate::expression::{Expression, Fraction};
 use crate::language;
-use crate::network::{Network, ObservedValue};
+use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::{Observable, Recurrence, WaveIndex};
 use crate::signal::{Arrival, arrivals};
 use crate::solution::{ObserveError, ObservedStretch, Solution, Unknown};
@@ -108,7 +108,7 @@ impl Problem {
         form: Form,
     ) -> Result<Derived, ProblemError> {
         if let ToDerive::Observable(name) = what {
-            self.refuse_energy(name)?;
+            self.refuse_quadratic(name)?;
         }
         if let Some(network) = self.lattice() {
             return by_arrival(network, what, orders, form);
@@ -305,13 +305,20 @@ impl Problem {
         if self.on_lattice() { Err(ProblemError::NoCommonMeasure(what)) } else { Ok(()) }
     }
 
-    fn refuse_energy(&self, name: &str) -> Result<(), ProblemError> {
-        let Ok(network) = self.network() else { return Ok(()) };
+    fn refuse_quadratic(&self, name: &str) -> Result<(), ProblemError> {
         let name = language::normalise_name(name);
-        let is_energy = network.observables().iter().any(|observed| {
+        let is_energy = |observed: &Observed| {
             observed.name == name && matches!(observed.value, ObservedValue::Energy(_))
-        });
-        if is_energy { Err(ProblemError::EnergyHasNoPieces(name)) } else { Ok(()) }
+        };
+        match &self.kind {
+            Kind::Equations(solution) if solution.recurrence().quadratic(&name).is_some() => {
+                Err(ProblemError::ProductsHaveNoPieces(name))
+            }
+            Kind::Line { network, .. } if network.observables().iter().any(is_energy) => {
+                Err(ProblemError::EnergyHasNoPieces(name))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The wave asked for, or all that are shown: those after them only serve what is observed.
@@ -322,7 +329,7 @@ impl Problem {
         let known = language::normalise_name(name);
         match recurrence.wave(&known) {
             Some(wave) => Ok(vec![wave]),
-            None if recurrence.observable(&known).is_some() => {
+            None if recurrence.statement().observed().contains(&&*known) => {
                 Err(ProblemError::ObservableIsNoWave(name.to_owned()))
             }
             None => {
@@ -335,8 +342,8 @@ impl Problem {
 
 fn observable<'a>(recurrence: &'a Recurrence, name: &str) -> Result<&'a Observable, ProblemError> {
     recurrence.observable(&language::normalise_name(name)).ok_or_else(|| {
-        let observables = recurrence.statement().observables.iter();
-        let observables = observables.map(|observable| observable.name.clone()).collect();
+        let observed = recurrence.statement().observed();
+        let observables = observed.into_iter().map(str::to_owned).collect();
         ProblemError::NotAnObservable { name: name.to_owned(), observables }
     })
 }

@@ -86,6 +86,8 @@ pub enum ProblemError {
     NotAnObservable { name: String, observables: Vec<String> },
     #[error("{0} is an energy, quadratic in the waves, and has no pieces of its own")]
     EnergyHasNoPieces(String),
+    #[error("{0} holds products of waves, and has no pieces of its own")]
+    ProductsHaveNoPieces(String),
     #[error("the echoes of {0} are those of its waves")]
     EchoesOfObservable(String),
     #[error("the waves in {0} do not arrive together, so it has no common periods")]

@@ -9,9 +9,7 @@ use crate::field::FieldEvaluator;
 use crate::model::{Model as _, ModelError, Steps};
 use crate::network::ScaledScene;
 use crate::planner::{self, Origin, Purpose};
-use crate::signal::{
-    self, ClosedSignal, EchoCount, EvaluateError, Limit, Signal, Value, reaching_a_double,
-};
+use crate::signal::{self, EchoCount, EvaluateError, Limit, Signal, Value, reaching_a_double};
 use num_traits::{Signed as _, ToPrimitive as _};
 use wavestep_polynomial::Rational;
 
@@ -197,8 +195,8 @@ impl Problem {
                 Ok(planner::of_scene(network, observed, window, purpose)?)
             }
             (Kind::Equations(solution), _) => {
-                let observation = wanted.observation().expect("it is linear");
-                Ok(Box::new(ClosedSignal::of_recurrence(solution, observation, window)?))
+                let signal = signal::of_recurrence(solution, &wanted.name, window)?;
+                signal.ok_or_else(|| self.unknown(&wanted.name))
             }
             _ => Err(self.unknown(&wanted.name)),
         }

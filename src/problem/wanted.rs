@@ -13,7 +13,7 @@ pub struct Wanted {
     pub name: String,
     /// The dimension of its values; none for waves, and in scenes without units.
     pub dimension: Dimension,
-    /// What it is in waves; `None` where there are none.
+    /// What it is in waves; `None` for a sum of products of those of a recurrence.
     pub(super) observed: Option<Observed>,
     /// Its place among the observables of a scene.
     pub(super) place: Option<usize>,
@@ -51,7 +51,7 @@ impl Problem {
     /// What is observed, in the order of the text.
     pub fn observables(&self) -> Vec<&str> {
         match self.stated() {
-            Err(equations) => equations.observables.iter().map(|own| own.name.as_str()).collect(),
+            Err(equations) => equations.observed(),
             Ok(scene) => scene.observables.iter().map(|own| own.name.as_str()).collect(),
         }
     }
@@ -77,8 +77,16 @@ impl Problem {
         let known = language::normalise_name(name);
         let found = match &self.kind {
             Kind::Equations(solution) => {
-                let observation = solution.recurrence().observation(&known);
-                observation.map(|observation| Wanted::linear(&known, observation))
+                let recurrence = solution.recurrence();
+                let quadratic = || {
+                    let (name, dimension) = (known.clone(), Dimension::NONE);
+                    recurrence.quadratic(&known)?;
+                    Some(Wanted { name, dimension, observed: None, place: None })
+                };
+                let observation = recurrence.observation(&known);
+                observation
+                    .map(|observation| Wanted::linear(&known, observation))
+                    .or_else(quadratic)
             }
             Kind::Line { network, .. } => {
                 let found = of_network(network, &known);

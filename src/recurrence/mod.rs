@@ -22,7 +22,8 @@ pub(crate) use notation::SourceProduct;
 pub use ordering::{Coupled, Start, Step};
 pub use recurrence::Recurrence;
 pub use statement::{
-    Clause, Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave, Statement,
+    Clause, Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave,
+    ProductTerm, Quadratic, Statement,
 };
 
 /// The place of a wave among the waves of a recurrence.

@@ -5,7 +5,8 @@ use crate::recurrence::WaveIndex;
 use crate::recurrence::form::{Lags, LinearForm};
 use crate::recurrence::ordering::{self, Coupled, Ordered, Step};
 use crate::recurrence::statement::{
-    Clause, Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave, Statement,
+    Clause, Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave, Quadratic,
+    Statement,
 };
 use wavestep_polynomial::{Polynomial, Symbol};
 
@@ -90,6 +91,11 @@ impl Recurrence {
 
     pub fn observable(&self, name: &str) -> Option<&Observable> {
         self.statement.observables.iter().find(|observable| observable.name == name)
+    }
+
+    /// The observable called `name`, where it is a sum of products.
+    pub fn quadratic(&self, name: &str) -> Option<&Quadratic> {
+        self.statement.quadratics.iter().find(|own| own.name == name)
     }
 
     /// An estimate from above of the degree of pieces and echoes of an order: on each period every

@@ -33,6 +33,22 @@ pub struct Observation {
     pub forcing: Expression,
 }
 
+/// A named sum of products of quantities that are linear in the waves.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Quadratic {
+    pub name: String,
+    /// Its place among all that is observed.
+    pub place: usize,
+    pub terms: Vec<ProductTerm>,
+}
+
+/// A coefficient, free of time, times two factors; or one factor alone, with the coefficient 1.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ProductTerm {
+    pub coefficient: Fraction,
+    pub factors: Vec<Observation>,
+}
+
 /// One wave in an [`Observation`]: `coefficient · w(t − delay)`, or `coefficient · w'(t − delay)`.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ObservedWave {
@@ -72,8 +88,19 @@ pub struct Statement {
     /// Forms that are continuous.
     pub continuity: Vec<Continuity>,
     pub observables: Vec<Observable>,
+    /// What is observed beside these and is no longer linear.
+    pub quadratics: Vec<Quadratic>,
     /// How the source writes it.
     pub notation: SourceNotation,
+}
+
+impl Statement {
+    /// The names of all that is observed, in the order of the text.
+    pub fn observed(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = self.observables.iter().map(|own| own.name.as_str()).collect();
+        self.quadratics.iter().for_each(|own| names.insert(own.place, &own.name));
+        names
+    }
 }
 
 /// A clause of a statement, by its place in the list of its kind.

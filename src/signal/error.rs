@@ -50,7 +50,7 @@ pub enum EvaluateError {
     EmptyWindow,
     #[error("the function is too steep for polynomials between neighbouring doubles")]
     TooSteep,
-    #[error("this method sums waves; an energy is quadratic in them")]
+    #[error("this method sums waves, and this quantity is quadratic in them")]
     NotLinear,
     #[error("the openings of the contacts cannot be followed with {bits} bits")]
     NotFollowed { bits: u64 },

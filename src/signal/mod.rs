@@ -33,6 +33,7 @@ pub use method::{
     Certified, Compiled, Evaluator, Marched, MethodError, StablePrecision, Summation, Summed,
     instructions,
 };
+pub use operations::of_recurrence;
 pub(crate) use operations::{
     Balanced, Combination, Constant, Difference, Integral, Operation, Product, Scale, Vibrating,
 };

@@ -27,6 +27,7 @@ mod measures;
 mod methods;
 mod models;
 mod phases_fields;
+mod products;
 mod rise;
 mod root_formulas;
 mod roots;

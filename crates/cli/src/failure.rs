@@ -166,7 +166,7 @@ fn in_options(cause: &ProblemError) -> Option<String> {
         ProblemError::ObservableIsNoWave(name) => {
             format!("it is an observable: ask for --observable {name}")
         }
-        ProblemError::EnergyHasNoPieces(name) => {
+        ProblemError::EnergyHasNoPieces(name) | ProblemError::ProductsHaveNoPieces(name) => {
             format!("evaluate it: wavestep eval SCENE --quantity {name} --at T")
         }
         ProblemError::NoNumber(name) => format!("write a number such as {name} 33/10"),

@@ -1,9 +1,9 @@
 //! Exact forms of waves and observables of a recurrence at rational times.
 
 use crate::enclosure::enclose_expression;
-use crate::expression::{EchoSum, Expression};
+use crate::expression::{EchoSum, Expression, Fraction};
 use crate::limits::{MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM};
-use crate::recurrence::{Observation, Recurrence, WaveIndex};
+use crate::recurrence::{Observation, ObservedWave, Recurrence, Statement, WaveIndex};
 use crate::signal::closed::contribution::{Contribution, Parts, enclose, rational_value};
 use crate::signal::error::EvaluateError;
 use crate::signal::signal::{Limit, Point};
@@ -14,6 +14,9 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 use wavestep_polynomial::{Rational, Symbol};
+
+/// The last period on which the function of a wave is worked out where it may decide a sign.
+const LAST_EXACT_PIECE: usize = 64;
 
 /// The echoes of a wave, in the cheapest exact form.
 enum Echoes {
@@ -63,6 +66,34 @@ impl<'a> ExactEchoes<'a> {
                 enclose(&parts.rational, bits).map_err(EvaluateError::Ball)
             }),
         })
+    }
+
+    /// The value at a time, where nothing arrives after another time; none where it is long.
+    pub fn exact_since(
+        &self,
+        observation: &Observation,
+        since: &Rational,
+        at: &Fraction,
+    ) -> Option<Expression> {
+        let Statement { local, time, period, .. } = self.recurrence().statement();
+        if since.is_negative() {
+            return Some(Expression::zero());
+        }
+        let mut sum = observation.forcing.substitute(time, at).ok()?;
+        for ObservedWave { coefficient, wave, slope, delay } in &observation.waves {
+            let since = since - delay.as_constant()?;
+            let Some(n) = self.last_arrival(*wave, &since, Limit::Right).ok()? else { continue };
+            if n > LAST_EXACT_PIECE {
+                return None;
+            }
+            let mut piece = self.solution.pieces(*wave, n, n).ok()?.pop()?;
+            if *slope {
+                piece = piece.derivative(local);
+            }
+            let passed = delay + &period.scale(&Rational::from_integer(n.into()));
+            sum += &(&piece.substitute(local, &(at - &passed)).ok()? * coefficient);
+        }
+        Some(sum)
     }
 
     fn parts(

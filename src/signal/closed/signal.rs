@@ -379,19 +379,20 @@ impl Signal for ClosedSignal<'_> {
     }
 
     fn exact_at(&self, stretch: usize, at: &Fraction, effort: Effort) -> Option<Expression> {
-        let Source::Scene { network, value, unit, echoes, .. } = &self.source else {
-            return None;
-        };
-        if effort == Effort::Little {
+        if effort == Effort::Little || self.is_cut() {
             return None;
         }
-        if self.is_cut() {
-            return None;
+        let since = &self.stretch(stretch).from;
+        match &self.source {
+            Source::Recurrence { echoes, value } => {
+                echoes.exact_since(value, &since.as_constant()?, at)
+            }
+            Source::Scene { network, value, unit, echoes, .. } => {
+                let unit = unit.exact()?;
+                let echoes = self.scene_echoes(network, echoes).ok()?;
+                Some(echoes.exact_since(value, since, at)?.times(&unit))
+            }
         }
-        let unit = unit.exact()?;
-        let echoes = self.scene_echoes(network, echoes).ok()?;
-        let value = echoes.exact_since(value, &self.stretch(stretch).from, at)?;
-        Some(value.times(&unit))
     }
 
     fn count(&self) -> Result<usize, EvaluateError> {

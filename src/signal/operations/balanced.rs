@@ -37,7 +37,7 @@ impl<'a> Balanced<'a> {
     }
 
     fn slowness(&self, bits: u64) -> Outcome<Ball> {
-        Ok(self.scale.numbers.enclose(self.scale.slowness(), bits)?)
+        Ok(self.scale.numbers.enclose(&self.scale.slowness, bits)?)
     }
 
     /// The stretch of the flow of a place, at its beginning or its end.
@@ -171,7 +171,7 @@ impl Rule for Balanced<'_> {
     }
 
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {
-        if at.contains(&self.scale.network.scene().time) {
+        if at.contains(self.scale.clock) {
             return None;
         }
         let at_start = self.mark(0, places[0]).compare(&self.scale.mark_scaled(at)).ok()?.is_eq();

@@ -6,6 +6,7 @@
 use super::{Mark, Outcome, Rule, Scale, value_at};
 use crate::ball::Ball;
 use crate::expression::{Expression, Fraction};
+use crate::network::Network;
 use crate::scene::PI;
 use crate::signal::{At, EchoCount, Effort, Enclosure, Instant, Known, Limit, Signal, Taylor};
 use std::ops::Range;
@@ -16,6 +17,7 @@ use wavestep_polynomial::Rational;
 /// - both operands have the window of the difference, and values in one unit.
 /// - where arrivals are left out, the function of each stretch of the second operand is known for all times after it.
 pub(crate) struct Difference<'a> {
+    pub networks: [&'a Network; 2],
     pub scales: [Rc<Scale<'a>>; 2],
     pub operands: [Box<dyn Signal + 'a>; 2],
     /// How many arrivals of the second operand count: after them it goes on as if no more came.
@@ -26,7 +28,7 @@ impl<'a> Difference<'a> {
     /// Whether a number means the same in both scenes: it holds square roots, `pi`, and constants with one name and one
     /// definition, as all those that they may rest on have.
     fn is_common(&self, number: &Fraction) -> bool {
-        let [own, other] = self.scales.each_ref().map(|scale| &scale.network.model().constants);
+        let [own, other] = self.networks.map(|network| &network.model().constants);
         let shared = own.iter().zip(other).take_while(|(own, other)| own == other);
         let shared: Vec<_> = shared.map(|(own, _)| &own.symbol).collect();
         let symbols = Expression::from(number.clone()).symbols();
@@ -37,7 +39,7 @@ impl<'a> Difference<'a> {
 
     /// A time in the scale of one scene, in that of the other, where the units of time have an exact ratio.
     fn rescaled(&self, time: &Fraction, [from, to]: [usize; 2]) -> Option<Fraction> {
-        let unit = |scene: usize| &self.scales[scene].network.model().scale.time;
+        let unit = |scene: usize| &self.networks[scene].model().scale.time;
         let ratio = unit(from).over(unit(to)).ok()?.exact()?;
         self.is_common(time).then(|| time * &ratio)
     }
@@ -127,7 +129,7 @@ impl Rule for Difference<'_> {
     /// Numbers alone mean the same in both scenes.
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {
         // At all times at once only what is constant in both is a number.
-        let all = |scale: &Scale<'_>| Fraction::symbol(&scale.network.scene().time);
+        let all = |scale: &Scale<'_>| Fraction::symbol(scale.clock);
         let times = match *at == all(&self.scales[0]) {
             true => self.scales.each_ref().map(|scale| all(scale)),
             false => [at.clone(), self.rescaled(at, [0, 1])?],

@@ -119,7 +119,7 @@ impl<'a> Integral<'a> {
     }
 
     fn slowness(&self, bits: u64) -> Outcome<Ball> {
-        Ok(self.scale.numbers.enclose(self.scale.slowness(), bits)?)
+        Ok(self.scale.numbers.enclose(&self.scale.slowness, bits)?)
     }
 
     fn primitive(&self, stretch: usize, bits: u64) -> Outcome<Rc<Primitive>> {
@@ -394,8 +394,8 @@ impl Rule for Integral<'_> {
     }
 
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {
-        let scene = self.scale.network.scene();
-        let time = Fraction::symbol(&scene.time);
+        let Scale { clock, assumptions, .. } = &*self.scale;
+        let time = Fraction::symbol(clock);
         let mut sum = Expression::zero();
         let from_start = self.last.is_none() || places[LOWER] == 0;
         if let (true, Some(last)) = (from_start, &self.last) {
@@ -407,8 +407,7 @@ impl Rule for Integral<'_> {
             if integrand.is_zero() {
                 continue;
             }
-            let assumptions = &self.scale.network.model().assumptions;
-            let primitive = integrand.antiderivative(&scene.time, assumptions).ok()?;
+            let primitive = integrand.antiderivative(clock, assumptions).ok()?;
             let from = match (&self.last, stretch == first && !from_start) {
                 (Some(last), true) => at - last,
                 _ => self.start(stretch)?,
@@ -417,8 +416,8 @@ impl Rule for Integral<'_> {
                 true => at.clone(),
                 false => self.start(stretch + 1)?,
             };
-            sum += &primitive.substitute(&scene.time, &to).ok()?;
-            sum -= &primitive.substitute(&scene.time, &from).ok()?;
+            sum += &primitive.substitute(clock, &to).ok()?;
+            sum -= &primitive.substitute(clock, &from).ok()?;
         }
         Some(sum)
     }
@@ -432,7 +431,7 @@ impl Rule for Integral<'_> {
         let known = match self.is_zero(&places) {
             true => Some(Rational::zero()),
             false => {
-                let scaled = self.scale.network.scaled_time(at);
+                let scaled = self.scale.scaled_time(at);
                 let exact = self.exact_at(&places, &scaled, Effort::Little);
                 exact.and_then(|exact| exact.as_constant())
             }

@@ -10,6 +10,7 @@ mod combination;
 mod constant;
 mod difference;
 mod integral;
+mod observed;
 mod vibration;
 
 pub(crate) use balanced::Balanced;
@@ -17,12 +18,14 @@ pub(crate) use combination::{Combination, Product};
 pub(crate) use constant::Constant;
 pub(crate) use difference::Difference;
 pub(crate) use integral::Integral;
+pub use observed::of_recurrence;
 pub(crate) use vibration::Vibrating;
 
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
 use crate::enclosure::Numbers;
-use crate::expression::{Expression, Fraction, Root};
+use crate::expression::{Assumptions, Expression, Fraction, Root};
 use crate::network::Network;
+use crate::recurrence::Recurrence;
 use crate::signal::{
     At, ClosedForm, EchoCount, Effort, Enclosure, EvaluateError, Instant, Known, Limit, Point,
     Signal, Taylor, last_begun,
@@ -32,7 +35,7 @@ use std::cell::OnceCell;
 use std::cmp::Ordering;
 use std::ops::Range;
 use std::rc::Rc;
-use wavestep_polynomial::Rational;
+use wavestep_polynomial::{Rational, Symbol};
 
 /// The precisions with which two instants are told apart.
 const ORDER_BITS: [u64; 2] = [64, 1 << 12];
@@ -51,31 +54,53 @@ fn working(bits: u64) -> u64 {
 
 type Outcome<T> = Result<T, EvaluateError>;
 
-/// The scales of a scene, and its constants.
+/// The scales of a scene or a recurrence, and its constants.
 pub(crate) struct Scale<'a> {
-    network: &'a Network,
+    /// As that of an [`Instant`].
+    scene: usize,
+    slowness: Fraction,
+    clock: &'a Symbol,
+    assumptions: &'a Assumptions,
     numbers: Numbers,
 }
 
 impl<'a> Scale<'a> {
     pub fn of(network: &'a Network) -> Rc<Scale<'a>> {
-        Rc::new(Scale { network, numbers: Numbers::new(&network.model().constants) })
+        let model = network.model();
+        Rc::new(Scale {
+            scene: std::ptr::from_ref(network).addr(),
+            slowness: model.slowness.clone(),
+            clock: &network.scene().time,
+            assumptions: &model.assumptions,
+            numbers: Numbers::new(&model.constants),
+        })
     }
 
-    fn slowness(&self) -> &'a Fraction {
-        &self.network.model().slowness
+    /// The user's time is that of the waves.
+    pub fn of_recurrence(recurrence: &'a Recurrence) -> Rc<Scale<'a>> {
+        Rc::new(Scale {
+            scene: std::ptr::from_ref(recurrence).addr(),
+            slowness: Fraction::one(),
+            clock: &recurrence.statement().time,
+            assumptions: &recurrence.statement().assumptions,
+            numbers: Numbers::new(recurrence.constants()),
+        })
+    }
+
+    fn scaled_time(&self, time: &Rational) -> Fraction {
+        self.slowness.scale(time)
     }
 
     /// The instant that is so long after the start of the scene.
     fn instant(&self, delay: Fraction) -> Instant {
-        Instant { scene: std::ptr::from_ref(self.network).addr(), event: None, delay }
+        Instant { scene: self.scene, event: None, delay }
     }
 
     /// A time of the user's.
     fn mark<'m>(&self, time: &Rational) -> Mark<'m> {
         let (exact, own) = (Some(time.clone()), time.clone());
         let enclose = Box::new(move |bits| Ok(Ball::from_rational(&own, bits)));
-        Mark { exact, instant: Some(self.instant(self.network.scaled_time(time))), enclose }
+        Mark { exact, instant: Some(self.instant(self.scaled_time(time))), enclose }
     }
 
     /// A time of the scene.
@@ -87,12 +112,12 @@ impl<'a> Scale<'a> {
 
     /// A length of time of the scene in the user's, where that is a rational number.
     fn exact_time(&self, length: &Fraction) -> Option<Rational> {
-        Some(length.as_constant()? / self.slowness().as_constant()?)
+        Some(length.as_constant()? / self.slowness.as_constant()?)
     }
 
     /// The same, enclosed.
     pub fn time(&self, length: &Fraction, bits: u64) -> Outcome<Ball> {
-        let slowness = self.numbers.enclose(self.slowness(), bits)?;
+        let slowness = self.numbers.enclose(&self.slowness, bits)?;
         let inverse = slowness.reciprocal(bits).map_err(EvaluateError::Ball)?;
         Ok(self.numbers.enclose(length, bits)?.multiply(&inverse, bits))
     }
@@ -360,7 +385,7 @@ impl<'a, R: Rule> Operation<'a, R> {
     /// What exact arithmetic tells of a limit at a time.
     fn decided(&self, at: &Rational, side: Limit) -> Outcome<Known> {
         let Some(stretch) = self.stretch_at(at, side)? else { return Ok(Known::Unknown) };
-        let at = self.scale.network.scaled_time(at);
+        let at = self.scale.scaled_time(at);
         Ok(self.told(self.rule.exact_at(&self.step(stretch).places, &at, Effort::Much)))
     }
 }
@@ -411,7 +436,7 @@ impl<R: Rule> Signal for Operation<'_, R> {
     }
 
     fn scaled_time(&self, time: &Rational) -> Fraction {
-        self.scale.network.scaled_time(time)
+        self.scale.scaled_time(time)
     }
 
     fn begins(&self, stretch: usize, at: &Fraction) -> Outcome<Ordering> {
@@ -483,12 +508,11 @@ impl<R: Rule> Signal for Operation<'_, R> {
     }
 
     fn exact(&self, stretch: usize, at: At<'_>) -> Outcome<Option<Rational>> {
-        let network = self.scale.network;
         let at = match at {
-            At::Time(time) => network.scaled_time(time),
+            At::Time(time) => self.scale.scaled_time(time),
             At::Scaled(time) => time.clone(),
             At::End(Limit::Left) if stretch + 1 == self.known().len() => {
-                network.scaled_time(&self.window[1])
+                self.scale.scaled_time(&self.window[1])
             }
             At::End(end) => match self.instant(stretch + usize::from(end == Limit::Left)) {
                 Some(Instant { event: None, delay, .. }) => delay,
@@ -512,7 +536,7 @@ impl<R: Rule> Signal for Operation<'_, R> {
 
     /// Known where the exact function of the stretch is the constant.
     fn equals(&self, stretch: usize, value: &Rational, _: &[Rational; 2], _: u64) -> Outcome<bool> {
-        let time = Fraction::symbol(&self.scale.network.scene().time);
+        let time = Fraction::symbol(self.scale.clock);
         let own = self.rule.exact_at(&self.step(stretch).places, &time, Effort::Much);
         Ok(self.told(own) == Known::Rational(value.clone()))
     }

@@ -280,9 +280,13 @@ const QUESTIONS: [Question; 25] = [
     Question { name: "`eval` of an energy", rank: Rank::Proven,
         asked: |kind| eval(kind, energy_of(kind), "--digits 15"),
         holds: |asked| {
-            if let Some([energy, _]) = asked.kind.held {
-                asked.is_close(asked.after("= "), energy, 1e-13);
-            }
+            let Some([energy, _]) = asked.kind.held else { return };
+            let energy = match (energy_of(asked.kind), &asked.kind.mass) {
+                // That of a mass of 1.
+                ("held", Some(mass)) => 0.5 * mass.velocity(asked.time()).powi(2),
+                _ => energy,
+            };
+            asked.is_close(asked.after("= "), energy, 1e-13);
         } },
     Question { name: "`eval --tol`", rank: Rank::Proven,
         asked: |kind| eval(kind, "velocity", "--tol abs:1e-9"),
@@ -332,7 +336,7 @@ const QUESTIONS: [Question; 25] = [
             let (largest, now) = (asked.after("largest held = "), asked.value("held"));
             let energy = asked.kind.held.map_or(f64::INFINITY, |held| held[0]);
             assert!(now <= largest && largest <= energy * (1.0 + 1e-13), "{now}, {largest}");
-            // All is in the bar when the mass stands still.
+            // All is in the bar when the mass stands still; that of the mass is all at the start.
             if asked.kind.mass.as_ref().is_some_and(|mass| mass.reflection == -1.0) {
                 asked.is_close(largest, energy, 1e-13);
             }
