@@ -234,9 +234,10 @@ impl Problem {
         let title = || other.title().to_owned();
         // A wave of the other scene may have the name of what is observed here.
         let others = other.wanted(&wanted.name).ok();
-        let others = others.filter(|others| others.place.is_some() == wanted.place.is_some());
+        let is_observed = |problem: &Problem| problem.observables().contains(&&*wanted.name);
+        let others = others.filter(|_| is_observed(self) == is_observed(other));
         let Some(others) = others else {
-            let waves = if wanted.place.is_none() { other.waves() } else { Vec::new() };
+            let waves = if is_observed(self) { Vec::new() } else { other.waves() };
             let names = waves.into_iter().chain(other.observables()).map(str::to_owned);
             let (name, names) = (wanted.name.clone(), names.collect());
             return Err(ProblemError::UnknownThere { name, title: title(), names });
