@@ -133,6 +133,21 @@ fn constant_sums_of_products_are_constants() {
     );
 }
 
+/// A value that is zero only as a whole is decided by exact functions at its time.
+#[test]
+fn zeros_of_sums_of_products_are_exact() {
+    let decaying = solution(
+        "recurrence \"Decaying\"\nperiod 2, local s, time t\nwave f\nequation f[n] = exp(-t)\n\
+         observe level = f[n]^2 - exp(-6)\nobserve earlier = f(t - 1)*f(t) - exp(-5)\n",
+    );
+    for (name, zero) in [("level", "3"), ("earlier", "3")] {
+        let signal = signal(&decaying, name, ["0", "5"]);
+        let at = |time| value(&*signal, &number(time), Limit::Right, 15, 1 << 12).unwrap();
+        assert_eq!(at(zero), Value::Exact(number("0")), "{name}");
+        assert!(at("5/2").to_f64() > 1e-3, "{name}");
+    }
+}
+
 /// Names are told in the order of the text.
 #[test]
 fn products_keep_their_place_among_observables() {
