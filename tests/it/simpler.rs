@@ -419,6 +419,9 @@ fn no_distance_is_below_what_is_negligible() {
     let (wanted, zero, to) =
         (own.wanted("rock_force").unwrap(), rational(0, 1), rational(4, 10_000));
     let signal = own.difference_on(&other, &wanted, [&zero, &to], Purpose::Search).unwrap();
+    // With nothing negligible, what is not told from zero is left at its bound.
+    let [low, high] = Search::new(&*signal).unwrap().largest(&zero).unwrap().bounds;
+    assert!(low == zero && high < rational(1, 1_000_000), "{low} {high}");
     let size = Size::of(&*signal, (9, 1 << 12), &rational(1, 1_000_000)).unwrap();
     assert!(size.bounds[1] <= rational(1, 1_000_000) && size.places.is_empty());
 }

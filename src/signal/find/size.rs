@@ -20,6 +20,9 @@ const TERMS: usize = 16;
 /// How much larger than the largest value that is known the bound may be: by a part of `2^−8`.
 const SLACK: i64 = 8;
 
+/// How often a stretch is halved: what is not decided then is as good as it gets, and its bound counts.
+const DEPTH: usize = 56;
+
 /// How often a polynomial is used for shorter cells.
 const HALVINGS: usize = 5;
 
@@ -106,70 +109,58 @@ impl Bounding<'_, '_> {
 
     fn cover(&mut self, stretch: usize) -> Result<(), EvaluateError> {
         let [from, to] = self.search.bounds(stretch)?;
-        self.descend(stretch, (from, to), None)
+        self.descend(stretch, (from, to), 0, None)
     }
 
     fn descend(
         &mut self,
         stretch: usize,
         (from, to): (Rational, Rational),
+        depth: usize,
         known: Option<&Known>,
     ) -> Result<(), EvaluateError> {
-        let search = self.search;
+        let (search, bits) = (self.search, self.bits());
         search.work.set(search.work.get() + 1);
-        if search.work.get() > MAX_POLYNOMIALS {
-            return Err(EvaluateError::TooManyCells { limit: MAX_POLYNOMIALS });
-        }
         let (middle, half) = middle_and_half(&from, &to);
-        let halvings = known.map_or(0, |known| known.halvings + 1);
-        let taylor = match known.filter(|_| halvings <= HALVINGS) {
+        let own = match known.filter(|known| known.halvings < HALVINGS) {
             Some(known) => {
                 let (a, b) = ((&middle - &known.middle) / &known.half, &half / &known.half);
-                known.taylor.part(&a, &b, self.bits())
+                let taylor = known.taylor.part(&a, &b, bits);
+                Known { taylor, middle, half, halvings: known.halvings + 1 }
             }
-            None => return self.expand(stretch, (from, to)),
+            None => {
+                self.expansions += 1;
+                let taylor = search.function.taylor(stretch, 0, (&middle, &half), TERMS, bits)?;
+                Known { taylor, middle, half, halvings: 0 }
+            }
         };
-        self.decide(stretch, (from, to), Known { taylor, middle, half, halvings })
-    }
-
-    /// A cell with a polynomial of its own.
-    fn expand(
-        &mut self,
-        stretch: usize,
-        (from, to): (Rational, Rational),
-    ) -> Result<(), EvaluateError> {
-        self.expansions += 1;
-        if self.expansions > MAX_EXPANSIONS {
-            return Err(EvaluateError::TooManyCells { limit: MAX_EXPANSIONS });
+        if search.work.get() > MAX_POLYNOMIALS || self.expansions > MAX_EXPANSIONS {
+            let limit =
+                if self.expansions > MAX_EXPANSIONS { MAX_EXPANSIONS } else { MAX_POLYNOMIALS };
+            return Err(EvaluateError::TooManyCells { limit });
         }
-        let (middle, half) = middle_and_half(&from, &to);
-        let taylor =
-            self.search.function.taylor(stretch, 0, (&middle, &half), TERMS, self.bits())?;
-        self.decide(stretch, (from, to), Known { taylor, middle, half, halvings: 0 })
-    }
-
-    fn decide(
-        &mut self,
-        stretch: usize,
-        (from, to): (Rational, Rational),
-        own: Known,
-    ) -> Result<(), EvaluateError> {
-        let value = own.taylor.coefficients[0].widened(&own.taylor.remainder);
-        self.note(&value, &own.middle);
-        let most = Rational::from(&range_of(&own.taylor).magnitude());
-        let [low, high] = &mut self.known.bounds;
-        let slack = &*low * Rational::from(&Magnitude::power_of_two(-SLACK));
-        if most <= &*low + slack || most <= self.negligible {
-            if most > *high {
-                *high = most;
-            }
+        if self.is_done(&own, depth) {
             return Ok(());
         }
         // A part of a polynomial is no better than what is left out of the whole.
-        let sharp = is_sharp(&own.taylor);
-        let middle = own.middle.clone();
-        let known = sharp.then_some(&own);
-        self.descend(stretch, (from, middle.clone()), known)?;
-        self.descend(stretch, (middle, to), known)
+        let known = is_sharp(&own.taylor).then_some(&own);
+        self.descend(stretch, (from, own.middle.clone()), depth + 1, known)?;
+        self.descend(stretch, (own.middle.clone(), to), depth + 1, known)
+    }
+
+    /// Whether halves of a cell would tell no more, and then notes its bound: it is near enough, or nothing is told from zero.
+    fn is_done(&mut self, own: &Known, depth: usize) -> bool {
+        self.note(&own.taylor.coefficients[0].widened(&own.taylor.remainder), &own.middle);
+        let most = Rational::from(&range_of(&own.taylor).magnitude());
+        let [low, high] = &mut self.known.bounds;
+        let slack = &*low * Rational::from(&Magnitude::power_of_two(-SLACK));
+        let is_noise =
+            is_sharp(&own.taylor) && own.taylor.coefficients.iter().all(Ball::contains_zero);
+        let is_done =
+            most <= &*low + slack || most <= self.negligible || is_noise || depth >= DEPTH;
+        if is_done && most > *high {
+            *high = most;
+        }
+        is_done
     }
 }
