@@ -4,7 +4,6 @@ use super::{Mark, Outcome, Rule, Scale};
 use crate::ball::Ball;
 use crate::expression::{Expression, Fraction};
 use crate::signal::{EchoCount, Effort, Enclosure, Known, Limit, Taylor};
-use std::ops::Range;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
@@ -24,17 +23,9 @@ impl Constant<'_> {
 }
 
 impl Rule for Constant<'_> {
-    fn ranges(&self) -> Outcome<Vec<Range<usize>>> {
-        Ok(Vec::new())
-    }
-
     /// There are no breaks.
     fn mark(&self, _: usize, _: usize) -> Mark<'_> {
         self.scale.mark(&Rational::default())
-    }
-
-    fn is_instant(&self, _: usize, _: usize) -> bool {
-        false
     }
 
     fn is_zero(&self, _: &[usize]) -> bool {

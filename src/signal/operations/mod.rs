@@ -213,8 +213,11 @@ fn value_at(
 /// What an operation is between the breaks of its operands. A list of places says for each operand, or
 /// for each end of an integral, on which stretch it is.
 pub(crate) trait Rule {
-    /// The places on the first stretch, and the ends of those that follow, one range for each operand.
-    fn ranges(&self) -> Outcome<Vec<Range<usize>>>;
+    /// The places on the first stretch, and the ends of those that follow, one range for each operand; none where there are
+    /// no breaks.
+    fn ranges(&self) -> Outcome<Vec<Range<usize>>> {
+        Ok(Vec::new())
+    }
 
     /// Whether breaks that are not told apart by thousands of bits count as one.
     fn takes_ties(&self) -> bool {
@@ -225,7 +228,9 @@ pub(crate) trait Rule {
     fn mark(&self, operand: usize, place: usize) -> Mark<'_>;
 
     /// Whether an operand is at a place for the last instant of the window alone.
-    fn is_instant(&self, operand: usize, place: usize) -> bool;
+    fn is_instant(&self, _operand: usize, _place: usize) -> bool {
+        false
+    }
 
     fn is_zero(&self, places: &[usize]) -> bool;
 

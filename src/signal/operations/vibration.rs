@@ -7,7 +7,6 @@ use super::{Mark, Outcome, Rule, Scale};
 use crate::ball::Ball;
 use crate::expression::{Expression, Fraction};
 use crate::signal::{EchoCount, Effort, Enclosure, EvaluateError, Known, Limit, Taylor};
-use std::ops::Range;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
@@ -83,17 +82,9 @@ fn power(base: &Ball, exponent: usize, bits: u64) -> Ball {
 }
 
 impl Rule for Vibrating<'_> {
-    fn ranges(&self) -> Outcome<Vec<Range<usize>>> {
-        Ok(Vec::new())
-    }
-
     /// There are no breaks.
     fn mark(&self, _: usize, _: usize) -> Mark<'_> {
         self.scale.mark(&Rational::default())
-    }
-
-    fn is_instant(&self, _: usize, _: usize) -> bool {
-        false
     }
 
     fn is_zero(&self, _: &[usize]) -> bool {
