@@ -267,6 +267,9 @@ fn remedy(error: &ProblemError) -> Option<String> {
             format!("the observables of this scene are {}", observables.join(", "))
         }
         ProblemError::Change(ChangeError::Unknown(_)) => format!("it is one of {}", Simpler::FORMS),
+        ProblemError::NoSymbol { symbols, .. } if !symbols.is_empty() => {
+            format!("the symbols without a value are {}", symbols.join(", "))
+        }
         ProblemError::Digits(_) => format!("ask for 1 to {MAX_DIGITS} digits"),
         ProblemError::OutsidePeriod(times) => format!("give a time from 0 to below {}", times[1]),
         ProblemError::LocalContact { spring, .. } => {
@@ -306,6 +309,10 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
             "name an element of the line"
         }
         ProblemError::Change(_) => "leave something else out",
+        ProblemError::Span(_) => {
+            "write it as mu=1/10..10, with a positive first value below the last"
+        }
+        ProblemError::NoSymbol { .. } => "leave out --for: all has a value",
         ProblemError::Apart { .. } => "compare scenes with the same units",
         ProblemError::NoClosedForm { .. } => {
             "ask for values of its observables, which any line has"

@@ -172,9 +172,8 @@ fn cut<'a>(
             Tolerance::Absolute(_) => None,
             _ => question.within(most(scale))?,
         };
-        // Where as many are needed they are the same, and these are worked out.
-        let needed = |question: &Question<'_>| question.signal.echoes().map(|count| count.needed);
-        let finer = finer.filter(|finer| needed(finer) != needed(&found));
+        // What is worked out is enough, where no more than that is left out.
+        let finer = finer.filter(|_| rest > most(scale));
         return Ok(Some(Cut { question: finer.unwrap_or(found), scale }));
     }
     Ok(None)

@@ -40,8 +40,10 @@ pub enum Purpose {
     Values { digits: usize },
     /// Values at times, from echoes that are counted one by one.
     Echoes,
-    /// Stretches between breaks, for polynomials.
+    /// Stretches between breaks, for any method in doubles.
     Stretches,
+    /// The same for polynomials alone.
+    Polynomials,
     /// The same for roots and extrema: energies and momenta with what flows in.
     Search,
     /// Values by what knows of contacts that stay closed alone: methods that need a closed form, and models.
@@ -57,6 +59,13 @@ pub fn has_periods(network: &Network) -> bool {
 /// A closed form that would take more bytes than this is replaced by following: its memory grows at least as the square
 /// of the number of echoes.
 const FOLLOWED_FROM: f64 = 64e6;
+
+/// Where roots, extrema or polynomials are wanted, a closed form with more pieces or arrivals than this is replaced by
+/// following, since each of them is a sum over all before it; what is known of a few lets a search end sooner.
+const MOST_SEARCHED: usize = 64;
+
+/// Where echoes that cannot matter for a tolerance are left out, a closed form serves for more arrivals.
+const MOST_LEFT_OUT: usize = 1024;
 
 /// Following takes ever more bits and memory for more digits; a closed form goes on beyond these.
 const MOST_FOLLOWED_DIGITS: usize = 100;
@@ -91,14 +100,20 @@ pub fn origin(network: &Network, to: &Rational, purpose: Purpose) -> Origin {
     if !has_periods(network) || is_crowded(network) && purpose != Purpose::Echoes {
         return Origin::Followed;
     }
-    let most = match purpose {
-        Purpose::Values { digits } if digits <= MOST_FOLLOWED_DIGITS => FOLLOWED_FROM,
-        // What is known of a closed form lets roots and polynomials be found sooner.
-        Purpose::Stretches | Purpose::Search => f64::INFINITY,
+    let is_closed = match purpose {
+        Purpose::Values { digits } if digits <= MOST_FOLLOWED_DIGITS => {
+            ClosedForm::foreseen(network, to).map(|bytes| bytes <= FOLLOWED_FROM)
+        }
+        Purpose::Search => ClosedForm::parts(network, to).map(|parts| parts <= MOST_SEARCHED),
+        Purpose::Polynomials => {
+            let is_lattice = network.lattice().periods().len() > 1;
+            let most = if is_lattice { MOST_LEFT_OUT } else { MOST_SEARCHED };
+            ClosedForm::parts(network, to).map(|parts| parts <= most)
+        }
         _ => return Origin::Closed,
     };
-    match ClosedForm::foreseen(network, to) {
-        Ok(bytes) if bytes <= most => Origin::Closed,
+    match is_closed {
+        Ok(true) => Origin::Closed,
         Err(error) if !error.is_too_much() => Origin::Closed,
         _ => Origin::Followed,
     }
@@ -187,7 +202,7 @@ fn is_marched(
     let signal = || ClosedSignal::of_scene(network, observed, window).ok();
     let has_taps =
         |signal: ClosedSignal<'_>| signal.closed_form().is_ok_and(|form| Taps::of(form).is_ok());
-    purpose == Purpose::Stretches && signal().is_some_and(has_taps)
+    purpose == Purpose::Polynomials && signal().is_some_and(has_taps)
 }
 
 /// The same from one of the two sources.
@@ -312,7 +327,7 @@ pub(crate) fn entering_waves<'a>(
     last: &Rational,
 ) -> Result<Vec<[Option<EnteringWave<'a>>; 2]>, SignalError> {
     let window = [&Rational::zero(), last];
-    let follower = match origin(network, last, Purpose::Stretches) {
+    let follower = match origin(network, last, Purpose::Search) {
         Origin::Closed => None,
         Origin::Followed => match Follower::new(network, None, window) {
             Err(HistoryError::Refused(_)) if has_periods(network) => None,

@@ -8,7 +8,7 @@ use crate::ball::Ball;
 use crate::language::syntax::Declared;
 use crate::language::{self, Beyond, Change};
 use crate::planner::Purpose;
-use crate::signal::{Largest, Limit, Search, Signal};
+use crate::signal::{Limit, Signal};
 use num_traits::Signed as _;
 use std::time::{Duration, Instant};
 use wavestep_polynomial::Rational;
@@ -123,7 +123,7 @@ impl Problem {
     /// As [`Problem::signal_on`], and where the largest value is not found.
     pub fn advise(&self, need: &Need<'_>, tell: &dyn Fn(&Simpler)) -> Result<Advice, ProblemError> {
         let signal = self.signal_on(need.wanted, need.window, Purpose::Search)?;
-        let largest = size(&*signal, &Rational::default())?;
+        let largest = Size::near(&*signal, &Rational::default())?;
         let times = sample_times(&*signal)?;
         let begun = Instant::now();
         for time in &times {
@@ -169,11 +169,6 @@ impl Problem {
             }
         }
     }
-}
-
-fn size(signal: &dyn Signal, negligible: &Rational) -> Result<Size, ProblemError> {
-    let Largest { bounds, .. } = Search::new(signal)?.largest(negligible)?;
-    Ok(Size { bounds, places: Vec::new() })
 }
 
 /// Times within the stretches of a signal, near their ends and between.
@@ -229,7 +224,7 @@ impl Adviser<'_, '_> {
         // What is so much below the tolerance need not be known.
         let negligible =
             tolerance * &self.largest.bounds[0] / Rational::from_integer(NEGLIGIBLE.into());
-        let size = difference.and_then(|signal| size(&*signal, &negligible));
+        let size = difference.and_then(|signal| Size::near(&*signal, &negligible));
         match size {
             Err(error) => Verdict::Unproven(first_line(&error)),
             Ok(size) => match size.over(&self.largest) {

@@ -50,6 +50,10 @@ pub enum ProblemError {
     Apart { name: String, title: String },
     #[error(transparent)]
     Change(ChangeError),
+    #[error("`{0}` is no range of a symbol")]
+    Span(String),
+    #[error("`{name}` is no symbol without a value here")]
+    NoSymbol { name: String, symbols: Vec<String> },
     #[error("\"{0}\" states equations, and no bars along which to look")]
     Equations(String),
     #[error("{}", NetworkError::NotLinear(contact.clone()))]

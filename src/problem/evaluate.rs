@@ -153,7 +153,7 @@ impl Problem {
             Accuracy::Method(method, _) if method.needs_closed_contacts() => {
                 Purpose::ClosedContacts
             }
-            _ => Purpose::Stretches,
+            _ => Purpose::Polynomials,
         };
         let question = self.question_for(name, [first, last], purpose)?;
         Ok(answer::doubles(&question, times, limit, accuracy)?)
@@ -167,6 +167,18 @@ impl Problem {
         window: [Rational; 2],
     ) -> Result<Question<'_>, ProblemError> {
         self.question_for(name, window, Purpose::Stretches)
+    }
+
+    /// The same where polynomials are all that is wanted.
+    ///
+    /// # Errors
+    /// As [`Problem::question`].
+    pub fn polynomials(
+        &self,
+        name: &str,
+        window: [Rational; 2],
+    ) -> Result<Question<'_>, ProblemError> {
+        self.question_for(name, window, Purpose::Polynomials)
     }
 
     fn question_for(

@@ -6,7 +6,7 @@ use crate::language::{self, Change, ChangeError, Source};
 use crate::model::Modes;
 use crate::network::NetworkError;
 use crate::planner::{self, Purpose};
-use crate::signal::{EvaluateError, Goal, Place, Search, Signal};
+use crate::signal::{EvaluateError, Extremum, Goal, Largest, Place, Search, Signal};
 use std::fmt;
 use std::str::FromStr;
 use wavestep_polynomial::Rational;
@@ -109,6 +109,12 @@ pub struct Size {
 }
 
 impl Size {
+    /// The size of a signal, between near bounds; what is below `negligible` counts as that.
+    pub(super) fn near(signal: &dyn Signal, negligible: &Rational) -> Result<Size, ProblemError> {
+        let Largest { bounds, .. } = Search::new(signal)?.largest(negligible)?;
+        Ok(Size { bounds, places: Vec::new() })
+    }
+
     /// The size of a signal to so many digits, where its extremes are found; else between nearer bounds, or below what is
     /// negligible.
     pub fn of(
@@ -121,22 +127,40 @@ impl Size {
         if near.bounds[1] <= *negligible {
             return Ok(Size { bounds: near.bounds, places: Vec::new() });
         }
-        let found = |goal| search.extremum(goal, digits, bits);
+        let least = &near.bounds[0];
+        let found = |goal| search.extremum_beyond(goal, Some(least), digits, bits);
         let (most, least) = match (found(Goal::Largest), found(Goal::Smallest)) {
             (Ok(most), Ok(least)) => (most, least),
-            (Err(error), _) | (_, Err(error))
-                if !matches!(error, EvaluateError::AccuracyNotReached { .. }) =>
-            {
-                return Err(error.into());
-            }
-            _ => return Ok(Size { bounds: near.bounds, places: Vec::new() }),
+            (
+                Err(EvaluateError::AccuracyNotReached { .. } | EvaluateError::TooManyCells { .. }),
+                _,
+            )
+            | (
+                _,
+                Err(EvaluateError::AccuracyNotReached { .. } | EvaluateError::TooManyCells { .. }),
+            ) => return Ok(Size { bounds: near.bounds, places: Vec::new() }),
+            (Err(error), _) | (_, Err(error)) => return Err(error.into()),
         };
-        let ([low, high], [lowest, highest]) = (most.value.bounds(), least.value.bounds());
-        let places = if high >= -&lowest { most.places } else { least.places };
         // Both are proven: what either knows of it holds.
         let [first, last] = near.bounds;
-        let bounds = [low.max(-highest).max(first), high.max(-lowest).min(last)];
-        Ok(Size { bounds, places })
+        let of = |extremum: Extremum, sign: i64| {
+            let [low, high] =
+                extremum.value.bounds().map(|bound| bound * Rational::from_integer(sign.into()));
+            (low.clone().min(high.clone()), high.max(low), extremum.places)
+        };
+        let mut sizes =
+            most.map(|most| of(most, 1)).into_iter().chain(least.map(|least| of(least, -1)));
+        Ok(match (sizes.next(), sizes.next()) {
+            (None, _) => Size { bounds: [first, last], places: Vec::new() },
+            (Some((low, high, places)), None) => {
+                Size { bounds: [low.max(first), high.min(last)], places }
+            }
+            (Some((low, high, places)), Some((other_low, other_high, others))) => {
+                let places = if high >= other_high { places } else { others };
+                let bounds = [low.max(other_low).max(first), high.max(other_high).min(last)];
+                Size { bounds, places }
+            }
+        })
     }
 
     /// Between which numbers this size over another lies; none where the other may be zero.

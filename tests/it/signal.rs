@@ -81,6 +81,9 @@ fn late_values_of_closed_scenes_are_followed() {
         for purpose in [Purpose::Values { digits: 500 }, Purpose::Stretches, Purpose::Echoes] {
             assert_eq!(origin(&network, &at, purpose), Origin::Closed, "{name}");
         }
+        for purpose in [Purpose::Polynomials, Purpose::Search] {
+            assert_eq!(origin(&network, &at, purpose), Origin::Followed, "{name}");
+        }
         let late = of_origin(Origin::Followed, &network, observed, window, few).unwrap();
         let closed = of_origin(Origin::Closed, &network, observed, window, few).unwrap();
         let told = [late, closed]

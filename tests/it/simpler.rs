@@ -2,7 +2,7 @@
 
 use wavestep::language::{Change, changed};
 use wavestep::planner::Purpose;
-use wavestep::problem::{Need, Simpler, Size, Verdict};
+use wavestep::problem::{Need, Simpler, Size, ToMap, Verdict};
 use wavestep::signal::{At, Limit, Search, value};
 use wavestep::{Method, Problem};
 use wavestep_polynomial::Rational;
@@ -424,4 +424,70 @@ fn no_distance_is_below_what_is_negligible() {
     assert!(low == zero && high < rational(1, 1_000_000), "{low} {high}");
     let size = Size::of(&*signal, (9, 1 << 12), &rational(1, 1_000_000)).unwrap();
     assert!(size.bounds[1] <= rational(1, 1_000_000) && size.places.is_empty());
+}
+
+/// At the ends of each part of a map the answer it names keeps to the tolerance and all before it do not, by distances that
+/// are worked out another way: from samples, and by the search to nine digits.
+#[test]
+fn maps_of_what_is_enough_are_proven_at_their_ends() {
+    let open = Problem::builtin("mass-on-fixed-bar").unwrap();
+    let simpler: Vec<Simpler> =
+        ["third", "modes:2", "echoes:2"].map(|own| own.parse().unwrap()).into();
+    let span: wavestep::problem::Span = "mu=1/5..2".parse().unwrap();
+    let (tolerance, window) = (rational(1, 20), [rational(0, 1), rational(2, 1)]);
+    let asked = ToMap {
+        span: &span,
+        points: 5,
+        quantity: "velocity",
+        simpler: simpler.clone(),
+        tolerance: tolerance.clone(),
+        window: &|_| Ok(window.clone()),
+    };
+    let map = open.map_enough(&asked, &|_| {}).unwrap();
+    let off = |mu: &Rational, simpler: &Simpler| {
+        let problem = Problem::builtin("mass-on-fixed-bar").unwrap().with("mu", mu).unwrap();
+        let other = problem.simpler(simpler).unwrap();
+        let wanted = problem.wanted("velocity").unwrap();
+        let purpose = Purpose::Search;
+        let difference =
+            problem.difference_on(&other, &wanted, window.each_ref(), purpose).unwrap();
+        let nothing = rational(1, 1 << 40);
+        let size = Size::of(&*difference, (9, 1 << 12), &nothing).unwrap();
+        let mut sampled = Rational::default();
+        for i in 0..400 {
+            let time = rational(i, 200);
+            let here = value(&*difference, &time, Limit::Right, 20, 1 << 10).unwrap();
+            let [low, high] = here.bounds();
+            sampled = sampled.max(low.max(-high));
+        }
+        // The largest velocity is that of the mass as it strikes: 1.
+        assert!(sampled <= &size.bounds[1] + &nothing, "{simpler} at {mu}");
+        size.bounds
+    };
+    for part in &map.parts {
+        for mu in &part.between {
+            for (place, own) in simpler.iter().enumerate() {
+                let [least, most] = off(mu, own);
+                match part.first {
+                    Some(first) if place == first => assert!(most <= tolerance, "{own} at {mu}"),
+                    Some(first) if place > first => {}
+                    _ => assert!(least > tolerance, "{own} at {mu}"),
+                }
+            }
+        }
+    }
+    for pair in map.parts.windows(2) {
+        let [before, after] = [&pair[0].between[1], &pair[1].between[0]];
+        assert!(before < after && (after - before) * rational(500, 1) < *before);
+    }
+    let firsts: Vec<_> = map.parts.iter().map(|part| part.first).collect();
+    assert_eq!(firsts, [Some(1), Some(2)], "{:?}", map.parts);
+    assert_eq!(map.columns.len(), 5);
+    for column in &map.columns {
+        for (own, bounds) in simpler.iter().zip(&column.off) {
+            let [low, high] = bounds.clone().unwrap();
+            let [least, most] = off(&column.value, own);
+            assert!(low <= most && least <= high, "{own} at {}", column.value);
+        }
+    }
 }

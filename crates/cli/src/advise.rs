@@ -1,6 +1,7 @@
 //! `advise`: the smallest answer that is enough for a tolerance, with its proven distance.
 
 use super::arguments::{Advise, Format};
+use super::enough;
 use super::failure::Failure;
 use super::input;
 use super::json::SCHEMA_VERSION;
@@ -24,6 +25,9 @@ pub fn run(options: &Advise) -> Result<String, Failure> {
     let tolerance = number("--tol", &options.tol)?;
     if tolerance <= BigRational::default() {
         return Err(Failure::usage("the tolerance is not positive", "write --tol 1e-2"));
+    }
+    if let Some(over) = &options.over {
+        return enough::run(options, &problem, over, tolerance);
     }
     let name = match &options.quantity {
         Some(name) => name.trim(),
@@ -58,7 +62,7 @@ struct Told<'a> {
     advice: &'a Advice,
 }
 
-fn share(value: &BigRational) -> String {
+pub fn share(value: &BigRational) -> String {
     if *value < BigRational::new(1.into(), NOTHING.into()) {
         return "less than 1e-13 %".to_owned();
     }
@@ -67,7 +71,7 @@ fn share(value: &BigRational) -> String {
 }
 
 /// So many 200ths of a share: what rounding to three digits takes from it, or adds to it, keeps the claim.
-fn rounded(value: &BigRational, parts: u64) -> BigRational {
+pub fn rounded(value: &BigRational, parts: u64) -> BigRational {
     value * BigRational::new(parts.into(), 200.into())
 }
 

@@ -22,7 +22,7 @@ pub fn run(options: &Export) -> Result<String, Failure> {
     let to = nearest.map_or(to.clone(), |nearest| nearest.max(to));
     let pulls = pulling(&problem, &to);
     let spinner = progress::spinner("expanding the observable");
-    let question = problem.question(&options.quantity, [from, to])?;
+    let question = problem.polynomials(&options.quantity, [from, to])?;
     let absolute = tolerance.absolute(question.scale()?);
     let compiled = Compiled::new(&*question.signal, Some(absolute)).map_err(WayError::from)?;
     drop(spinner);

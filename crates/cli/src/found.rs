@@ -74,6 +74,9 @@ pub fn extremum(extremum: &Extremum, goal: Goal, told: &Told<'_>) -> String {
     }
 }
 
+/// At how many places a distance is told in text.
+const MOST_PLACES: usize = 4;
+
 /// Of each quantity how far it is from another answer, how large it is, and where they are farthest apart.
 pub fn distances(
     rows: &[(Wanted, Size, Size)],
@@ -87,16 +90,18 @@ pub fn distances(
         false => Value::of(&Number::Enclosed(enclosed(low, high)), options.digits),
     };
     let share = |distance: &Size, size: &Size| distance.over(size).as_ref().map(bounded);
-    let is_nothing = |distance: &Size| distance.places.is_empty();
-    let is_open = |(_, distance, _): &&(Wanted, Size, Size)| {
-        !is_nothing(distance) && matches!(bounded(&distance.bounds), Value::Enclosed(_))
-    };
     let little = BigRational::new(1.into(), 1_000_000_000_000_000_u64.into());
+    let is_nothing = |distance: &Size, size: &Size| {
+        distance.places.is_empty() && distance.over(size).is_some_and(|share| share[1] < little)
+    };
+    let is_open = |(_, distance, size): &&(Wanted, Size, Size)| {
+        !is_nothing(distance, size) && matches!(bounded(&distance.bounds), Value::Enclosed(_))
+    };
     let undecided = rows.iter().filter(is_open).count();
     if options.format == Format::Text {
         let row = |(wanted, distance, size): &(Wanted, Size, Size)| {
             let told = Told { options, name: minus, level: "", problem, wanted, window };
-            if is_nothing(distance) && distance.over(size).is_some_and(|share| share[1] < little) {
+            if is_nothing(distance, size) {
                 return format!(
                     "{}: {minus} is off by less than 1e-15 of the largest value\n",
                     wanted.name
@@ -106,11 +111,12 @@ pub fn distances(
                 format!(", {} of the largest value", share.to_text(options.digits))
             });
             let (name, value) = (&wanted.name, told.value(&bounded(&distance.bounds)));
-            let places = distance.places.iter().map(|place| place_line(place, &told));
-            format!(
-                "{name}: {minus} is off by at most {value}{share}\n{}",
-                places.collect::<String>()
-            )
+            let lines = distance.places.iter().map(|place| place_line(place, &told));
+            let mut places: String = lines.take(MOST_PLACES).collect();
+            if let more @ 1.. = distance.places.len().saturating_sub(MOST_PLACES) {
+                places += &format!("and at {more} more (`--format json` has all)\n");
+            }
+            format!("{name}: {minus} is off by at most {value}{share}\n{places}")
         };
         return (rows.iter().map(row).collect(), undecided);
     }

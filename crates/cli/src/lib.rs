@@ -14,6 +14,7 @@ mod derive;
 pub mod diagnostic;
 mod dispersion;
 mod doubles;
+mod enough;
 mod eval;
 mod events;
 mod export;

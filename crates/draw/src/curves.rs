@@ -1,6 +1,7 @@
 //! Curves against one axis: error or cost against the order, the time, or the mesh.
 
 use super::axis::Mapping;
+use super::drawing::{coloured, polygon};
 use super::layout::{GUTTER, LEFT, Legend, RIGHT, Sheet, counted, fitted};
 use super::marks::{self, placement_in};
 use super::number::rounded;
@@ -33,6 +34,9 @@ pub struct Curves {
     curves: Vec<Curve>,
     levels: Vec<(f64, String)>,
     ceiling: Option<f64>,
+    floor: Option<f64>,
+    /// Whether the region above each curve has its colour, as far as no curve before it has taken it.
+    are_borders: bool,
     caption: Caption,
 }
 
@@ -54,7 +58,17 @@ impl Curves {
             return Err(PlotError::Empty { title: title.to_owned() });
         }
         let (title, levels) = (title.to_owned(), Vec::new());
-        Ok(Curves { title, x, y, curves, levels, ceiling: None, caption })
+        Ok(Curves {
+            title,
+            x,
+            y,
+            curves,
+            levels,
+            ceiling: None,
+            floor: None,
+            are_borders: false,
+            caption,
+        })
     }
 
     /// The same with a labelled horizontal line at `y`.
@@ -72,6 +86,20 @@ impl Curves {
         Ok(self)
     }
 
+    /// The same with a logarithmic upward axis on which what lies below `y` stands where exact zeros do.
+    pub fn floor(mut self, y: f64) -> Result<Curves, PlotError> {
+        self.y.check(y)?;
+        self.floor = Some(y);
+        Ok(self)
+    }
+
+    /// The same as a map: the region above a curve, as far as no curve before it has taken it, has the colour of the
+    /// curve.
+    pub fn borders(mut self) -> Curves {
+        self.are_borders = true;
+        self
+    }
+
     pub fn curves(&self) -> &[Curve] {
         &self.curves
     }
@@ -85,13 +113,20 @@ impl Curves {
         point.0.is_finite() && self.ceiling.is_some_and(|ceiling| point.1 > ceiling)
     }
 
+    /// Whether a point stands at the lower edge of a logarithmic axis.
+    fn is_below(&self, point: &(f64, f64)) -> bool {
+        self.y.scale == Scale::Logarithmic
+            && (point.1 == 0.0 || self.floor.is_some_and(|floor| point.1 < floor))
+    }
+
     /// Whether a point has a place in the picture.
     fn is_drawn(&self, point: &(f64, f64)) -> bool {
         finite(point) || self.is_above(point)
     }
 
     fn left_out(&self) -> usize {
-        self.points().filter(|point| !self.is_drawn(point)).count()
+        // What has no place across only interrupts a line.
+        self.points().filter(|point| point.0.is_finite() && !self.is_drawn(point)).count()
     }
 
     fn description(&self) -> String {
@@ -122,8 +157,8 @@ fn finite(point: &(f64, f64)) -> bool {
 struct Places {
     x: Mapping,
     y: Mapping,
-    /// Whether zeros stand below the upward axis, and where.
-    zero: Option<f64>,
+    /// Whether points stand below the upward axis, and where.
+    below: Option<f64>,
     /// Whether points stand above the upward axis, and where.
     above: Option<f64>,
 }
@@ -131,29 +166,26 @@ struct Places {
 impl Places {
     fn new(chart: &Curves, sheet: &Sheet) -> Places {
         let points: Vec<&(f64, f64)> = chart.points().filter(|p| chart.is_drawn(p)).collect();
-        let logarithmic = chart.y.scale == Scale::Logarithmic;
-        let zero = logarithmic && points.iter().any(|point| point.1 == 0.0);
+        let is_below = |point: &(f64, f64)| chart.is_below(point);
+        let has_below = points.iter().any(|point| is_below(point));
         let across = points.iter().map(|point| point.0);
         let levels = chart.levels.iter().map(|level| level.0);
         let above = chart.ceiling.filter(|_| points.iter().any(|point| chart.is_above(point)));
-        let within = points.iter().filter(|point| !chart.is_above(point)).map(|point| point.1);
+        let is_within = |point: &&&(f64, f64)| !chart.is_above(point) && !is_below(point);
+        let within = points.iter().filter(is_within).map(|point| point.1);
         let up = within.chain(levels).chain(above);
         let top = if above.is_some() { sheet.top + GUTTER } else { sheet.top };
         Places {
             x: fitted(chart.x.scale, across, (LEFT, RIGHT), false),
-            y: fitted(chart.y.scale, up, (sheet.bottom(), top), zero),
-            zero: zero.then_some(sheet.bottom() - GUTTER / 2.0),
+            y: fitted(chart.y.scale, up, (sheet.bottom(), top), has_below),
+            below: has_below.then_some(sheet.bottom() - GUTTER / 2.0),
             above: above.map(|_| sheet.top + GUTTER / 2.0),
         }
     }
 
-    fn is_zero(&self, point: &(f64, f64)) -> bool {
-        self.zero.is_some() && point.1 == 0.0
-    }
-
     fn of(&self, chart: &Curves, point: &(f64, f64)) -> (f64, f64) {
-        let zero = self.zero.filter(|_| point.1 == 0.0);
-        let up = self.above.filter(|_| chart.is_above(point)).or(zero);
+        let below = self.below.filter(|_| chart.is_below(point));
+        let up = self.above.filter(|_| chart.is_above(point)).or(below);
         (self.x.position(point.0), up.unwrap_or_else(|| self.y.position(point.1)))
     }
 
@@ -162,6 +194,20 @@ impl Places {
         let parts = curve.points.split(|point| !chart.is_drawn(point));
         let parts = parts.filter(|part| !part.is_empty());
         parts.map(|part| part.iter().map(|point| self.of(chart, point)).collect()).collect()
+    }
+}
+
+/// The regions above the curves, the first curve last, so that it covers those of all others.
+fn draw_regions(chart: &Curves, sheet: &mut Sheet, places: &Places) {
+    let top = places.above.map_or(sheet.top, |_| sheet.top + GUTTER);
+    for (i, curve) in chart.curves.iter().enumerate().rev() {
+        for part in places.parts(chart, curve) {
+            let [first, .., last] = part[..] else { continue };
+            let mut outline: Vec<_> = part.iter().map(|(x, y)| (*x, y.max(top))).collect();
+            outline.extend([(last.0, top), (first.0, top)]);
+            sheet.drawing.path("paper", &polygon(&outline));
+            sheet.drawing.path(&coloured("tint", i), &polygon(&outline));
+        }
     }
 }
 
@@ -195,6 +241,10 @@ impl Chart for Curves {
         let mut sheet = Sheet::open(name, &self.title, 0.0);
         let places = Places::new(self, &sheet);
         let mut legend = Legend::default();
+        if self.are_borders {
+            sheet.drawing.style(".plot .tint{fill:currentColor;fill-opacity:.22;stroke:none}");
+            draw_regions(self, &mut sheet, &places);
+        }
         sheet.grid(&places.x, &places.y);
         let unlabelled = draw_levels(self, &mut sheet, &places);
         for (i, curve) in self.curves.iter().enumerate() {
@@ -207,7 +257,7 @@ impl Chart for Curves {
                 let (x, y) = places.of(self, point);
                 if self.is_above(point) {
                     sheet.drawing.sign("arrow", i, (x, y), UP);
-                } else if places.is_zero(point) {
+                } else if self.is_below(point) {
                     sheet.drawing.sign("arrow", i, (x, y), DOWN);
                 }
                 let about = format!("{}: {} at {}", curve.name, rounded(point.1), rounded(point.0));
@@ -216,9 +266,15 @@ impl Chart for Curves {
             legend.line(&curve.name, i);
         }
         sheet.axes((&self.x, &places.x), (&self.y, &places.y));
-        if places.zero.is_some() {
-            sheet.zero(false);
-            legend.entry("exactly zero", |sample| {
+        if places.below.is_some() {
+            let [label, text] = match self.floor {
+                None => ["0", "exactly zero"].map(str::to_owned),
+                Some(floor) => {
+                    [format!("< {}", rounded(floor)), format!("below {}", rounded(floor))]
+                }
+            };
+            sheet.beyond(false, &label);
+            legend.entry(text, |sample| {
                 sample.sign("arrow", 3, (15.0, -6.0), DOWN);
                 sample.marker(3, (15.0, -6.0), "");
             });

@@ -189,9 +189,8 @@ impl Sheet {
         }
     }
 
-    /// The tick of exact zeros left of or below a logarithmic axis, and the line that parts them
-    /// off.
-    pub fn zero(&mut self, across: bool) {
+    /// The tick of what lies left of or below a logarithmic axis, such as exact zeros, and the line that parts it off.
+    pub fn beyond(&mut self, across: bool, label: &str) {
         let bottom = self.bottom();
         let (from, to, end, anchor) = match across {
             true => {
@@ -207,7 +206,7 @@ impl Sheet {
             }
         };
         self.drawing.line("tick", from, to);
-        self.drawing.text("", anchor, end, "0");
+        self.drawing.text("", anchor, end, label);
     }
 
     /// A label by its left upper corner; how many found no place, 0 or 1.

@@ -358,7 +358,7 @@ impl Chart for WorkPrecision {
             sample.path("frontier", "M0 -6H12V5H30");
         });
         if places.zero {
-            sheet.zero(true);
+            sheet.beyond(true, "0");
             legend.entry("exactly zero", |sample| {
                 sample.sign("arrow", 3, (18.0, 0.0), LEFTWARDS);
                 sample.marker(3, (18.0, 0.0), "");

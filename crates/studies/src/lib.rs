@@ -8,6 +8,7 @@ pub mod book;
 pub mod dispersion;
 pub mod figures;
 pub mod hertz;
+pub mod largest_strain;
 pub mod picture;
 pub mod study;
 

@@ -221,9 +221,17 @@ impl ClosedForm {
         }
     }
 
+    /// What is solved with so many bits, or, where that has made room for others, with the least that are kept.
+    fn known(&self, bits: u64) -> Option<Rc<RefCell<Solved>>> {
+        let known = self.solved.borrow();
+        let (least, with_least) = known.first_key_value()?;
+        let made_room = known.len() == MAX_PRECISIONS && bits < *least;
+        known.get(&bits).or(made_room.then_some(with_least)).cloned()
+    }
+
     pub(super) fn solved(&self, bits: u64) -> Result<Rc<RefCell<Solved>>, EvaluateError> {
-        if let Some(known) = self.solved.borrow().get(&bits) {
-            return Ok(known.clone());
+        if let Some(known) = self.known(bits) {
+            return Ok(known);
         }
         let solved = match &self.lattice {
             None => Solved::Periods(Box::new(Periods::new(
@@ -260,9 +268,21 @@ impl ClosedForm {
         if network.lattice().periods().len() != 1 {
             return Ok(0.0);
         }
+        ClosedForm::of_nothing(network, to)?.foresee(to)
+    }
+
+    /// How many pieces or arrivals the waves of a scene have until a time.
+    ///
+    /// # Errors
+    /// As [`ClosedForm::of_scene`], and where there are more than can be counted.
+    pub fn parts(network: &Network, to: &Rational) -> Result<usize, EvaluateError> {
+        ClosedForm::of_nothing(network, to)?.order(to)
+    }
+
+    /// The waves of a scene, of which nothing is seen.
+    fn of_nothing(network: &Network, to: &Rational) -> Result<ClosedForm, EvaluateError> {
         let nothing = Observation { waves: Vec::new(), forcing: Expression::zero() };
-        let unit = Root::from(Fraction::one());
-        ClosedForm::of_scene(network, &nothing, unit, to)?.foresee(to)
+        ClosedForm::of_scene(network, &nothing, Root::from(Fraction::one()), to)
     }
 
     /// Refuses a time until which all pieces are more than can be held, before they are worked out; else about how

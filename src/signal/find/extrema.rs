@@ -10,7 +10,7 @@
 //! Candidates are compared by enclosures that are narrowed; those that cannot be told apart stay,
 //! all of them. The supremum then lies between the largest lower bound and the largest upper bound.
 
-use crate::ball::{Attempt, Ball, Precisions, Value};
+use crate::ball::{Attempt, Ball, Binary, Precisions, Value};
 use crate::limits::MAX_ROOTS;
 use crate::signal::error::EvaluateError;
 use crate::signal::find::cover::{Finding, Record, middle_and_half, range_of};
@@ -28,6 +28,9 @@ fn comparisons() -> Precisions {
 
 /// Bits of balls beyond those of a value.
 const SPARE_BITS: u64 = 64;
+
+/// Bits of the least size of interest, which is rounded down.
+const LEAST_BITS: u64 = 64;
 
 /// Which extremum.
 ///
@@ -138,6 +141,8 @@ struct Contenders<'a, 's> {
     search: &'a Search<'s>,
     goal: Goal,
     limit_bits: u64,
+    /// Smaller ones are of no interest.
+    least: Option<Binary>,
     left: RefCell<Vec<Candidate>>,
 }
 
@@ -149,9 +154,25 @@ impl<'s> Search<'s> {
         digits: usize,
         limit_bits: u64,
     ) -> Result<Extremum, EvaluateError> {
-        let contenders = self.contenders(goal, limit_bits)?;
+        let found = self.extremum_beyond(goal, None, digits, limit_bits)?;
+        Ok(found.expect("without a least size some place is the extremum"))
+    }
+
+    /// The same where it is at least of this size: no less than `least`, or no more than `−least`. What is below that is
+    /// not looked at.
+    pub fn extremum_beyond(
+        &self,
+        goal: Goal,
+        least: Option<&Rational>,
+        digits: usize,
+        limit_bits: u64,
+    ) -> Result<Option<Extremum>, EvaluateError> {
+        let contenders = self.contenders(goal, least, limit_bits)?;
         for bits in comparisons().iter() {
             contenders.compare(bits)?;
+        }
+        if contenders.left.borrow().is_empty() {
+            return Ok(None);
         }
         let value = match contenders.exact()? {
             Some(value) => Value::Exact(value),
@@ -160,7 +181,7 @@ impl<'s> Search<'s> {
                 Value::certify(digits, limit, |bits| contenders.enclose(bits))?.exact_if_known()
             }
         };
-        Ok(Extremum { value, places: contenders.places(digits)? })
+        Ok(Some(Extremum { value, places: contenders.places(digits)? }))
     }
 
     /// The most bits that two extrema are told apart with.
@@ -184,20 +205,27 @@ impl<'s> Search<'s> {
 
     /// An enclosure of the extremum with a relative precision of about so many bits.
     pub fn enclose_extremum(&self, goal: Goal, bits: u64) -> Result<Ball, EvaluateError> {
-        let contenders = self.contenders(goal, 8 * bits)?;
+        let contenders = self.contenders(goal, None, 8 * bits)?;
         for early in comparisons().iter().filter(|early| *early < bits) {
             contenders.compare(early)?;
         }
         contenders.enclose(bits)
     }
 
-    fn contenders(&self, goal: Goal, limit_bits: u64) -> Result<Contenders<'_, 's>, EvaluateError> {
+    fn contenders(
+        &self,
+        goal: Goal,
+        least: Option<&Rational>,
+        limit_bits: u64,
+    ) -> Result<Contenders<'_, 's>, EvaluateError> {
         let limit_bits = self.most_bits(limit_bits);
+        let least = least.map(|least| Ball::from_rational(least, LEAST_BITS).endpoints().0);
         self.work.set(0);
         let (negative, zero) = (goal == Goal::Smallest, Rational::default());
-        let mut record = Record { negative, best: None };
+        let mut record = Record { negative, best: least.clone() };
         let (mut left, mut moving) = (Vec::new(), Vec::new());
-        let contenders = Contenders { search: self, goal, limit_bits, left: RefCell::default() };
+        let left_over = RefCell::default();
+        let contenders = Contenders { search: self, goal, limit_bits, least, left: left_over };
         for stretch in 0..self.count {
             let instant = self.function.is_instant(stretch);
             if !instant && self.is_constant(stretch)? {
@@ -305,9 +333,9 @@ impl Contenders<'_, '_> {
     /// Drops those that are certainly smaller than another.
     fn compare(&self, bits: u64) -> Result<(), EvaluateError> {
         let mut left = self.left.borrow_mut();
-        if left.len() > 1 {
+        if left.len() > 1 || self.least.is_some() {
             let values = self.values(&mut left, bits)?;
-            let mut record = Record { negative: false, best: None };
+            let mut record = Record { negative: false, best: self.least.clone() };
             values.iter().for_each(|value| record.note(value));
             let mut values = values.iter();
             left.retain(|_| !record.beats(values.next().expect("one value each")));

@@ -88,6 +88,25 @@ fn echoes_that_cannot_matter_are_not_worked_out() {
     crate::snapshot("work", "left-out", "echoes worked out, needed, arriving", &table);
 }
 
+/// What is left out leaves room for polynomials, also where more is left out than the tolerance allows while the largest
+/// value is looked for.
+#[test]
+fn every_tolerance_is_met() {
+    let scene = wavestep::scenes::find("incommensurate").expect("a built-in scene");
+    let problem = problem(scene.text);
+    let times: Vec<BigRational> = (1..=40).map(|i| ratio(i, 20_000)).collect();
+    let (truth, _) = digits(&problem, "contact_force", &times);
+    let largest = truth.iter().map(|value| value.abs()).max().unwrap();
+    for exponent in 1..12 {
+        let tolerance = format!("1e-{exponent}");
+        let found = within(&problem, "contact_force", &times, tolerance.parse().unwrap());
+        let most = exact(tolerance.parse().unwrap()) * &largest;
+        for (value, truth) in found.values.iter().zip(&truth) {
+            assert!((exact(*value) - truth).abs() <= most, "{tolerance}: {value}");
+        }
+    }
+}
+
 /// A mass throws back more than it gets for a while, so that bounds do not fall. What is never there is all that is not
 /// worked out.
 #[test]

@@ -7,11 +7,14 @@ use std::path::PathBuf;
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep advise mass-on-fixed-bar --set mu=1/10 --quantity velocity --tol 1e-1 --to 1\n  \
-    wavestep advise pile --quantity head --tol 1e-2 -o reduced.wave\n\n\
+    wavestep advise pile --quantity head --tol 1e-2 -o reduced.wave\n  \
+    wavestep advise mass-on-fixed-bar --quantity velocity --for mu=1/10..10 --to 2 -o map.svg\n\n\
     Tried from cheap to dear: bars that do not yield, bars as springs with a third or another share of\n\
     their mass, the scene less every element it does not need, the first arrivals, modes of vibration;\n\
     then the exact answer. What is enough is proven on the whole window; what is not has a time at which\n\
-    it is seen.")]
+    it is seen.\n\
+    With --for, the largest difference of each simpler answer is proven at some values of the symbol.\n\
+    Borders between what is enough are found by halving. -o draws the map (.svg, .png, .json or .csv).")]
 pub struct Advise {
     #[command(flatten)]
     pub scene: Scene,
@@ -30,7 +33,18 @@ pub struct Advise {
     /// Tell how long a value of each took, too
     #[arg(long)]
     pub stats: bool,
-    /// Write the smallest scene that is enough into this file
+    /// Which answer is enough where, over this symbol from one value to another: mu=1/10..10
+    #[arg(long = "for", value_name = "NAME=A..B", conflicts_with_all = ["stats", "format"])]
+    pub over: Option<String>,
+    /// With --for: these simpler answers, from cheap to dear [default: whole scenes, one change alone, arrivals,
+    /// modes]
+    #[arg(long, value_name = "WHAT", num_args = 1.., requires = "over")]
+    pub models: Vec<String>,
+    /// With --for: at how many values differences are proven
+    #[arg(long, value_name = "N", default_value_t = 13, requires = "over",
+          value_parser = clap::value_parser!(u16).range(2..=200))]
+    pub points: u16,
+    /// Write the smallest scene that is enough into this file; with --for, the map
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
     /// Written how

@@ -4,11 +4,14 @@
 //! that are quick are held against it.
 
 use super::{ROOT, anywhere, folder, run, words};
+use num_traits::ToPrimitive as _;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
+use wavestep::Rational;
 use wavestep::scenes::SCENES;
+use wavestep_studies::largest_strain::{Estimate, Strains};
 
 const TOLERANCES: [&str; 5] = ["1e-1", "1e-2", "1e-3", "1e-6", "1e-9"];
 
@@ -101,6 +104,42 @@ fn what_is_enough_of_shipped_scenes_is_as_the_page_says() {
     for row in rows.values() {
         assert!(text[start..end].contains(row.as_str()), "not in docs/enough.md: {row}");
     }
+}
+
+const ESTIMATE_MARKS: [&str; 2] =
+    ["<!-- estimates: made by crates/cli/tests/it/enough.rs -->\n", "<!-- end of estimates -->"];
+
+/// For which masses estimates of the largest strain are within 1, 5 and 10 %.
+#[test]
+fn estimates_hold_where_the_page_says() {
+    let page = Path::new(ROOT).join("docs/enough.md");
+    let text = fs::read_to_string(&page).unwrap();
+    let mut strains = Strains::default();
+    let mut table =
+        "\n| largest strain, in V/c | within 1 % | within 5 % | within 10 % |\n|---|---|---|---|\n"
+            .to_owned();
+    for estimate in Estimate::ALL {
+        let cells = [1, 5, 10].map(|percent| {
+            let share = Rational::new(percent.into(), 100.into());
+            let number = |value: &Rational| value.to_f64().unwrap().to_string();
+            let range = |[from, to]: &[Rational; 2]| format!("{} to {}", number(from), number(to));
+            let ranges = strains.ranges(estimate, &share).unwrap();
+            match ranges.is_empty() {
+                true => "nowhere".to_owned(),
+                false => ranges.iter().map(range).collect::<Vec<_>>().join(", "),
+            }
+        });
+        table += &format!("| $`{}`$ | {} |\n", estimate.formula(), cells.join(" | "));
+    }
+    let (start, end) = (
+        text.find(ESTIMATE_MARKS[0]).unwrap() + ESTIMATE_MARKS[0].len(),
+        text.find(ESTIMATE_MARKS[1]).unwrap(),
+    );
+    if std::env::var_os("UPDATE_DOCUMENTS").is_some() {
+        fs::write(page, format!("{}{table}\n{}", &text[..start], &text[end..])).unwrap();
+        return;
+    }
+    assert_eq!(text[start..end].trim(), table.trim());
 }
 
 #[test]

@@ -38,26 +38,31 @@ fn the_commands_follow_contacts_that_open() {
     assert_eq!(points[0][1].as_f64(), Some(0.0), "a free end");
 }
 
-/// Each picture of contacts that open is what the command beside it draws; `UPDATE_DOCUMENTS=1` draws them anew.
+/// These pictures are what the commands beside them draw; `UPDATE_DOCUMENTS=1` draws them anew.
 #[test]
-fn pictures_of_the_page_are_fresh() {
+fn pictures_of_pages_are_fresh() {
     let root = Path::new(ROOT);
-    let page = fs::read_to_string(root.join("docs/pictures.md")).unwrap();
-    let commands = page.lines().filter(|line| line.starts_with("wavestep plot "));
     let mut fresh = 0;
-    for line in commands.filter(|line| line.contains("-with-release") || line.contains("-venant")) {
-        let (arguments, file) = line.split_once(" -o ").expect("a file");
-        assert!(page.contains(&format!("({})", file.trim_start_matches("docs/"))), "{file}");
-        let mut arguments: Vec<&str> = arguments.split_whitespace().skip(1).collect();
-        arguments.extend(["-o", "page.svg"]);
-        output(&arguments);
-        let drawn = fs::read(anywhere().join("page.svg")).unwrap();
-        if std::env::var_os("UPDATE_DOCUMENTS").is_some() {
-            fs::write(root.join(file), &drawn).unwrap();
+    for name in ["docs/pictures.md", "docs/enough.md"] {
+        let page = fs::read_to_string(root.join(name)).unwrap();
+        let drawn_here = |line: &&str| match line.starts_with("wavestep plot ") {
+            true => line.contains("-with-release") || line.contains("-venant"),
+            false => line.starts_with("wavestep advise "),
+        };
+        for line in page.lines().filter(drawn_here) {
+            let (arguments, file) = line.split_once(" -o ").expect("a file");
+            assert!(page.contains(&format!("({})", file.trim_start_matches("docs/"))), "{file}");
+            let mut arguments: Vec<&str> = arguments.split_whitespace().skip(1).collect();
+            arguments.extend(["-o", "page.svg"]);
+            output(&arguments);
+            let drawn = fs::read(anywhere().join("page.svg")).unwrap();
+            if std::env::var_os("UPDATE_DOCUMENTS").is_some() {
+                fs::write(root.join(file), &drawn).unwrap();
+            }
+            let told = format!("{file} is stale: run with UPDATE_DOCUMENTS=1");
+            assert!(fs::read(root.join(file)).ok().as_deref() == Some(&drawn[..]), "{told}");
+            fresh += 1;
         }
-        let told = format!("{file} is stale: run with UPDATE_DOCUMENTS=1");
-        assert!(fs::read(root.join(file)).ok().as_deref() == Some(&drawn[..]), "{told}");
-        fresh += 1;
     }
-    assert_eq!(fresh, 2);
+    assert_eq!(fresh, 4);
 }

@@ -45,6 +45,8 @@ pub enum Refusal {
     Differs(String, String),
     #[error("{0} agrees with {1}")]
     Agrees(String, String),
+    #[error("{0}")]
+    Problem(String),
     #[error(transparent)]
     Solve(#[from] SolveError),
     #[error(transparent)]

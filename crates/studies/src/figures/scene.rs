@@ -18,5 +18,5 @@ pub(super) fn course(
     last: &Rational,
 ) -> Result<Sampled, PictureError> {
     let window = [&Rational::default(), last];
-    Ok(sampled(&*problem.signal_on(&problem.wanted(name)?, window, Purpose::Stretches)?)?)
+    Ok(sampled(&*problem.signal_on(&problem.wanted(name)?, window, Purpose::Search)?)?)
 }

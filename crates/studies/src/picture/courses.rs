@@ -43,7 +43,7 @@ pub fn courses(
     let mut courses = Vec::new();
     for name in names {
         let wanted = problem.wanted(name)?;
-        let values = sampled(&*problem.signal_on(&wanted, window, Purpose::Stretches)?)?;
+        let values = sampled(&*problem.signal_on(&wanted, window, Purpose::Search)?)?;
         if values.points.iter().any(|(_, value)| value.is_infinite()) {
             return Err(PictureError::TooLarge(wanted.name.clone()));
         }

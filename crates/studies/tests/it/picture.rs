@@ -20,7 +20,7 @@ fn shipped(name: &str, values: &[(&str, &str)]) -> Network {
 
 fn signal<'a>(network: &'a Network, name: &str, window: &[Rational; 2]) -> Box<dyn Signal + 'a> {
     let observed = network.observables().iter().find(|observed| observed.name == name).unwrap();
-    of_scene(network, observed, window.each_ref(), Purpose::Stretches).unwrap()
+    of_scene(network, observed, window.each_ref(), Purpose::Search).unwrap()
 }
 
 fn rational(numerator: i64, denominator: i64) -> Rational {

@@ -4,13 +4,12 @@ use super::Checked;
 use crate::book::refusal::Refusal;
 use crate::book::stage::derived;
 use crate::book::verdict::Verdict;
+use crate::largest_strain::{Estimate, largest_strain};
 use crate::ratio;
 use num_traits::{One as _, Signed as _};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 use wavestep::ball::{Ball, Decimal};
-use wavestep::language::parse_number;
-use wavestep::signal::{ClosedSignal, Goal, Root, Search};
 use wavestep::solution::Solution;
 use wavestep_polynomial::Rational;
 
@@ -56,65 +55,24 @@ pub(super) fn equal_bars() -> Result<Checked, Refusal> {
 
 /// The estimate without number that comes before 6.86.
 pub(super) fn energy_estimate() -> Result<Checked, Refusal> {
-    estimate(&root)
+    estimate(Estimate::Energy)
 }
 
 /// 6.86.
 pub(super) fn better_estimate() -> Result<Checked, Refusal> {
-    let one = Ball::from_rational(&Rational::one(), BITS);
-    estimate(&move |mass| Ok(root(mass)?.add(&one, BITS)))
-}
-
-/// `(1/μ + 1/3)^{1/2}`, for a mass `1/μ`.
-fn root(mass: &Rational) -> Result<Ball, Refusal> {
-    let square = mass + ratio(1, 3);
-    Ball::square_root(&square, BITS).ok_or(Refusal::NotInvertible)
-}
-
-/// The largest compressive strain at the fixed end before the mass leaves the bar, in V/c, enclosed.
-///
-/// The strain there is felt one passage after the wave left the struck end, so that it is that of a
-/// closed contact until one passage after the contact opens.
-fn largest_strain(mass: &Rational) -> Result<Ball, Refusal> {
-    let mu = mass.recip();
-    let values = BTreeMap::from([("mu".to_owned(), mu.clone())]);
-    let observables = ["strain_impact", "strain_fixed"];
-    let solution = Solution::new(derived("mass-on-fixed-bar", &observables, &values)?);
-    let observe = |name: &str| {
-        let seen = solution.recurrence().observation(name);
-        seen.ok_or_else(|| Refusal::UnknownName(name.to_owned()))
-    };
-    let (impact, fixed) = (observe("strain_impact")?, observe("strain_fixed")?);
-    // The first root lies within some four times √μ, half the period of a mass on a spring; the
-    // window grows until it holds one.
-    let mut end = &mu * ratio(4, 1) + ratio(2, 1);
-    let start = ratio(1, 1024);
-    let opening = loop {
-        let signal = ClosedSignal::of_recurrence(&solution, &impact, [&start, &end])?;
-        let search = Search::new(&signal)?;
-        let roots = search.roots(&Rational::default(), 20, 1 << 12)?;
-        let simple = roots.all.iter().find_map(|root| match root {
-            Root::Simple { time, .. } => Some(time.to_text(15)),
-            _ => None,
-        });
-        if let Some(time) = simple {
-            break parse_number(&time)?;
-        }
-        end *= ratio(2, 1);
-    };
-    let last = &opening + &mu;
-    let signal = ClosedSignal::of_recurrence(&solution, &fixed, [&mu, &last])?;
-    let search = Search::new(&signal)?;
-    let smallest = search.enclose_extremum(Goal::Smallest, BITS)?;
-    Ok(smallest.multiply_rational(&ratio(-1, 1), BITS))
+    estimate(Estimate::Better)
 }
 
 /// The largest strains for these masses, which all estimates are held against.
-static LARGEST: LazyLock<Result<Vec<Ball>, Refusal>> =
-    LazyLock::new(|| QUARTERS.iter().map(|own| largest_strain(&ratio(*own, 4))).collect());
+static LARGEST: LazyLock<Result<Vec<Ball>, Refusal>> = LazyLock::new(|| {
+    let strain = |own: &i64| {
+        largest_strain(&ratio(*own, 4)).map_err(|error| Refusal::Problem(error.to_string()))
+    };
+    QUARTERS.iter().map(strain).collect()
+});
 
 /// An estimate of the largest strain, by the mass, held against the exact one.
-fn estimate(of: &dyn Fn(&Rational) -> Result<Ball, Refusal>) -> Result<Checked, Refusal> {
+fn estimate(of: Estimate) -> Result<Checked, Refusal> {
     let mut worst = (Rational::default(), Rational::default());
     let mut steps = vec![
         "Held against the largest compressive strain at the fixed end while the mass touches the bar, \
@@ -124,7 +82,7 @@ fn estimate(of: &dyn Fn(&Rational) -> Result<Ball, Refusal>) -> Result<Checked, 
     let largest = LARGEST.as_ref().map_err(Clone::clone)?;
     for (quarters, exact) in QUARTERS.into_iter().zip(largest) {
         let mass = ratio(quarters, 4);
-        let estimate = of(&mass)?;
+        let estimate = of.of(&mass);
         let share = exact.reciprocal(BITS)?.multiply(&estimate, BITS);
         let off = share.subtract(&Ball::from_rational(&Rational::one(), BITS), BITS);
         let percent = off.multiply_rational(&ratio(100, 1), BITS).to_decimal(20);

@@ -1,0 +1,202 @@
+//! `advise --for`: which simpler answer is enough where, as a table of proven differences, and as a map.
+
+use super::advise::{rounded, share};
+use super::arguments::Advise;
+use super::failure::Failure;
+use super::picture;
+use super::progress;
+use num_rational::BigRational;
+use num_traits::ToPrimitive as _;
+use wavestep::problem::{Column, EnoughMap, Part, Problem, Span, ToMap, window};
+use wavestep_draw::{Axis, Caption, Chart, Curve, Curves};
+
+/// Shares below this one are drawn at the lower edge.
+const NOTHING: f64 = 1e-12;
+
+/// Values that are longer in decimals are told as fractions.
+const LONG: usize = 9;
+
+/// The width of a PNG in pixels.
+const WIDTH: u32 = 900;
+
+/// Shares above this one are drawn at the upper edge.
+const ALL: f64 = 1.0;
+
+pub fn run(
+    options: &Advise,
+    problem: &Problem,
+    over: &str,
+    tolerance: BigRational,
+) -> Result<String, Failure> {
+    let span: Span = over.parse()?;
+    let simpler: Result<Vec<_>, _> = options.models.iter().map(|own| own.parse()).collect();
+    let quantity = match &options.quantity {
+        Some(name) => name.trim(),
+        None => problem.usual_quantity().unwrap_or_default(),
+    };
+    let window = |problem: &Problem| {
+        let from = problem.time("--from", &*options.from)?;
+        let to = match &options.to {
+            Some(to) => problem.time("--to", &**to)?,
+            None => &from + problem.usual_length()?,
+        };
+        window(from, to)
+    };
+    let asked = ToMap {
+        span: &span,
+        points: options.points.into(),
+        quantity,
+        simpler: simpler.map_err(wavestep::problem::ProblemError::from)?,
+        tolerance,
+        window: &window,
+    };
+    let told = || -> Result<Told<'_>, Failure> {
+        let progress = progress::spinner("weighing");
+        let symbol = &span.symbol;
+        let map = problem.map_enough(&asked, &|value| {
+            progress.set_message(format!("weighing at {symbol} = {}", number(value)));
+        })?;
+        Ok(Told { options, asked: &asked, map })
+    };
+    let Some(file) = &options.output else { return Ok(told()?.text()) };
+    let mut text = String::new();
+    let written = picture::draw(&file.to_string_lossy(), WIDTH, || {
+        let told = told()?;
+        text = told.text();
+        told.chart()
+    })?;
+    Ok(text + "\n" + &written)
+}
+
+/// A value of the symbol, as short as it is written.
+fn number(value: &BigRational) -> String {
+    let decimals = value.to_f64().map(|value| value.to_string());
+    decimals.filter(|decimals| decimals.len() <= LONG).unwrap_or_else(|| value.to_string())
+}
+
+struct Told<'a> {
+    options: &'a Advise,
+    asked: &'a ToMap<'a>,
+    map: EnoughMap,
+}
+
+impl Told<'_> {
+    /// The answers that are drawn and told: those that are the first that is enough for some tolerance somewhere.
+    fn useful(&self) -> Vec<usize> {
+        let is_first = |place: usize| {
+            let most = |own: &Option<[BigRational; 2]>| own.as_ref().map(|[_, most]| most.clone());
+            self.map.columns.iter().any(|Column { off, .. }| {
+                let cheaper = off[..place].iter().filter_map(most).min();
+                most(&off[place]).is_some_and(|own| {
+                    own < BigRational::from_integer(1.into())
+                        && cheaper.is_none_or(|cheaper| own < cheaper)
+                })
+            })
+        };
+        (0..self.map.simpler.len()).filter(|place| is_first(*place)).collect()
+    }
+
+    fn window(&self) -> String {
+        let to = self.options.to.as_ref().map_or("four periods", String::as_str);
+        format!("{} <= t <= {to}", self.options.from)
+    }
+
+    fn text(&self) -> String {
+        let useful = self.useful();
+        let symbol = &self.asked.span.symbol;
+        let mut rows = vec![vec![symbol.clone()]];
+        rows[0].extend(useful.iter().map(|place| self.map.simpler[*place].to_string()));
+        for Column { value, off } in &self.map.columns {
+            let told = |place: &usize| match &off[*place] {
+                Some([_, most]) => share(&rounded(most, 201)).replace("less than", "<"),
+                None => "-".to_owned(),
+            };
+            rows.push([number(value)].into_iter().chain(useful.iter().map(told)).collect());
+        }
+        let widths: Vec<usize> = (0..rows[0].len())
+            .map(|i| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or_default())
+            .collect();
+        let mut text = format!(
+            "{}, off by at most this share of its largest value, {}, proven at these values:\n\n",
+            self.asked.quantity,
+            self.window()
+        );
+        for row in rows {
+            let cells = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:<width$}"));
+            text += cells.collect::<Vec<_>>().join("  ").trim_end();
+            text.push('\n');
+        }
+        text +=
+            &format!("\nWithin {}, the first that is enough:\n\n", share(&self.asked.tolerance));
+        for Part { between: [from, to], first } in &self.map.parts {
+            let what = first
+                .map_or_else(|| "exact".to_owned(), |place| self.map.simpler[place].to_string());
+            text += &format!("{} <= {symbol} <= {}  {what}\n", number(from), number(to));
+        }
+        text
+    }
+
+    /// Marks on the line of the tolerance, where another answer is the first that is enough.
+    fn borders(&self, tolerance: f64) -> Option<Curve> {
+        let border = |pair: &[Part]| {
+            let ends = [&pair[0].between[1], &pair[1].between[0]];
+            let [low, high] = ends.map(|end| end.to_f64().unwrap_or(f64::NAN));
+            [((low * high).sqrt(), tolerance), (f64::NAN, f64::NAN)]
+        };
+        let points: Vec<_> = self.map.parts.windows(2).flat_map(border).collect();
+        let name = format!("borders at {}", share(&self.asked.tolerance));
+        (!points.is_empty()).then_some(Curve { name, points })
+    }
+
+    fn chart(&self) -> Result<Box<dyn Chart>, Failure> {
+        let symbol = &self.asked.span.symbol;
+        let curve = |place: usize| {
+            let point = |Column { value, off }: &Column| {
+                let off = off[place].as_ref().and_then(|[_, most]| most.to_f64());
+                (value.to_f64().unwrap_or(f64::NAN), off.unwrap_or(f64::NAN))
+            };
+            Curve {
+                name: self.map.simpler[place].to_string(),
+                points: self.map.columns.iter().map(point).collect(),
+            }
+        };
+        let set: String =
+            self.options.scene.set.iter().map(|set| format!(" --set {set}")).collect();
+        let Advise { scene, to, from, over, points, models, tol, .. } = self.options;
+        let option = |name: &str, text: &Option<String>| {
+            text.as_ref().map_or(String::new(), |text| format!(" --{name} {text}"))
+        };
+        let models = match models.is_empty() {
+            true => String::new(),
+            false => format!(" --models {}", models.join(" ")),
+        };
+        let caption = Caption {
+            norm:
+                "the largest difference on the window over the largest value, proven at the marks"
+                    .to_owned(),
+            remarks: vec![
+                "Above a line its answer is enough; a region has the colour of the first that is."
+                    .to_owned(),
+            ],
+            command: format!(
+                "wavestep advise {}{set} --quantity {} --tol {tol} --from {from}{}{}{models} --points {points}",
+                scene.scene,
+                self.asked.quantity,
+                option("to", to),
+                option("for", over),
+            ),
+            ..Caption::default()
+        };
+        let tolerance = self.asked.tolerance.to_f64().unwrap_or(f64::NAN);
+        let chart = Curves::new(
+            &format!("What is enough for {}", self.asked.quantity),
+            Axis::logarithmic(symbol),
+            Axis::logarithmic("tolerance, share of the largest value"),
+            self.useful().into_iter().map(curve).chain(self.borders(tolerance)).collect(),
+            caption,
+        )?;
+        let chart =
+            chart.level(tolerance, &share(&self.asked.tolerance))?.ceiling(ALL)?.floor(NOTHING)?;
+        Ok(Box::new(chart.borders()))
+    }
+}
