@@ -268,7 +268,7 @@ fn remedy(error: &ProblemError) -> Option<String> {
         }
         ProblemError::Change(ChangeError::Unknown(_)) => format!("it is one of {}", Simpler::FORMS),
         ProblemError::NoSymbol { symbols, .. } if !symbols.is_empty() => {
-            format!("the symbols without a value are {}", symbols.join(", "))
+            format!("the free symbols are {}", symbols.join(", "))
         }
         ProblemError::Digits(_) => format!("ask for 1 to {MAX_DIGITS} digits"),
         ProblemError::OutsidePeriod(times) => format!("give a time from 0 to below {}", times[1]),
@@ -309,10 +309,11 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
             "name an element of the line"
         }
         ProblemError::Change(_) => "leave something else out",
-        ProblemError::Span(_) => {
+        ProblemError::AllZero(_) => "ask for a longer window",
+        ProblemError::SymbolRange(_) => {
             "write it as mu=1/10..10, with a positive first value below the last"
         }
-        ProblemError::NoSymbol { .. } => "leave out --for: all has a value",
+        ProblemError::NoSymbol { .. } => "every symbol has a value: leave out --for",
         ProblemError::Apart { .. } => "compare scenes with the same units",
         ProblemError::NoClosedForm { .. } => {
             "ask for values of its observables, which any line has"

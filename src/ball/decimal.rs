@@ -56,7 +56,34 @@ pub fn in_decimals(value: &BigRational) -> String {
     }
 }
 
+/// On which side of a number a decimal may lie.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Bound {
+    /// Not above it.
+    Lower,
+    /// Not below it.
+    Upper,
+}
+
 impl Decimal {
+    /// A decimal of so many digits at most that bounds a rational: the nearest one, or the one beside it.
+    pub fn bound(value: &BigRational, significant: usize, bound: Bound) -> Self {
+        let near = Self::from_rational(value, significant).0;
+        let told = near.to_rational();
+        let (is_bound, side) = match bound {
+            Bound::Upper => (told >= *value, BigRational::one()),
+            Bound::Lower => (told <= *value, -BigRational::one()),
+        };
+        if is_bound {
+            return near;
+        }
+        // Half a unit of the last digit is at most this part of the value.
+        let ten = BigRational::from_integer(10.into());
+        let part =
+            value.abs() * ten.pow(1 - significant as i32) / BigRational::from_integer(2.into());
+        Self::from_rational(&(value + part * side), significant).0
+    }
+
     /// The number `value·10^place` with the digits of `value`.
     pub(super) fn from_scaled(value: &BigInt, place: i64) -> Self {
         let digits = value.magnitude().to_str_radix(10);

@@ -28,7 +28,7 @@ mod value;
 pub use ball::Ball;
 pub use binary::Binary;
 pub use complex::ComplexBall;
-pub use decimal::{Decimal, Exactness, in_decimals};
+pub use decimal::{Bound, Decimal, Exactness, in_decimals};
 pub use divided::evaluate_divided;
 pub use double::rational;
 pub(crate) use double::{at_or_after, at_or_before, unit_in_the_last_place};

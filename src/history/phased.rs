@@ -14,8 +14,8 @@ use crate::limits::MAX_HISTORY_BITS;
 use crate::network::{Contacts, Network, Observed, Squared, Term};
 use crate::scene::Dimension;
 use crate::signal::{
-    At, Effort, EvaluateError, Instant, Known, Limit, MAX_FLATNESS, Point, Signal, Signed, Silence,
-    Taylor,
+    At, Effort, EvaluateError, Instant, Known, Limit, MAX_FLATNESS, Point, Scale, Signal, Signed,
+    Silence, Taylor,
 };
 use num_traits::Zero as _;
 use std::borrow::Cow;
@@ -84,6 +84,8 @@ pub(crate) struct Follower<'a> {
     asked: Asked,
     until: Moment,
     known: RefCell<Rc<Engine>>,
+    /// Tells times that rest on no event, to any precision.
+    scale: Rc<Scale<'a>>,
 }
 
 impl<'a> Follower<'a> {
@@ -105,7 +107,8 @@ impl<'a> Follower<'a> {
             Some(_) => 2 * LEAST_BITS,
         };
         let known = Precisions::growing_by_half(first, MAX_HISTORY_BITS).raise(attempt)?.best()?;
-        Ok(Rc::new(Follower { network, asked, until, known: RefCell::new(known) }))
+        let (known, scale) = (RefCell::new(known), Scale::of(network));
+        Ok(Rc::new(Follower { network, asked, until, known, scale }))
     }
 
     fn follow(
@@ -505,6 +508,10 @@ impl Signal for FollowedSignal<'_> {
         self.most_bits
     }
 
+    fn ready_bits(&self) -> u64 {
+        self.known.borrow().engine.cut.bits
+    }
+
     fn instant(&self, stretch: usize) -> Option<Instant> {
         // All signals of one follower have to tell of the same engine.
         let known = self.followed(0).ok()?;
@@ -585,8 +592,11 @@ impl Signal for FollowedSignal<'_> {
     }
 
     fn time(&self, stretch: usize, end: Limit, bits: u64) -> Result<Ball, EvaluateError> {
-        let followed = self.cut(bits)?;
         let place = usize::from(end == Limit::Left);
+        if let Moment { event: None, delay } = &self.known.borrow().piece(stretch).ends[place] {
+            return self.follower.scale.time(delay, bits);
+        }
+        let followed = self.cut(bits)?;
         let time = followed.engine.clock.time(&followed.piece(stretch).ends[place])?;
         Ok(time.multiply(&followed.unit[0], followed.engine.cut.bits).ball(bits))
     }

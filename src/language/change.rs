@@ -84,12 +84,14 @@ impl FromStr for Change {
             ("rigid", _) => Change::Rigid(Some(name()?)),
             ("without", _) => Change::Without(name()?),
             ("spring", Some(of)) => match of.split_once(',') {
-                Some((name, share)) => {
+                Some((name, share)) if !name.is_empty() => {
                     Change::Spring(Some(normalise(name)), Some(share.to_owned()))
                 }
+                Some(_) => return Err(unknown()),
                 None => Change::Spring(Some(name()?), None),
             },
             ("endless", Some(of)) => match of.rsplit_once('.') {
+                Some(("", _)) => return Err(unknown()),
                 Some((name, "left")) => Change::Endless(normalise(name), Beyond::Left),
                 Some((name, "right")) => Change::Endless(normalise(name), Beyond::Right),
                 _ => return Err(unknown()),

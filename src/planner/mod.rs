@@ -147,8 +147,8 @@ pub(crate) fn difference<'a>(
     ))
 }
 
-/// A drift and modes of a scene in its user's time and unit, `c + s t + Σ (a cos ωt + b sin ωt)`; none where one of the
-/// numbers `c, s` and `ω, a, b` is none.
+/// A drift and modes of a scene in its user's time and unit, `c + s t + Σ (a cos ωt + b sin ωt)`; `None` where one of the
+/// numbers `c, s` and `ω, a, b` is not finite.
 pub(crate) fn vibration<'a>(
     network: &'a Network,
     (drift, modes): ([f64; 2], &[[f64; 3]]),
@@ -183,7 +183,7 @@ pub(crate) fn chosen<'a>(
         return closed();
     }
     match from(Origin::Followed) {
-        // The closed form says better what is too much of a window that cannot be followed at all.
+        // The closed form gives the clearer error for a window that cannot be followed.
         Err(SignalError::Followed(
             HistoryError::Refused(_) | HistoryError::TooManyCells { .. },
         )) => closed(),

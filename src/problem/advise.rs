@@ -3,6 +3,7 @@
 //! Samples tell quickly what is not enough, each with the time at which it is seen; what they let pass is proven by the
 //! largest difference on the window.
 
+use super::comparison::Comparison;
 use super::{Other, Problem, ProblemError, Simpler, Size, Wanted};
 use crate::ball::Ball;
 use crate::language::syntax::Declared;
@@ -20,9 +21,6 @@ const PLACES: [i64; 5] = [1, 16, 32, 48, 63];
 /// The most stretches that are sampled.
 const MAX_SAMPLED: usize = 48;
 
-/// A distance that is this part of the tolerance is known well enough.
-const NEGLIGIBLE: u64 = 1 << 20;
-
 /// The most modes and arrivals that are tried.
 const MAX_MODES: usize = 64;
 const MAX_ARRIVALS: usize = 64;
@@ -30,8 +28,11 @@ const MAX_ARRIVALS: usize = 64;
 /// How many larger numbers are tried where samples pass and no proof is found.
 const MORE: usize = 3;
 
-/// The shares of its mass that a bar may have at an end, in 60ths.
-const SHARES: [i64; 13] = [6, 10, 12, 15, 18, 20, 22, 23, 24, 25, 27, 30, 36];
+/// The shares of its mass that a bar may have at an end, in so many parts of it; then those beside the best one, at half
+/// the distance, so often.
+const SHARES: std::ops::RangeInclusive<i64> = 2..=12;
+const PARTS: i64 = 20;
+const HALVINGS: u32 = 5;
 
 /// What is asked.
 pub struct Need<'a> {
@@ -104,14 +105,14 @@ struct Sampled {
     each: Duration,
 }
 
-struct Adviser<'p, 'a> {
-    problem: &'p Problem,
-    need: &'p Need<'a>,
-    largest: Size,
-    times: Vec<Rational>,
+struct Adviser<'p> {
+    comparison: Comparison<'p>,
+    tolerance: &'p Rational,
+    /// The times of samples, with the exact values.
+    samples: Vec<(Rational, Ball)>,
     tried: Vec<Tried>,
-    /// The texts of the scenes that were tried.
-    texts: Vec<String>,
+    /// The texts of the scenes that were tried, and whether they are enough.
+    texts: Vec<(String, bool)>,
     tell: &'p dyn Fn(&Simpler),
 }
 
@@ -122,20 +123,22 @@ impl Problem {
     /// # Errors
     /// As [`Problem::signal_on`], and where the largest value is not found.
     pub fn advise(&self, need: &Need<'_>, tell: &dyn Fn(&Simpler)) -> Result<Advice, ProblemError> {
+        let comparison = Comparison::new(self, need.wanted, need.window)?;
         let signal = self.signal_on(need.wanted, need.window, Purpose::Search)?;
-        let largest = Size::near(&*signal, &Rational::default())?;
-        let times = sample_times(&*signal)?;
         let begun = Instant::now();
-        for time in &times {
-            let _ = (signal.point(time, Limit::Right)?.enclose)(SAMPLE_BITS)?;
-        }
-        let each = begun.elapsed() / times.len() as u32;
+        let sample = |time: Rational| {
+            let value = (signal.point(&time, Limit::Right)?.enclose)(SAMPLE_BITS)?;
+            Ok((time, value))
+        };
+        let samples: Result<Vec<_>, ProblemError> =
+            sample_times(&*signal)?.into_iter().map(sample).collect();
+        let samples = samples?;
+        let each = begun.elapsed() / samples.len() as u32;
         let work = self.work(signal.count()?);
         let mut adviser = Adviser {
-            problem: self,
-            need,
-            largest,
-            times,
+            comparison,
+            tolerance: &need.tolerance,
+            samples,
             tried: Vec::new(),
             texts: Vec::new(),
             tell,
@@ -149,8 +152,8 @@ impl Problem {
             adviser.counted(MAX_ARRIVALS.min(arrivals - 1), Simpler::Arrivals);
         }
         adviser.counted(MAX_MODES, Simpler::Modes);
-        let Adviser { tried, largest, .. } = adviser;
-        Ok(Advice { tried, largest, work, each })
+        let Adviser { tried, comparison, .. } = adviser;
+        Ok(Advice { tried, largest: comparison.largest, work, each })
     }
 
     /// Of what a scene consists, and how many arrivals are seen.
@@ -164,7 +167,7 @@ impl Problem {
         match bars {
             0 => of(lumps, "element"),
             _ => {
-                let lumps = of(lumps, "element");
+                let lumps = of(lumps, "lumped element");
                 format!("{}, {lumps}, {}", of(bars, "bar"), of(stretches - 1, "arrival"))
             }
         }
@@ -192,49 +195,58 @@ fn sample_times(signal: &dyn Signal) -> Result<Vec<Rational>, ProblemError> {
     Ok(times)
 }
 
-impl Adviser<'_, '_> {
-    /// How far off samples are at most.
+impl Adviser<'_> {
+    fn problem(&self) -> &Problem {
+        self.comparison.problem
+    }
+
+    /// How far off samples are at most, and how many stretches the answer has.
     fn sample(&self, other: &Other) -> Result<(Sampled, usize), ProblemError> {
-        let Need { wanted, window, .. } = self.need;
-        let difference = self.problem.difference_on(other, wanted, *window, Purpose::Search)?;
+        let Comparison { problem, wanted, window, .. } = self.comparison;
+        let signal = match other {
+            // What they leave out is told by the difference alone.
+            Other::Arrivals(_) => None,
+            other => Some(problem.counterpart(other.into(), wanted, window, Purpose::Search)?.1),
+        };
+        let (signal, is_difference) = match signal {
+            Some(signal) => (signal, false),
+            None => (problem.difference_on(other, wanted, window, Purpose::Search)?, true),
+        };
         let begun = Instant::now();
-        let (mut worst, mut at) = (Rational::default(), self.times[0].clone());
-        for time in &self.times {
-            let off = (difference.point(time, Limit::Right)?.enclose)(SAMPLE_BITS)?;
+        let mut worst = (Rational::default(), self.samples[0].0.clone());
+        for (time, exact) in &self.samples {
+            let value = (signal.point(time, Limit::Right)?.enclose)(SAMPLE_BITS)?;
+            let off = if is_difference { value } else { exact.subtract(&value, SAMPLE_BITS) };
             // What is certain of it.
             let off = least(&off);
-            if off > worst {
-                (worst, at) = (off, time.clone());
+            if off > worst.0 {
+                worst = (off, time.clone());
             }
         }
-        let each = begun.elapsed() / self.times.len() as u32;
-        Ok((Sampled { worst, at, each }, difference.count()?))
+        let each = begun.elapsed() / self.samples.len() as u32;
+        let (worst, at) = worst;
+        Ok((Sampled { worst, at, each }, signal.count()?))
     }
 
     /// The verdict of samples: nothing where they are near enough.
     fn verdict(&self, sampled: &Sampled) -> Option<Verdict> {
-        let by = &sampled.worst / &self.largest.bounds[1];
-        let misses = by > self.need.tolerance;
-        misses.then(|| Verdict::Misses { by, at: sampled.at.clone() })
+        let by = self.share_of(&sampled.worst);
+        (by > *self.tolerance).then(|| Verdict::Misses { by, at: sampled.at.clone() })
+    }
+
+    /// A difference over the largest value, at least.
+    fn share_of(&self, difference: &Rational) -> Rational {
+        difference / &self.comparison.largest.bounds[1]
     }
 
     fn proven(&self, other: &Other) -> Verdict {
-        let Need { wanted, window, tolerance } = self.need;
-        let difference = self.problem.difference_on(other, wanted, *window, Purpose::Search);
-        // What is so much below the tolerance need not be known.
-        let negligible =
-            tolerance * &self.largest.bounds[0] / Rational::from_integer(NEGLIGIBLE.into());
-        let size = difference.and_then(|signal| Size::near(&*signal, &negligible));
-        match size {
+        match self.comparison.share(other, self.tolerance) {
             Err(error) => Verdict::Unproven(first_line(&error)),
-            Ok(size) => match size.over(&self.largest) {
-                Some(share) if share[1] <= *tolerance => Verdict::Enough(share),
-                Some(share) => Verdict::Unproven(format!(
-                    "the largest difference may be {:.2e} of the largest value",
-                    num_traits::ToPrimitive::to_f64(&share[1]).unwrap_or(f64::NAN)
-                )),
-                None => Verdict::Unproven("the largest value may be zero".to_owned()),
-            },
+            Ok(share) if share[1] <= *self.tolerance => Verdict::Enough(share),
+            Ok([_, most]) => Verdict::Unproven(format!(
+                "the largest difference may be {:.2e} of the largest value",
+                num_traits::ToPrimitive::to_f64(&most).unwrap_or(f64::NAN)
+            )),
         }
     }
 
@@ -242,14 +254,15 @@ impl Adviser<'_, '_> {
     fn attempt(&mut self, simpler: Simpler) -> bool {
         (self.tell)(&simpler);
         let mut each = Duration::ZERO;
-        let mut work = String::new();
-        let other = self.problem.simpler(&simpler);
+        let (mut work, mut known) = (String::new(), None);
+        let other = self.problem().simpler(&simpler);
         if let Ok(Other::Problem(problem)) = &other {
             let text = problem.source().text();
-            if self.texts.iter().any(|known| known == text) {
-                return false;
+            if let Some((_, is_enough)) = self.texts.iter().find(|(known, _)| known == text) {
+                return *is_enough;
             }
-            self.texts.push(text.to_owned());
+            known = Some(self.texts.len());
+            self.texts.push((text.to_owned(), false));
         }
         let tried = other.and_then(|other| {
             let (sampled, count) = self.sample(&other)?;
@@ -262,6 +275,9 @@ impl Adviser<'_, '_> {
         });
         let verdict = tried.unwrap_or_else(|error| Verdict::Unsuited(first_line(&error)));
         let is_enough = matches!(verdict, Verdict::Enough(_));
+        if let Some(place) = known {
+            self.texts[place].1 = is_enough;
+        }
         self.tried.push(Tried { simpler, verdict, work, each });
         is_enough
     }
@@ -269,7 +285,7 @@ impl Adviser<'_, '_> {
     /// Whether samples of an answer are near enough.
     fn passes(&self, simpler: &Simpler) -> bool {
         (self.tell)(simpler);
-        let sampled = self.problem.simpler(simpler).and_then(|other| self.sample(&other));
+        let sampled = self.problem().simpler(simpler).and_then(|other| self.sample(&other));
         sampled.is_ok_and(|(sampled, _)| self.verdict(&sampled).is_none())
     }
 
@@ -281,31 +297,37 @@ impl Adviser<'_, '_> {
 
     /// All bars springs, with the share of their masses that is best for samples.
     fn shares(&mut self) {
-        let usual = self.tried.last().map(|own| &own.verdict);
+        let third = Simpler::Scene(vec![Change::Spring(None, None)]);
+        let usual = self.tried.iter().find(|own| own.simpler == third).map(|own| &own.verdict);
         let Some(Verdict::Misses { by: usual, .. }) = usual.cloned() else { return };
         let bars: Vec<String> = self
             .names()
             .into_iter()
             .filter_map(|(name, kind)| (kind == Declared::Bar).then_some(name))
             .collect();
-        let with = |share: i64| {
-            let share = Rational::new(share.into(), 60.into()).to_string();
+        let with = |share: &Rational| {
+            let share = share.to_string();
             let spring = |bar: &String| Change::Spring(Some(bar.clone()), Some(share.clone()));
             Simpler::Scene(bars.iter().map(spring).collect())
         };
-        let worst = |share: &i64| {
-            let other = self.problem.simpler(&with(*share)).ok()?;
-            Some((self.sample(&other).ok()?.0.worst, *share))
+        let worst = |share: Rational| {
+            let other = self.problem().simpler(&with(&share)).ok()?;
+            Some((self.sample(&other).ok()?.0.worst, share))
         };
-        let best = SHARES.iter().filter_map(worst).min();
-        let is_better = |(worst, _): &(Rational, i64)| worst / &self.largest.bounds[1] < usual;
-        if let Some((_, share)) = best.filter(is_better) {
-            self.attempt(with(share));
+        let shares = SHARES.map(|share| Rational::new(share.into(), PARTS.into()));
+        let Some(mut best) = shares.filter_map(worst).min() else { return };
+        for halving in 1..=HALVINGS {
+            let step = Rational::new(1.into(), (PARTS << halving).into());
+            let beside = [&best.1 - &step, &best.1 + &step];
+            best = beside.into_iter().filter_map(worst).chain([best]).min().expect("one at least");
+        }
+        if self.share_of(&best.0) < usual {
+            self.attempt(with(&best.1));
         }
     }
 
     fn names(&self) -> Vec<(String, Declared)> {
-        language::elements(self.problem.source()).unwrap_or_default()
+        language::elements(self.problem().source()).unwrap_or_default()
     }
 
     /// Leaves out one element after the other, as far as samples stay near enough.
@@ -313,12 +335,12 @@ impl Adviser<'_, '_> {
         let mut changes: Vec<Change> = Vec::new();
         let mut missed = None;
         let names = self.names();
-        if self.problem.network()?.scene().contacts_open {
+        if self.problem().network()?.scene().contacts_open {
             self.extend(&mut changes, vec![Change::Closed], &mut missed);
         }
         for (name, kind) in names {
             let is_gone = |changes: &[Change]| {
-                let source = language::changed(self.problem.source(), changes);
+                let source = language::changed(self.problem().source(), changes);
                 source
                     .ok()
                     .and_then(|source| language::elements(&source).ok())
@@ -351,7 +373,7 @@ impl Adviser<'_, '_> {
             all.push(way);
             let simpler = Simpler::Scene(all.clone());
             (self.tell)(&simpler);
-            let Ok(other) = self.problem.simpler(&simpler) else { continue };
+            let Ok(other) = self.problem().simpler(&simpler) else { continue };
             let Ok((sampled, count)) = self.sample(&other) else { continue };
             let Some(verdict) = self.verdict(&sampled) else {
                 *changes = all;

@@ -51,8 +51,10 @@ pub enum ProblemError {
     #[error(transparent)]
     Change(ChangeError),
     #[error("`{0}` is no range of a symbol")]
-    Span(String),
-    #[error("`{name}` is no symbol without a value here")]
+    SymbolRange(String),
+    #[error("`{0}` is zero on this window")]
+    AllZero(String),
+    #[error("`{name}` is not a free symbol of this scene")]
     NoSymbol { name: String, symbols: Vec<String> },
     #[error("\"{0}\" states equations, and no bars along which to look")]
     Equations(String),

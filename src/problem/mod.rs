@@ -7,15 +7,16 @@
 mod advise;
 mod bounds;
 mod check;
+mod comparison;
 mod constants;
 mod derive;
+mod enough_map;
 mod equal;
 mod error;
 mod evaluate;
 mod given;
 mod impact;
 mod lock;
-mod over;
 mod simpler;
 mod times;
 mod validity;
@@ -35,16 +36,16 @@ use wavestep_polynomial::{Rational, Symbol};
 pub use advise::{Advice, Need, Tried, Verdict};
 pub use check::{Checked, Derivations, General, Periods, Solved};
 pub use derive::{Derived, Form, Functions, GeneralFormulas, Orders, Symbols, ToDerive};
+pub use enough_map::{Column, EnoughMap, MapRequest, Run, SymbolRange, runs};
 pub use equal::{Crossing, EqualExtrema};
 pub use error::{EqualError, LockRefusal, Missing, ProblemError};
 pub use evaluate::{Digits, Proven};
 pub use given::{Given, number};
 pub use impact::NoClosedForm;
 pub use lock::ToLock;
-pub use over::{Column, EnoughMap, Part, Span, ToMap, runs};
 pub use simpler::{Against, Other, Simpler, Size};
 pub use times::{evenly_spaced, two_figures, window};
-pub use validity::{Holds, Pressed};
+pub use validity::{Holds, Pressed, Pulls};
 pub use wanted::Wanted;
 
 /// Values in place of symbols, by name.

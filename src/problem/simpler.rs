@@ -4,9 +4,9 @@ use super::{Problem, ProblemError, Wanted};
 use crate::export::expression_text;
 use crate::language::{self, Change, ChangeError, Source};
 use crate::model::Modes;
-use crate::network::NetworkError;
+use crate::network::{Network, NetworkError};
 use crate::planner::{self, Purpose};
-use crate::signal::{EvaluateError, Extremum, Goal, Largest, Place, Search, Signal};
+use crate::signal::{Goal, Place, Search, Signal};
 use std::fmt;
 use std::str::FromStr;
 use wavestep_polynomial::Rational;
@@ -18,7 +18,7 @@ pub enum Simpler {
     Scene(Vec<Change>),
     /// So many modes of vibration.
     Modes(usize),
-    /// What so many arrivals tell, as if no more came.
+    /// What so many arrivals in the window tell, as if no more came.
     Arrivals(usize),
 }
 
@@ -99,20 +99,22 @@ impl<'p> From<&'p Other> for Against<'p> {
     }
 }
 
+/// A scene, what it says of a quantity, and how many arrivals count where not all do.
+type Counterpart<'p> = (&'p Network, Box<dyn Signal + 'p>, Option<usize>);
+
 /// The largest absolute value of a signal on its window, with proof.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Size {
     /// It lies between these.
     pub bounds: [Rational; 2],
-    /// Where it is taken.
+    /// Places that may have it, in order of time; none where only bounds are known.
     pub places: Vec<Place>,
 }
 
 impl Size {
-    /// The size of a signal, between near bounds; what is below `negligible` counts as that.
+    /// The size of a signal, between near bounds; what is below `negligible` is not refined.
     pub(super) fn near(signal: &dyn Signal, negligible: &Rational) -> Result<Size, ProblemError> {
-        let Largest { bounds, .. } = Search::new(signal)?.largest(negligible)?;
-        Ok(Size { bounds, places: Vec::new() })
+        Ok(Size { bounds: Search::new(signal)?.largest(negligible)?, places: Vec::new() })
     }
 
     /// The size of a signal to so many digits, where its extremes are found; else between nearer bounds, or below what is
@@ -124,43 +126,37 @@ impl Size {
     ) -> Result<Size, ProblemError> {
         let search = Search::new(signal)?;
         let near = search.largest(negligible)?;
-        if near.bounds[1] <= *negligible {
-            return Ok(Size { bounds: near.bounds, places: Vec::new() });
+        if near[1] <= *negligible {
+            return Ok(Size { bounds: near, places: Vec::new() });
         }
-        let least = &near.bounds[0];
-        let found = |goal| search.extremum_beyond(goal, Some(least), digits, bits);
+        let found = |goal| search.extremum_beyond(goal, Some(&near[0]), digits, bits);
         let (most, least) = match (found(Goal::Largest), found(Goal::Smallest)) {
             (Ok(most), Ok(least)) => (most, least),
-            (
-                Err(EvaluateError::AccuracyNotReached { .. } | EvaluateError::TooManyCells { .. }),
-                _,
-            )
-            | (
-                _,
-                Err(EvaluateError::AccuracyNotReached { .. } | EvaluateError::TooManyCells { .. }),
-            ) => return Ok(Size { bounds: near.bounds, places: Vec::new() }),
-            (Err(error), _) | (_, Err(error)) => return Err(error.into()),
+            (Err(error), _) | (_, Err(error)) if !error.is_unsettled() => return Err(error.into()),
+            _ => return Ok(Size { bounds: near, places: Vec::new() }),
         };
-        // Both are proven: what either knows of it holds.
-        let [first, last] = near.bounds;
-        let of = |extremum: Extremum, sign: i64| {
-            let [low, high] =
-                extremum.value.bounds().map(|bound| bound * Rational::from_integer(sign.into()));
-            (low.clone().min(high.clone()), high.max(low), extremum.places)
+        let least = least.map(|least| {
+            let [low, high] = least.value.bounds();
+            ([-high, -low], least.places)
+        });
+        let most = most.map(|most| (most.value.bounds(), most.places));
+        // All are proven: what either knows of it holds.
+        let (bounds, places) = match (most, least) {
+            (None, None) => (near.clone(), Vec::new()),
+            (Some(only), None) | (None, Some(only)) => only,
+            (Some((own, mut places)), Some((others, more))) => {
+                if own[1] < others[0] {
+                    places = more;
+                } else if others[1] >= own[0] {
+                    places.extend(more);
+                    places.sort_by_key(|place| place.from());
+                }
+                let [[low, high], [other_low, other_high]] = [own, others];
+                ([low.max(other_low), high.max(other_high)], places)
+            }
         };
-        let mut sizes =
-            most.map(|most| of(most, 1)).into_iter().chain(least.map(|least| of(least, -1)));
-        Ok(match (sizes.next(), sizes.next()) {
-            (None, _) => Size { bounds: [first, last], places: Vec::new() },
-            (Some((low, high, places)), None) => {
-                Size { bounds: [low.max(first), high.min(last)], places }
-            }
-            (Some((low, high, places)), Some((other_low, other_high, others))) => {
-                let places = if high >= other_high { places } else { others };
-                let bounds = [low.max(other_low).max(first), high.max(other_high).min(last)];
-                Size { bounds, places }
-            }
-        })
+        let ([first, last], [low, high]) = (near, bounds);
+        Ok(Size { bounds: [low.max(first), high.min(last)], places })
     }
 
     /// Between which numbers this size over another lies; none where the other may be zero.
@@ -187,6 +183,10 @@ impl Problem {
         let model = self.changed(changes)?;
         let scene = self.scaled()?.scene();
         if model.symbols().is_empty() || *changes != [Change::Spring(None, None)] {
+            return Ok((model, None));
+        }
+        // A name that is taken means something else.
+        if self.source.text().contains("omega") {
             return Ok((model, None));
         }
         let Some(square) = scene.square_of_rate() else { return Ok((model, None)) };
@@ -221,8 +221,7 @@ impl Problem {
     /// A quantity less what another answer says of it, on a window: how far the two are apart.
     ///
     /// # Errors
-    /// [`ProblemError::UnknownThere`]; [`ProblemError::Apart`] for quantities or times in other units; equations
-    /// without bars; arrivals of what has no closed form.
+    /// As [`Problem::counterpart`].
     pub fn difference_on<'p>(
         &'p self,
         other: impl Into<Against<'p>>,
@@ -230,9 +229,31 @@ impl Problem {
         window: [&Rational; 2],
         purpose: Purpose,
     ) -> Result<Box<dyn Signal + 'p>, ProblemError> {
+        let other = other.into();
+        let purpose = match other {
+            // Arrivals are those of a closed form.
+            Against::Arrivals(_) => Purpose::Stretches,
+            _ => purpose,
+        };
+        let (network, others, arrivals) = self.counterpart(other, wanted, window, purpose)?;
+        let own = self.signal_on(wanted, window, purpose)?;
+        Ok(planner::difference([self.network()?, network], [own, others], arrivals, window))
+    }
+
+    /// What another answer says of a quantity on a window, and its scene; of arrivals the whole, and how many count.
+    ///
+    /// # Errors
+    /// [`ProblemError::UnknownThere`]; [`ProblemError::Apart`] for quantities or times in other units; equations
+    /// without bars; arrivals of what has no closed form.
+    pub(super) fn counterpart<'p>(
+        &'p self,
+        other: Against<'p>,
+        wanted: &Wanted,
+        window: [&Rational; 2],
+        purpose: Purpose,
+    ) -> Result<Counterpart<'p>, ProblemError> {
         let own = self.network()?;
-        let signal = || self.signal_on(wanted, window, purpose);
-        let (network, others, arrivals) = match other.into() {
+        Ok(match other {
             Against::Problem(other) => {
                 let others = self.same(other, wanted)?;
                 (other.network()?, other.signal_on(&others, window, purpose)?, None)
@@ -245,12 +266,11 @@ impl Problem {
                 (own, signal.ok_or_else(|| self.unknown(&wanted.name))?, None)
             }
             Against::Arrivals(count) => {
-                let signal = signal()?;
+                let signal = self.signal_on(wanted, window, purpose)?;
                 signal.closed_form()?;
                 (own, signal, Some(count))
             }
-        };
-        Ok(planner::difference([own, network], [signal()?, others], arrivals, window))
+        })
     }
 
     /// The quantity of the same name in another scene.

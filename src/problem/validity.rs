@@ -26,6 +26,15 @@ pub enum Holds {
     AsLongAs(Vec<Pressed>),
 }
 
+/// Whether a contact that stays closed would pull.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Pulls {
+    /// From this time on, the one between these two.
+    From(Value, [String; 2]),
+    /// None does before this time; what comes later takes longer to know.
+    NotKnownFrom(Value),
+}
+
 /// A contact that has to be pressed.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Pressed {
@@ -74,13 +83,16 @@ impl Problem {
         })
     }
 
-    /// The first time at which a contact that stays closed would pull, and what is beside it, where that
-    /// is before a time and soon known.
-    pub fn pulls(&self, before: &Rational, digits: usize) -> Option<(Value, [String; 2])> {
+    /// Whether a contact that stays closed would pull before a time, as far as that is soon known; `None` where none does.
+    pub fn pulls(&self, before: &Rational, digits: usize) -> Option<Pulls> {
         let network = self.with_contacts().filter(|_| self.has_periods())?;
         match Validity::of(network, Some(before), digits, FEW_CELLS) {
-            Ok(Validity::Until { time, between }) => Some((time, between)),
-            _ => None,
+            Ok(Validity::Until { time, between }) => Some(Pulls::From(time, between)),
+            Ok(Validity::Followed(time)) => {
+                let [_, until] = time.bounds();
+                (until < *before).then_some(Pulls::NotKnownFrom(time))
+            }
+            Err(_) => None,
         }
     }
 

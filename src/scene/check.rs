@@ -153,8 +153,9 @@ impl Check<'_> {
         let Some(ideal) = &bar.ideal else { return };
         let held = self.scene.is_held(index);
         let refuse = |mistake| (mistake, vec![Part::Property(index, Property::As)]);
-        if let Ideal::Spring { share: Some(share), .. } = ideal {
-            self.positive(index, Property::Share, share);
+        if let Ideal::Spring { share, rate } = ideal {
+            share.iter().for_each(|share| self.positive(index, Property::Share, share));
+            rate.iter().for_each(|rate| self.positive(index, Property::Rate, rate));
         }
         let mistake = match ideal {
             _ if bar.is_endless() => refuse(Mistake::IdealEndless),

@@ -60,6 +60,7 @@ pub enum Property {
     As,
     /// The share of its mass at an end.
     Share,
+    Rate,
     Mass,
     Stiffness,
     Damping,
@@ -168,6 +169,7 @@ impl Property {
             Property::Strain => ("the strain", &["strain"]),
             Property::As => ("what the bar is", &["as"]),
             Property::Share => ("the share of the mass", &["share"]),
+            Property::Rate => ("the rate", &["rate"]),
             Property::Mass => ("the mass", &["mass"]),
             Property::Stiffness => ("the stiffness", &["stiffness"]),
             Property::Damping => ("the damping", &["damping"]),

@@ -78,6 +78,12 @@ fn too_many_echoes(echoes: u128, limit: usize) -> String {
 }
 
 impl EvaluateError {
+    /// Whether a search ended before it was decided: what is known until then holds.
+    pub(crate) fn is_unsettled(&self) -> bool {
+        use EvaluateError::{AccuracyNotReached, TooManyCells, TooManyRoots};
+        matches!(self, AccuracyNotReached { .. } | TooManyCells { .. } | TooManyRoots { .. })
+    }
+
     /// Whether the closed form of waves takes more work or memory than is allowed.
     pub(crate) fn is_too_much(&self) -> bool {
         use EvaluateError::{TooManyEchoes, TooManyPeriods, TooMuchMemory};

@@ -28,7 +28,7 @@ pub use cells::{first_doubles, reaching_a_double};
 pub use closed::{ClosedForm, ClosedSignal};
 pub use digits::{digits, value};
 pub use error::EvaluateError;
-pub use find::{Extremum, Goal, Largest, Place, Root, Roots, Search};
+pub use find::{Extremum, Goal, Place, Root, Roots, Search};
 pub use method::{
     Certified, Compiled, Evaluator, Marched, MethodError, StablePrecision, Summation, Summed,
     instructions,

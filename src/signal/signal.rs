@@ -193,6 +193,11 @@ pub trait Signal {
         u64::MAX
     }
 
+    /// With more bits than these, more has to be worked out than is known already.
+    fn ready_bits(&self) -> u64 {
+        u64::MAX
+    }
+
     /// How many echoes there are; nothing where they are not counted.
     fn echoes(&self) -> Option<EchoCount> {
         None

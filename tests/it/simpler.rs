@@ -1,8 +1,9 @@
 //! Simpler answers: bars that are springs or rigid, changes of a text, distances with proof, and advice.
 
+use num_traits::Signed as _;
 use wavestep::language::{Change, changed};
 use wavestep::planner::Purpose;
-use wavestep::problem::{Need, Simpler, Size, ToMap, Verdict};
+use wavestep::problem::{Against, MapRequest, Need, Simpler, Size, Verdict};
 use wavestep::signal::{At, Limit, Search, value};
 use wavestep::{Method, Problem};
 use wavestep_polynomial::Rational;
@@ -203,7 +204,7 @@ fn distances_are_those_of_samples() {
             let seen = exact.iter().zip(&model).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             assert!(seen <= high + 1e-11 && high - seen < 1e-6, "{mu} {what}: {low} {high} {seen}");
             // The same, less narrowly.
-            let near = Search::new(&*signal).unwrap().largest(&zero).unwrap().bounds;
+            let near = Search::new(&*signal).unwrap().largest(&zero).unwrap();
             let [less, more] = near.map(|bound| num_traits::ToPrimitive::to_f64(&bound).unwrap());
             assert!(
                 less <= high && low <= more && more <= less * 1.01,
@@ -380,7 +381,7 @@ fn arrivals_of_two_scenes_keep_their_order() {
         let off = signal.enclose(stretch, 0, At::Time(&at), 192).unwrap().to_double().0;
         assert!(off.abs() < 1e-20, "{time} us: {off}");
     }
-    let [low, high] = Search::new(&*signal).unwrap().largest(&zero).unwrap().bounds;
+    let [low, high] = Search::new(&*signal).unwrap().largest(&zero).unwrap();
     let [low, high] = [low, high].map(|bound| num_traits::ToPrimitive::to_f64(&bound).unwrap());
     assert!(low > 71_000.0 && high < 80_000.0, "{low} {high}");
 }
@@ -420,7 +421,7 @@ fn no_distance_is_below_what_is_negligible() {
         (own.wanted("rock_force").unwrap(), rational(0, 1), rational(4, 10_000));
     let signal = own.difference_on(&other, &wanted, [&zero, &to], Purpose::Search).unwrap();
     // With nothing negligible, what is not told from zero is left at its bound.
-    let [low, high] = Search::new(&*signal).unwrap().largest(&zero).unwrap().bounds;
+    let [low, high] = Search::new(&*signal).unwrap().largest(&zero).unwrap();
     assert!(low == zero && high < rational(1, 1_000_000), "{low} {high}");
     let size = Size::of(&*signal, (9, 1 << 12), &rational(1, 1_000_000)).unwrap();
     assert!(size.bounds[1] <= rational(1, 1_000_000) && size.places.is_empty());
@@ -433,10 +434,10 @@ fn maps_of_what_is_enough_are_proven_at_their_ends() {
     let open = Problem::builtin("mass-on-fixed-bar").unwrap();
     let simpler: Vec<Simpler> =
         ["third", "modes:2", "echoes:2"].map(|own| own.parse().unwrap()).into();
-    let span: wavestep::problem::Span = "mu=1/5..2".parse().unwrap();
+    let range: wavestep::problem::SymbolRange = "mu=1/5..2".parse().unwrap();
     let (tolerance, window) = (rational(1, 20), [rational(0, 1), rational(2, 1)]);
-    let asked = ToMap {
-        span: &span,
+    let asked = MapRequest {
+        range: &range,
         points: 5,
         quantity: "velocity",
         simpler: simpler.clone(),
@@ -464,7 +465,7 @@ fn maps_of_what_is_enough_are_proven_at_their_ends() {
         assert!(sampled <= &size.bounds[1] + &nothing, "{simpler} at {mu}");
         size.bounds
     };
-    for part in &map.parts {
+    for part in &map.runs {
         for mu in &part.between {
             for (place, own) in simpler.iter().enumerate() {
                 let [least, most] = off(mu, own);
@@ -476,12 +477,12 @@ fn maps_of_what_is_enough_are_proven_at_their_ends() {
             }
         }
     }
-    for pair in map.parts.windows(2) {
+    for pair in map.runs.windows(2) {
         let [before, after] = [&pair[0].between[1], &pair[1].between[0]];
         assert!(before < after && (after - before) * rational(500, 1) < *before);
     }
-    let firsts: Vec<_> = map.parts.iter().map(|part| part.first).collect();
-    assert_eq!(firsts, [Some(1), Some(2)], "{:?}", map.parts);
+    let firsts: Vec<_> = map.runs.iter().map(|part| part.first).collect();
+    assert_eq!(firsts, [Some(1), Some(2)], "{:?}", map.runs);
     assert_eq!(map.columns.len(), 5);
     for column in &map.columns {
         for (own, bounds) in simpler.iter().zip(&column.off) {
@@ -490,4 +491,25 @@ fn maps_of_what_is_enough_are_proven_at_their_ends() {
             assert!(low <= most && least <= high, "{own} at {}", column.value);
         }
     }
+}
+
+/// Arrivals are those of a closed form, also where a search of the quantity itself follows the scene.
+#[test]
+fn arrivals_are_counted_on_long_windows() {
+    let problem = builtin("mass-on-fixed-bar", "1/2");
+    let window = [rational(0, 1), rational(90, 1)];
+    let wanted = problem.wanted("velocity").unwrap();
+    let signal = problem
+        .difference_on(Against::Arrivals(2), &wanted, window.each_ref(), Purpose::Search)
+        .unwrap();
+    let before = value(&*signal, &rational(3, 2), Limit::Right, 20, 1 << 10).unwrap();
+    assert!(
+        before.bounds().into_iter().all(|bound| bound.abs() < rational(1, 1 << 40)),
+        "{before}"
+    );
+    let late = value(&*signal, &rational(80, 1), Limit::Right, 20, 1 << 12).unwrap();
+    let whole = problem.signal("velocity").unwrap().at(80, 20).unwrap();
+    // After two arrivals the function decays, so that nothing of it is left.
+    let off = late.bounds()[0].clone() - whole.bounds()[0].clone();
+    assert!(off.abs() < rational(1, 1 << 40), "{late} {whole}");
 }

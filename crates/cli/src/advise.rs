@@ -7,17 +7,17 @@ use super::input;
 use super::json::SCHEMA_VERSION;
 use super::output;
 use super::progress;
+use super::share::{percent, whole};
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
 use std::time::Duration;
-use wavestep::ball::{Decimal, in_decimals};
+use wavestep::ball::{Bound, Decimal, in_decimals};
 use wavestep::language::Change;
-use wavestep::problem::{Advice, Need, Problem, Tried, Verdict, Wanted, number, window};
+use wavestep::problem::{
+    Advice, Need, Problem, ProblemError, Tried, Verdict, Wanted, number, window,
+};
 
-/// One over a share that is not told from nothing.
-const NOTHING: u64 = 1_000_000_000_000_000;
-
-/// Digits of shares and of times that are only shown.
+/// Digits of times that are only shown.
 const DIGITS: usize = 3;
 
 pub fn run(options: &Advise) -> Result<String, Failure> {
@@ -29,21 +29,12 @@ pub fn run(options: &Advise) -> Result<String, Failure> {
     if let Some(over) = &options.over {
         return enough::run(options, &problem, over, tolerance);
     }
-    let name = match &options.quantity {
-        Some(name) => name.trim(),
-        None => problem.usual_quantity().unwrap_or_default(),
-    };
-    let wanted = problem.wanted(name)?;
-    let from = problem.time("--from", &*options.from)?;
-    let to = match &options.to {
-        Some(to) => problem.time("--to", &**to)?,
-        None => &from + problem.usual_length()?,
-    };
-    let window = window(from, to)?;
+    let wanted = problem.wanted(quantity(options, &problem))?;
+    let window = window_of(options, &problem)?;
     let need = Need { wanted: &wanted, window: window.each_ref(), tolerance };
     let advice = {
-        let progress = progress::spinner("weighing");
-        problem.advise(&need, &|simpler| progress.set_message(format!("weighing {simpler}")))?
+        let progress = progress::spinner("trying");
+        problem.advise(&need, &|simpler| progress.set_message(format!("trying {simpler}")))?
     };
     let told = Told { options, problem: &problem, need: &need, advice: &advice };
     if let Some(path) = &options.output {
@@ -55,24 +46,27 @@ pub fn run(options: &Advise) -> Result<String, Failure> {
     })
 }
 
+/// What is asked for: the first observable where nothing is said.
+pub fn quantity<'a>(options: &'a Advise, problem: &'a Problem) -> &'a str {
+    let usual = || problem.usual_quantity().unwrap_or_default();
+    options.quantity.as_deref().map_or_else(usual, str::trim)
+}
+
+/// The window that is asked for, or the usual one of a scene.
+pub fn window_of(options: &Advise, problem: &Problem) -> Result<[BigRational; 2], ProblemError> {
+    let from = problem.time("--from", &*options.from)?;
+    let to = match &options.to {
+        Some(to) => problem.time("--to", &**to)?,
+        None => &from + problem.usual_length()?,
+    };
+    window(from, to)
+}
+
 struct Told<'a> {
     options: &'a Advise,
     problem: &'a Problem,
     need: &'a Need<'a>,
     advice: &'a Advice,
-}
-
-pub fn share(value: &BigRational) -> String {
-    if *value < BigRational::new(1.into(), NOTHING.into()) {
-        return "less than 1e-13 %".to_owned();
-    }
-    let hundredth = BigRational::from_integer(100.into());
-    format!("{} %", Decimal::from_rational(&(value * hundredth), DIGITS).0)
-}
-
-/// So many 200ths of a share: what rounding to three digits takes from it, or adds to it, keeps the claim.
-pub fn rounded(value: &BigRational, parts: u64) -> BigRational {
-    value * BigRational::new(parts.into(), 200.into())
 }
 
 impl Told<'_> {
@@ -100,12 +94,11 @@ impl Told<'_> {
 
     fn verdict(&self, verdict: &Verdict) -> String {
         match verdict {
-            Verdict::Enough([_, most]) => match share(&rounded(most, 201)) {
-                little if little.starts_with("less") => little,
-                most => format!("at most {most}"),
-            },
+            Verdict::Enough([_, most]) => percent(most, Bound::Upper)
+                .map_or("less than 1e-13 %".to_owned(), |most| format!("at most {most}")),
             Verdict::Misses { by, at } => {
-                format!("{} at t = {}", share(&rounded(by, 199)), self.time(at))
+                let by = percent(by, Bound::Lower).unwrap_or_default();
+                format!("{by} at t = {}", self.time(at))
             }
             Verdict::Unproven(why) => format!("not proven: {why}"),
             Verdict::Unsuited(why) => format!("does not suit: {why}"),
@@ -128,7 +121,7 @@ impl Told<'_> {
         let mark = if enough.is_none() { "*" } else { " " };
         rows.push([format!("{mark} exact"), format!("0; {work}{}", self.each(*time))]);
         let width = rows.iter().map(|[what, _]| what.chars().count()).max().unwrap_or_default();
-        let tolerance = share(&self.need.tolerance);
+        let tolerance = whole(&self.need.tolerance);
         let mut text =
             format!("{name} within {tolerance} of its largest value, {}\n\n", self.window());
         for [what, verdict] in &rows {
@@ -139,7 +132,7 @@ impl Told<'_> {
             Some(own) => {
                 format!("Enough: `{}`, {}, proven.\n", own.simpler, self.verdict(&own.verdict))
             }
-            None => "Nothing simpler than the exact answer is enough.\n".to_owned(),
+            None => "None of these is proven to be enough.\n".to_owned(),
         };
         if let Some(next) = self.advice.next_cheaper() {
             let off = self.verdict(&next.verdict);
@@ -151,8 +144,9 @@ impl Told<'_> {
     fn json(&self) -> String {
         let Advice { tried, work, each, largest } = self.advice;
         let [from, to] = self.need.window.map(ToString::to_string);
-        let bounds = |bounds: &[BigRational; 2]| {
-            bounds.each_ref().map(|bound| Decimal::from_rational(bound, 9).0.to_string())
+        let bounds = |[low, high]: &[BigRational; 2]| {
+            [(low, Bound::Lower), (high, Bound::Upper)]
+                .map(|(value, bound)| Decimal::bound(value, 9, bound).to_string())
         };
         let row = |own: &Tried| {
             let mut body = json!({
@@ -163,7 +157,7 @@ impl Told<'_> {
             let verdict: Json = match &own.verdict {
                 Verdict::Enough(share) => json!({ "enough": bounds(share) }),
                 Verdict::Misses { by, at } => {
-                    json!({ "misses": Decimal::from_rational(by, 9).0.to_string(), "at": at.to_string() })
+                    json!({ "misses": Decimal::bound(by, 9, Bound::Lower).to_string(), "at": at.to_string() })
                 }
                 Verdict::Unproven(why) => json!({ "unproven": why }),
                 Verdict::Unsuited(why) => json!({ "unsuited": why }),
@@ -197,9 +191,16 @@ impl Told<'_> {
             None => match self.advice.enough() {
                 Some(own) => (
                     &[],
-                    format!("# `{}` is enough, but no scene; this is the whole.\n", own.simpler),
+                    format!(
+                        "# `{}` is enough but is not a scene; this is the full scene.\n",
+                        own.simpler
+                    ),
                 ),
-                None => (&[], "# Nothing in it can be left out.\n".to_owned()),
+                None => (
+                    &[],
+                    "# No smaller scene is proven to be enough; this is the full scene.\n"
+                        .to_owned(),
+                ),
             },
         };
         let text = match changes {
@@ -210,12 +211,15 @@ impl Told<'_> {
             self.problem.values().iter().map(|(name, value)| format!(" --set {name}={value}"));
         let values: String = values.collect();
         let values = if values.is_empty() { values } else { format!(", with{values}") };
-        Ok(format!(
-            "# What is left of \"{}\" for {} within {} of its largest value,\n# {}{values}.\n{proven}{text}",
+        let comment = format!(
+            "# What is left of \"{}\" for {} within {} of its largest value,\n# {}{values}.\n{proven}",
             self.problem.title(),
             self.need.wanted.name,
-            share(&self.need.tolerance),
+            whole(&self.need.tolerance),
             self.window(),
-        ))
+        );
+        // Lines end as those of the scene do.
+        let end = if text.contains("\r\n") { "\r\n" } else { "\n" };
+        Ok(comment.replace('\n', end) + &text)
     }
 }

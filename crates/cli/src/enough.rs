@@ -1,20 +1,19 @@
 //! `advise --for`: which simpler answer is enough where, as a table of proven differences, and as a map.
 
-use super::advise::{rounded, share};
+use super::advise::{quantity, window_of};
 use super::arguments::Advise;
 use super::failure::Failure;
 use super::picture;
 use super::progress;
+use super::share::{percent, whole};
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
-use wavestep::problem::{Column, EnoughMap, Part, Problem, Span, ToMap, window};
+use wavestep::ball::{Bound, in_decimals};
+use wavestep::problem::{Column, EnoughMap, MapRequest, Problem, Run, SymbolRange};
 use wavestep_draw::{Axis, Caption, Chart, Curve, Curves};
 
 /// Shares below this one are drawn at the lower edge.
 const NOTHING: f64 = 1e-12;
-
-/// Values that are longer in decimals are told as fractions.
-const LONG: usize = 9;
 
 /// The width of a PNG in pixels.
 const WIDTH: u32 = 900;
@@ -28,33 +27,22 @@ pub fn run(
     over: &str,
     tolerance: BigRational,
 ) -> Result<String, Failure> {
-    let span: Span = over.parse()?;
+    let range: SymbolRange = over.parse()?;
     let simpler: Result<Vec<_>, _> = options.models.iter().map(|own| own.parse()).collect();
-    let quantity = match &options.quantity {
-        Some(name) => name.trim(),
-        None => problem.usual_quantity().unwrap_or_default(),
-    };
-    let window = |problem: &Problem| {
-        let from = problem.time("--from", &*options.from)?;
-        let to = match &options.to {
-            Some(to) => problem.time("--to", &**to)?,
-            None => &from + problem.usual_length()?,
-        };
-        window(from, to)
-    };
-    let asked = ToMap {
-        span: &span,
+    let window = |problem: &Problem| window_of(options, problem);
+    let asked = MapRequest {
+        range: &range,
         points: options.points.into(),
-        quantity,
+        quantity: quantity(options, problem),
         simpler: simpler.map_err(wavestep::problem::ProblemError::from)?,
         tolerance,
         window: &window,
     };
     let told = || -> Result<Told<'_>, Failure> {
-        let progress = progress::spinner("weighing");
-        let symbol = &span.symbol;
+        let progress = progress::spinner("trying");
+        let symbol = &range.symbol;
         let map = problem.map_enough(&asked, &|value| {
-            progress.set_message(format!("weighing at {symbol} = {}", number(value)));
+            progress.set_message(format!("trying at {symbol} = {}", in_decimals(value)));
         })?;
         Ok(Told { options, asked: &asked, map })
     };
@@ -68,15 +56,9 @@ pub fn run(
     Ok(text + "\n" + &written)
 }
 
-/// A value of the symbol, as short as it is written.
-fn number(value: &BigRational) -> String {
-    let decimals = value.to_f64().map(|value| value.to_string());
-    decimals.filter(|decimals| decimals.len() <= LONG).unwrap_or_else(|| value.to_string())
-}
-
 struct Told<'a> {
     options: &'a Advise,
-    asked: &'a ToMap<'a>,
+    asked: &'a MapRequest<'a>,
     map: EnoughMap,
 }
 
@@ -97,21 +79,23 @@ impl Told<'_> {
     }
 
     fn window(&self) -> String {
-        let to = self.options.to.as_ref().map_or("four periods", String::as_str);
-        format!("{} <= t <= {to}", self.options.from)
+        match self.options.to.as_deref() {
+            Some(to) => format!("{} <= t <= {to}", self.options.from),
+            None => "on the usual window of each".to_owned(),
+        }
     }
 
     fn text(&self) -> String {
         let useful = self.useful();
-        let symbol = &self.asked.span.symbol;
+        let symbol = &self.asked.range.symbol;
         let mut rows = vec![vec![symbol.clone()]];
         rows[0].extend(useful.iter().map(|place| self.map.simpler[*place].to_string()));
         for Column { value, off } in &self.map.columns {
             let told = |place: &usize| match &off[*place] {
-                Some([_, most]) => share(&rounded(most, 201)).replace("less than", "<"),
+                Some([_, most]) => percent(most, Bound::Upper).unwrap_or("< 1e-13 %".to_owned()),
                 None => "-".to_owned(),
             };
-            rows.push([number(value)].into_iter().chain(useful.iter().map(told)).collect());
+            rows.push([in_decimals(value)].into_iter().chain(useful.iter().map(told)).collect());
         }
         let widths: Vec<usize> = (0..rows[0].len())
             .map(|i| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or_default())
@@ -127,29 +111,29 @@ impl Told<'_> {
             text.push('\n');
         }
         text +=
-            &format!("\nWithin {}, the first that is enough:\n\n", share(&self.asked.tolerance));
-        for Part { between: [from, to], first } in &self.map.parts {
+            &format!("\nWithin {}, the first that is enough:\n\n", whole(&self.asked.tolerance));
+        for Run { between: [from, to], first } in &self.map.runs {
             let what = first
                 .map_or_else(|| "exact".to_owned(), |place| self.map.simpler[place].to_string());
-            text += &format!("{} <= {symbol} <= {}  {what}\n", number(from), number(to));
+            text += &format!("{} <= {symbol} <= {}  {what}\n", in_decimals(from), in_decimals(to));
         }
         text
     }
 
     /// Marks on the line of the tolerance, where another answer is the first that is enough.
     fn borders(&self, tolerance: f64) -> Option<Curve> {
-        let border = |pair: &[Part]| {
+        let border = |pair: &[Run]| {
             let ends = [&pair[0].between[1], &pair[1].between[0]];
             let [low, high] = ends.map(|end| end.to_f64().unwrap_or(f64::NAN));
             [((low * high).sqrt(), tolerance), (f64::NAN, f64::NAN)]
         };
-        let points: Vec<_> = self.map.parts.windows(2).flat_map(border).collect();
-        let name = format!("borders at {}", share(&self.asked.tolerance));
+        let points: Vec<_> = self.map.runs.windows(2).flat_map(border).collect();
+        let name = format!("borders at {}", whole(&self.asked.tolerance));
         (!points.is_empty()).then_some(Curve { name, points })
     }
 
     fn chart(&self) -> Result<Box<dyn Chart>, Failure> {
-        let symbol = &self.asked.span.symbol;
+        let symbol = &self.asked.range.symbol;
         let curve = |place: usize| {
             let point = |Column { value, off }: &Column| {
                 let off = off[place].as_ref().and_then(|[_, most]| most.to_f64());
@@ -175,7 +159,8 @@ impl Told<'_> {
                 "the largest difference on the window over the largest value, proven at the marks"
                     .to_owned(),
             remarks: vec![
-                "Above a line its answer is enough; a region has the colour of the first that is."
+                "Above its line an answer is enough, proven at the marks and drawn between; a region has the colour of the \
+                 first that is enough."
                     .to_owned(),
             ],
             command: format!(
@@ -196,7 +181,7 @@ impl Told<'_> {
             caption,
         )?;
         let chart =
-            chart.level(tolerance, &share(&self.asked.tolerance))?.ceiling(ALL)?.floor(NOTHING)?;
+            chart.level(tolerance, &whole(&self.asked.tolerance))?.ceiling(ALL)?.floor(NOTHING)?;
         Ok(Box::new(chart.borders()))
     }
 }

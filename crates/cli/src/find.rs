@@ -163,7 +163,10 @@ fn settled(report: String, undecided: usize, what: &str) -> Result<String, Failu
     }
     let stay = if undecided == 1 { "stays" } else { "stay" };
     let message = format!("{} {stay} undecided", plural(undecided, what));
-    let remedy = "raise --max-bits; roots of even order stay undecided with any precision";
+    let remedy = match what {
+        "distance" => "ask for fewer digits, or a shorter window",
+        _ => "raise --max-bits; roots of even order stay undecided with any precision",
+    };
     Err(Failure::new(ACCURACY, message, remedy).with_report(report))
 }
 

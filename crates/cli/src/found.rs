@@ -103,7 +103,7 @@ pub fn distances(
             let told = Told { options, name: minus, level: "", problem, wanted, window };
             if is_nothing(distance, size) {
                 return format!(
-                    "{}: {minus} is off by less than 1e-15 of the largest value\n",
+                    "{}: largest difference from {minus} < 1e-15 of the largest value\n",
                     wanted.name
                 );
             }
@@ -116,7 +116,7 @@ pub fn distances(
             if let more @ 1.. = distance.places.len().saturating_sub(MOST_PLACES) {
                 places += &format!("and at {more} more (`--format json` has all)\n");
             }
-            format!("{name}: {minus} is off by at most {value}{share}\n{places}")
+            format!("{name}: largest difference from {minus} = {value}{share}\n{places}")
         };
         return (rows.iter().map(row).collect(), undecided);
     }

@@ -35,6 +35,7 @@ mod picture;
 mod plot;
 mod progress;
 mod rows;
+mod share;
 mod validity;
 
 use arguments::{Arguments, Scenes, Subcommand};

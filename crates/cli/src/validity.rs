@@ -1,7 +1,7 @@
 //! Until when a form with closed contacts is valid, as a note on standard error.
 
 use num_rational::BigRational;
-use wavestep::problem::{Holds, Pressed, Problem};
+use wavestep::problem::{Holds, Pressed, Problem, Pulls};
 use wavestep::signal::Value;
 
 /// Significant digits of the instant until which a form holds.
@@ -46,11 +46,16 @@ pub fn note_pulling(problem: &Problem, last: &BigRational) {
 
 /// That warning.
 pub fn pulling(problem: &Problem, last: &BigRational) -> Option<String> {
-    let (time, [left, right]) = problem.pulls(last, DIGITS)?;
-    Some(format!(
-        "from t = {} on the contact between {left} and {right} would pull; with `contacts open` it opens then",
-        text(problem, &time)
-    ))
+    Some(match problem.pulls(last, DIGITS)? {
+        Pulls::From(time, [left, right]) => format!(
+            "from t = {} on the contact between {left} and {right} would pull; with `contacts open` it opens then",
+            text(problem, &time)
+        ),
+        Pulls::NotKnownFrom(time) => format!(
+            "no contact would pull before t = {}; later ones were not looked for: `contacts open` follows them",
+            text(problem, &time)
+        ),
+    })
 }
 
 fn text(problem: &Problem, time: &Value) -> String {

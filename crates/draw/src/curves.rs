@@ -19,7 +19,7 @@ pub struct Curve {
 
 /// Several curves over one axis, with levels if wanted.
 ///
-/// On a logarithmic upward axis, values of exactly zero stand at the lower edge, with an arrow. Under a
+/// On a logarithmic upward axis, values of exactly zero, or below a floor, stand at the lower edge, with an arrow. Under a
 /// ceiling, what lies above it stands at the upper edge, with an arrow, infinite values as well.
 /// Curves of at most forty points have a marker at each, longer ones a few.
 ///
@@ -88,6 +88,7 @@ impl Curves {
 
     /// The same with a logarithmic upward axis on which what lies below `y` stands where exact zeros do.
     pub fn floor(mut self, y: f64) -> Result<Curves, PlotError> {
+        assert_eq!(self.y.scale, Scale::Logarithmic, "a floor needs a logarithmic axis");
         self.y.check(y)?;
         self.floor = Some(y);
         Ok(self)
@@ -309,6 +310,12 @@ impl Chart for Curves {
         });
         if let Some(ceiling) = self.ceiling {
             value["ceiling"] = json_number(Some(ceiling));
+        }
+        if let Some(floor) = self.floor {
+            value["floor"] = json_number(Some(floor));
+        }
+        if self.are_borders {
+            value["borders"] = json!(true);
         }
         value
     }

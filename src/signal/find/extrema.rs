@@ -93,6 +93,20 @@ pub enum Place {
 }
 
 impl Place {
+    /// The first time that it may be.
+    pub(crate) fn from(&self) -> Rational {
+        match self {
+            Place::Critical(time)
+            | Place::End(time)
+            | Place::Arrival { time, .. }
+            | Place::Plateau { from: time, .. } => {
+                let [from, _] = time.bounds();
+                from
+            }
+            Place::Undecided { from, .. } => from.clone(),
+        }
+    }
+
     /// Whether the value is taken there: a limit from earlier times alone is not.
     pub fn is_attained(&self) -> bool {
         !matches!(self, Place::Arrival { after: false, .. })
@@ -159,7 +173,7 @@ impl<'s> Search<'s> {
     }
 
     /// The same where it is at least of this size: no less than `least`, or no more than `−least`. What is below that is
-    /// not looked at.
+    /// not looked at; `None` where all is.
     pub fn extremum_beyond(
         &self,
         goal: Goal,
@@ -168,7 +182,10 @@ impl<'s> Search<'s> {
         limit_bits: u64,
     ) -> Result<Option<Extremum>, EvaluateError> {
         let contenders = self.contenders(goal, least, limit_bits)?;
-        for bits in comparisons().iter() {
+        // Whether places differ by less than is known already is not worth following a scene once more.
+        let ready =
+            self.function.ready_bits().saturating_sub(SPARE_BITS).max(comparisons().first());
+        for bits in comparisons().iter().take_while(|bits| *bits <= ready) {
             contenders.compare(bits)?;
         }
         if contenders.left.borrow().is_empty() {

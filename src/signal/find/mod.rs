@@ -23,4 +23,3 @@ mod size;
 pub use extrema::{Extremum, Goal, Place};
 pub use roots::{Root, Roots};
 pub use search::Search;
-pub use size::Largest;

@@ -1,8 +1,8 @@
-//! The largest absolute value on a window, between two bounds that are as near as asked for.
+//! The largest absolute value on a window, between two bounds that are at most a part of `2^−8` apart where cells allow it.
 //!
 //! Branch and bound: with `F(m + hu) = Σ_k c_k u^k` up to a remainder `R` on a cell, `|F| ≤ Σ_k |c_k| + R` there, and
 //! `|F(m)| ≥ |c_0| − R` is taken. A cell is done once its bound is hardly above the largest value that is known to be
-//! taken, or is negligible; else it is halved. So a function that is zero is done at once, where a search for its extrema
+//! taken, is negligible, or nothing of it is told from zero; else it is halved. So a function that is zero is done at once, where a search for its extrema
 //! would halve cells for ever.
 
 use super::cover::{is_sharp, middle_and_half, range_of};
@@ -20,23 +20,17 @@ const TERMS: usize = 16;
 /// How much larger than the largest value that is known the bound may be: by a part of `2^−8`.
 const SLACK: i64 = 8;
 
-/// How often a stretch is halved: what is not decided then is as good as it gets, and its bound counts.
+/// How often a stretch is halved: what is not decided then is kept with its bound.
 const DEPTH: usize = 56;
 
 /// How often a polynomial is used for shorter cells.
 const HALVINGS: usize = 5;
 
-/// Between which numbers the largest absolute value lies, and a time at which it is at least the lower one.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Largest {
-    pub bounds: [Rational; 2],
-    pub at: Rational,
-}
-
 /// The work on all stretches.
 struct Bounding<'a, 's> {
     search: &'a Search<'s>,
-    known: Largest,
+    /// Between which numbers the largest absolute value lies.
+    known: [Rational; 2],
     negligible: Rational,
     expansions: usize,
 }
@@ -50,11 +44,9 @@ struct Known {
 }
 
 impl Search<'_> {
-    /// The largest absolute value; what is below `negligible` counts as that.
-    pub fn largest(&self, negligible: &Rational) -> Result<Largest, EvaluateError> {
-        let at = self.function.window()[0].clone();
-        let known = Largest { bounds: Default::default(), at };
-        let negligible = negligible.clone();
+    /// Between which numbers the largest absolute value lies; bounds below `negligible` are not refined.
+    pub fn largest(&self, negligible: &Rational) -> Result<[Rational; 2], EvaluateError> {
+        let (known, negligible) = (Default::default(), negligible.clone());
         let mut bounding = Bounding { search: self, known, negligible, expansions: 0 };
         for stretch in 0..self.count {
             bounding.note_ends(stretch)?;
@@ -73,13 +65,13 @@ impl Bounding<'_, '_> {
         self.search.bits.get()
     }
 
-    /// A value that is taken at a time, or nearly.
-    fn note(&mut self, value: &Ball, at: &Rational) {
+    /// A value that is taken, or nearly.
+    fn note(&mut self, value: &Ball) {
         let (low, high) = value.endpoints();
         let (low, high): (Rational, Rational) = ((&low).into(), (&high).into());
         let size = if low.is_positive() { low } else { -high };
-        if size > self.known.bounds[0] {
-            (self.known.bounds[0], self.known.at) = (size, at.clone());
+        if size > self.known[0] {
+            self.known[0] = size;
         }
     }
 
@@ -92,17 +84,12 @@ impl Bounding<'_, '_> {
                 continue;
             }
             let value = search.enclose(stretch, target, At::End(end), self.bits())?;
-            let [_, high] = &mut self.known.bounds;
+            let [_, high] = &mut self.known;
             let most = Rational::from(&value.magnitude());
             if search.function.is_instant(stretch) && most > *high {
                 *high = most;
             }
-            let bits = self.bits();
-            let at = match search.function.exact_time(stretch, end) {
-                Some(time) => time,
-                None => search.function.time(stretch, end, bits)?.midpoint().into(),
-            };
-            self.note(&value, &at);
+            self.note(&value);
         }
         Ok(())
     }
@@ -150,9 +137,9 @@ impl Bounding<'_, '_> {
 
     /// Whether halves of a cell would tell no more, and then notes its bound: it is near enough, or nothing is told from zero.
     fn is_done(&mut self, own: &Known, depth: usize) -> bool {
-        self.note(&own.taylor.coefficients[0].widened(&own.taylor.remainder), &own.middle);
+        self.note(&own.taylor.coefficients[0].widened(&own.taylor.remainder));
         let most = Rational::from(&range_of(&own.taylor).magnitude());
-        let [low, high] = &mut self.known.bounds;
+        let [low, high] = &mut self.known;
         let slack = &*low * Rational::from(&Magnitude::power_of_two(-SLACK));
         let is_noise =
             is_sharp(&own.taylor) && own.taylor.coefficients.iter().all(Ball::contains_zero);

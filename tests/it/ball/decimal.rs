@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use std::cell::Cell;
 use wavestep::ball::decimal::{half_even, round_scaled, rounded_up, scale_far};
-use wavestep::ball::{Ball, Binary, Decimal, Exactness, Magnitude};
+use wavestep::ball::{Ball, Binary, Bound, Decimal, Exactness, Magnitude};
 
 fn ratio(above: i64, below: i64) -> BigRational {
     BigRational::new(above.into(), below.into())
@@ -170,4 +170,21 @@ fn bounds_print_at_any_exponent() {
     assert_eq!(Magnitude::power_of_two(-100).to_string(), "7.9e-31");
     // log_10 2^(10^12) = 301029995663.981…
     assert_eq!(Magnitude::power_of_two(1_000_000_000_000).to_string(), "9.6e301029995663");
+}
+
+#[test]
+fn bounds_lie_on_their_side() {
+    let mut value = BigRational::new(1.into(), 7.into());
+    for _ in 0..200 {
+        value *= BigRational::new((-13).into(), 11.into());
+        for digits in [1, 3, 9] {
+            let told = |bound| Decimal::bound(&value, digits, bound).to_rational();
+            let (low, high) = (told(Bound::Lower), told(Bound::Upper));
+            assert!(low <= value && value <= high, "{value}: {low} {high}");
+            let unit = BigRational::from_integer(10.into()).pow(1 - digits as i32);
+            assert!(&high - &low <= value.abs() * unit * BigRational::from_integer(2.into()));
+        }
+    }
+    let five = BigRational::from_integer(5.into());
+    assert_eq!(Decimal::bound(&five, 3, Bound::Upper).to_rational(), five);
 }

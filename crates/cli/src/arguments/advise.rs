@@ -11,8 +11,8 @@ use std::path::PathBuf;
     wavestep advise mass-on-fixed-bar --quantity velocity --for mu=1/10..10 --to 2 -o map.svg\n\n\
     Tried from cheap to dear: bars that do not yield, bars as springs with a third or another share of\n\
     their mass, the scene less every element it does not need, the first arrivals, modes of vibration;\n\
-    then the exact answer. What is enough is proven on the whole window; what is not has a time at which\n\
-    it is seen.\n\
+    then the exact answer. What is enough is proven on the whole window. What misses has a time at which\n\
+    that is seen.\n\
     With --for, the largest difference of each simpler answer is proven at some values of the symbol.\n\
     Borders between what is enough are found by halving. -o draws the map (.svg, .png, .json or .csv).")]
 pub struct Advise {
@@ -30,7 +30,7 @@ pub struct Advise {
     /// The last time of the window [default: four periods, or twice the way along the line]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub to: Option<String>,
-    /// Tell how long a value of each took, too
+    /// Also show the time per value
     #[arg(long)]
     pub stats: bool,
     /// Which answer is enough where, over this symbol from one value to another: mu=1/10..10
@@ -47,7 +47,7 @@ pub struct Advise {
     /// Write the smallest scene that is enough into this file; with --for, the map
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
-    /// Written how
+    /// The format of the output
     #[arg(long, value_parser = named([
         ("text", Format::Text, "A table, and what follows from it"),
         ("json", Format::Json, "All that was tried"),

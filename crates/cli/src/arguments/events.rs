@@ -9,7 +9,8 @@ use clap::Args;
     wavestep events bars-of-equal-length --format json\n  \
     wavestep events hopkinson-with-release --until 2ms --digits 9\n\n\
 Contacts push and never pull: they open where they would, and close where bodies meet again.\n\
-What cannot be decided is refused with exit code 3, never passed over.")]
+What no precision decides is taken for a tie, and told as an assumption; what may still be decided is\n\
+refused with exit code 3. Nothing is passed over.")]
 pub struct Events {
     #[command(flatten)]
     pub scene: Scene,

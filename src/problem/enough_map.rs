@@ -3,11 +3,10 @@
 //! At some values of the symbol the largest difference of each simpler answer is proven. Where the first that is enough
 //! for a tolerance differs between two neighbours, what lies between them is halved until both are nearly the same.
 
-use super::{Other, Problem, ProblemError, Simpler, Size, number};
+use super::comparison::Comparison;
+use super::{Problem, ProblemError, Simpler, number};
 use crate::language::syntax::Declared;
-use crate::language::{self, Beyond, Change};
-use crate::planner::Purpose;
-use crate::signal::Signal;
+use crate::language::{self, Beyond, Change, parse_number};
 use num_traits::{Signed as _, ToPrimitive as _};
 use std::str::FromStr;
 use wavestep_polynomial::Rational;
@@ -15,39 +14,33 @@ use wavestep_polynomial::Rational;
 /// Neighbours of a border differ by one in so many.
 const FINE: i64 = 1000;
 
-/// The digits and bits of a size that is to be told from a tolerance.
-const TOLD: (usize, u64) = (9, 1 << 12);
-
-/// The part of the largest value that is not told from nothing.
-const NOTHING: i64 = 1_000_000_000_000;
-
 /// The numbers of arrivals, and of modes, that are tried where nothing else is said.
 const COUNTS: [usize; 5] = [1, 2, 4, 8, 16];
 
 /// A symbol, from one positive value to another.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Span {
+pub struct SymbolRange {
     /// Its name.
     pub symbol: String,
     pub from: Rational,
     pub to: Rational,
 }
 
-impl FromStr for Span {
+impl FromStr for SymbolRange {
     type Err = ProblemError;
 
-    fn from_str(text: &str) -> Result<Span, ProblemError> {
-        let unread = || ProblemError::Span(text.to_owned());
+    fn from_str(text: &str) -> Result<SymbolRange, ProblemError> {
+        let unread = || ProblemError::SymbolRange(text.to_owned());
         let (symbol, ends) = text.split_once('=').ok_or_else(unread)?;
         let (from, to) = ends.split_once("..").ok_or_else(unread)?;
-        let (from, to) = (number("--for", from.trim())?, number("--for", to.trim())?);
+        let (from, to) = (number("the range", from.trim())?, number("the range", to.trim())?);
         let symbol = symbol.trim().to_owned();
-        let is_span = from.is_positive() && from < to && !symbol.is_empty();
-        if is_span { Ok(Span { symbol, from, to }) } else { Err(unread()) }
+        let is_range = from.is_positive() && from < to && !symbol.is_empty();
+        if is_range { Ok(SymbolRange { symbol, from, to }) } else { Err(unread()) }
     }
 }
 
-impl Span {
+impl SymbolRange {
     /// So many values from one end to the other with three digits, each about the same multiple of the one before.
     pub fn values(&self, points: usize) -> Vec<Rational> {
         let [from, to] = [&self.from, &self.to].map(|end| end.to_f64().unwrap_or(f64::NAN));
@@ -68,7 +61,7 @@ impl Span {
 
 /// A number with so many digits.
 fn short(value: f64, digits: usize) -> Option<Rational> {
-    number("--for", &format!("{value:.*e}", digits - 1)).ok()
+    parse_number(&format!("{value:.*e}", digits - 1)).ok()
 }
 
 /// A value between two others, with few digits; none where they are nearly the same.
@@ -80,8 +73,8 @@ fn between(one: &Rational, other: &Rational) -> Option<Rational> {
     short((low * high).sqrt(), 5).filter(|middle| one < middle && middle < other)
 }
 
-/// Where what is found at a value changes: all that was found at some values, and between neighbours that differ at more
-/// of them, until those that differ are nearly the same; told as the first and the last value of each run.
+/// Runs of equal states, each by its first and its last value: of the states at some values, and where neighbours differ
+/// at values between them, until those that differ are nearly the same.
 ///
 /// # Errors
 /// Those of `find`.
@@ -116,8 +109,8 @@ pub fn runs<S: PartialEq, E>(
 }
 
 /// What is asked.
-pub struct ToMap<'a> {
-    pub span: &'a Span,
+pub struct MapRequest<'a> {
+    pub range: &'a SymbolRange,
     /// At how many values distances are proven.
     pub points: usize,
     /// What is observed.
@@ -130,17 +123,17 @@ pub struct ToMap<'a> {
     pub window: &'a dyn Fn(&Problem) -> Result<[Rational; 2], ProblemError>,
 }
 
-/// How far off simpler answers are at one value of the symbol, over the largest value; none that does not suit.
+/// How far off simpler answers are at one value of the symbol, over the largest value.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Column {
     pub value: Rational,
-    /// For each simpler answer the bounds of its largest difference.
+    /// For each simpler answer the bounds of its largest difference; none where it does not suit, or is not told.
     pub off: Vec<Option<[Rational; 2]>>,
 }
 
 /// Values of the symbol at which the same answer is the first that is proven to be enough.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Part {
+pub struct Run {
     /// The first and the last value at which that was proven.
     pub between: [Rational; 2],
     /// Its place among the simpler answers; none where only the exact one is enough.
@@ -155,65 +148,7 @@ pub struct EnoughMap {
     /// In the order of the values.
     pub columns: Vec<Column>,
     /// For the tolerance, in the order of the values.
-    pub parts: Vec<Part>,
-}
-
-/// A scene at one value of the symbol, with what its answers are compared with.
-struct At<'p> {
-    problem: &'p Problem,
-    quantity: &'p str,
-    window: [Rational; 2],
-    largest: Size,
-}
-
-impl<'p> At<'p> {
-    fn new(problem: &'p Problem, asked: &ToMap<'p>) -> Result<At<'p>, ProblemError> {
-        let window = (asked.window)(problem)?;
-        let wanted = problem.wanted(asked.quantity)?;
-        let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?;
-        let largest = Size::of(&*signal, TOLD, &Rational::default())?;
-        drop(signal);
-        Ok(At { problem, quantity: asked.quantity, window, largest })
-    }
-
-    /// The largest difference of an answer, over the largest value; to more digits where it is to be told from a
-    /// tolerance. None where it does not suit.
-    fn off(
-        &self,
-        simpler: &Simpler,
-        tolerance: Option<&Rational>,
-    ) -> Result<Option<[Rational; 2]>, ProblemError> {
-        let Ok(other) = self.problem.simpler(simpler) else { return Ok(None) };
-        let Ok(difference) = self.difference(&other) else { return Ok(None) };
-        let negligible = &self.largest.bounds[0] / Rational::from_integer(NOTHING.into());
-        let near = Size::near(&*difference, &negligible)?.over(&self.largest);
-        match (near, tolerance) {
-            (Some([least, most]), Some(tolerance)) if least <= *tolerance && *tolerance < most => {
-                Ok(Size::of(&*difference, TOLD, &negligible)?.over(&self.largest))
-            }
-            (near, _) => Ok(near),
-        }
-    }
-
-    fn difference<'a>(&'a self, other: &'a Other) -> Result<Box<dyn Signal + 'a>, ProblemError> {
-        let wanted = self.problem.wanted(self.quantity)?;
-        self.problem.difference_on(other, &wanted, self.window.each_ref(), Purpose::Search)
-    }
-
-    /// The first answer that is proven to be enough.
-    fn first_enough(
-        &self,
-        simpler: &[Simpler],
-        tolerance: &Rational,
-    ) -> Result<Option<usize>, ProblemError> {
-        for (place, own) in simpler.iter().enumerate() {
-            let off = self.off(own, Some(tolerance))?;
-            if off.is_some_and(|[_, most]| most <= *tolerance) {
-                return Ok(Some(place));
-            }
-        }
-        Ok(None)
-    }
+    pub runs: Vec<Run>,
 }
 
 #[doc(hidden)]
@@ -231,35 +166,52 @@ impl Problem {
     /// [`ProblemError::NoSymbol`] where the scene has no such symbol, else as [`Problem::advise`].
     pub fn map_enough(
         &self,
-        asked: &ToMap<'_>,
+        asked: &MapRequest<'_>,
         tell: &dyn Fn(&Rational),
     ) -> Result<EnoughMap, ProblemError> {
-        let ToMap { span, points, tolerance, .. } = asked;
-        if !self.symbols().contains(&&*span.symbol) {
+        let MapRequest { range, points, tolerance, .. } = asked;
+        if !self.symbols().contains(&&*range.symbol) {
             let symbols = self.symbols().into_iter().map(str::to_owned).collect();
-            return Err(ProblemError::NoSymbol { name: span.symbol.clone(), symbols });
+            return Err(ProblemError::NoSymbol { name: range.symbol.clone(), symbols });
         }
         let simpler = match asked.simpler.is_empty() {
             true => self.usual_simpler(),
             false => asked.simpler.clone(),
         };
-        let at = |value: &Rational| {
-            tell(value);
-            self.at(&span.symbol, value)
-        };
-        let values = span.values(*points);
+        let values = range.values(*points);
         let mut columns = Vec::new();
         let runs = runs(values.iter().cloned(), |value| {
-            let problem = at(value)?;
-            let at = At::new(&problem, asked)?;
+            tell(value);
+            let off = self.at(&range.symbol, value)?.shares(asked, &simpler)?;
+            let is_enough = |own: &Option<[Rational; 2]>| {
+                own.as_ref().is_some_and(|[_, most]| most <= tolerance)
+            };
+            let first = off.iter().position(is_enough);
             if values.contains(value) {
-                let off: Result<Vec<_>, _> = simpler.iter().map(|own| at.off(own, None)).collect();
-                columns.push(Column { value: value.clone(), off: off? });
+                columns.push(Column { value: value.clone(), off });
             }
-            at.first_enough(&simpler, tolerance)
+            Ok::<_, ProblemError>(first)
         })?;
-        let parts = runs.into_iter().map(|(between, first)| Part { between, first }).collect();
-        Ok(EnoughMap { simpler, columns, parts })
+        let runs = runs.into_iter().map(|(between, first)| Run { between, first }).collect();
+        Ok(EnoughMap { simpler, columns, runs })
+    }
+
+    /// How far simpler answers are off, over the largest value.
+    fn shares(
+        &self,
+        asked: &MapRequest<'_>,
+        simpler: &[Simpler],
+    ) -> Result<Vec<Option<[Rational; 2]>>, ProblemError> {
+        let (window, wanted) = ((asked.window)(self)?, self.wanted(asked.quantity)?);
+        let comparison = match Comparison::new(self, &wanted, window.each_ref()) {
+            Err(ProblemError::AllZero(_)) => return Ok(vec![None; simpler.len()]),
+            comparison => comparison?,
+        };
+        let share = |simpler: &Simpler| {
+            let other = self.simpler(simpler).ok()?;
+            comparison.share(&other, &asked.tolerance).ok()
+        };
+        Ok(simpler.iter().map(share).collect())
     }
 
     /// What is tried where nothing else is said: whole scenes, one change alone, arrivals, modes.

@@ -1,0 +1,63 @@
+//! A quantity on a window, and how far simpler answers are from it: the largest difference over the largest value.
+
+use super::{Other, Problem, ProblemError, Size, Wanted};
+use crate::planner::Purpose;
+use num_traits::Zero as _;
+use wavestep_polynomial::Rational;
+
+/// The digits and bits of a size that is to be told from a tolerance.
+const TOLD: (usize, u64) = (9, 1 << 12);
+
+/// A difference of this part of the tolerance need not be known any better, and no smaller part of the largest value.
+const PART_OF_TOLERANCE: i64 = 1 << 20;
+const PART_OF_LARGEST: i64 = 1_000_000_000_000;
+
+/// What simpler answers are compared with.
+pub(super) struct Comparison<'p> {
+    pub problem: &'p Problem,
+    pub wanted: &'p Wanted,
+    pub window: [&'p Rational; 2],
+    /// The largest value of the quantity, which is not zero.
+    pub largest: Size,
+}
+
+impl<'p> Comparison<'p> {
+    /// # Errors
+    /// [`ProblemError::AllZero`] where the quantity is zero on the window; else as [`Problem::signal_on`].
+    pub fn new(
+        problem: &'p Problem,
+        wanted: &'p Wanted,
+        window: [&'p Rational; 2],
+    ) -> Result<Comparison<'p>, ProblemError> {
+        let signal = problem.signal_on(wanted, window, Purpose::Search)?;
+        let largest = Size::of(&*signal, TOLD, &Rational::zero())?;
+        if largest.bounds[0].is_zero() {
+            return Err(ProblemError::AllZero(wanted.name.clone()));
+        }
+        Ok(Comparison { problem, wanted, window, largest })
+    }
+
+    /// The largest difference of an answer over the largest value, between two bounds: near ones, or where the tolerance
+    /// lies between these, ones to nine digits.
+    ///
+    /// # Errors
+    /// As [`Problem::difference_on`].
+    pub fn share(
+        &self,
+        other: &Other,
+        tolerance: &Rational,
+    ) -> Result<[Rational; 2], ProblemError> {
+        let difference =
+            self.problem.difference_on(other, self.wanted, self.window, Purpose::Search)?;
+        let least = &self.largest.bounds[0];
+        let negligible = (tolerance / Rational::from_integer(PART_OF_TOLERANCE.into()))
+            .min(Rational::new(1.into(), PART_OF_LARGEST.into()))
+            * least;
+        let over = |size: Size| size.over(&self.largest).expect("the largest value is not zero");
+        let near = over(Size::near(&*difference, &negligible)?);
+        match near[0] <= *tolerance && *tolerance < near[1] {
+            true => Ok(over(Size::of(&*difference, TOLD, &negligible)?)),
+            false => Ok(near),
+        }
+    }
+}
