@@ -7,7 +7,7 @@ use super::comparison::Comparison;
 use super::{Problem, ProblemError, Simpler, number};
 use crate::language::syntax::Declared;
 use crate::language::{self, Beyond, Change, parse_number};
-use num_traits::{Signed as _, ToPrimitive as _};
+use num_traits::{One as _, Signed as _, ToPrimitive as _};
 use std::str::FromStr;
 use wavestep_polynomial::Rational;
 
@@ -40,23 +40,21 @@ impl FromStr for SymbolRange {
     }
 }
 
-impl SymbolRange {
-    /// So many values from one end to the other with three digits, each about the same multiple of the one before.
-    pub fn values(&self, points: usize) -> Vec<Rational> {
-        let [from, to] = [&self.from, &self.to].map(|end| end.to_f64().unwrap_or(f64::NAN));
-        let between = |i: usize| {
-            let share = i as f64 / (points - 1) as f64;
-            short(from * (to / from).powf(share), 3)
-        };
-        let mut values = vec![self.from.clone()];
-        for value in (1..points.max(2) - 1).filter_map(between) {
-            if value > values[values.len() - 1] && value < self.to {
-                values.push(value);
-            }
+/// So many values from one to another, both positive, with three digits, each about the same multiple of the one before.
+pub fn geometrically_spaced(from: &Rational, to: &Rational, points: usize) -> Vec<Rational> {
+    let [first, last] = [from, to].map(|end| end.to_f64().unwrap_or(f64::NAN));
+    let between = |i: usize| {
+        let share = i as f64 / (points - 1) as f64;
+        short(first * (last / first).powf(share), 3)
+    };
+    let mut values = vec![from.clone()];
+    for value in (1..points.max(2) - 1).filter_map(between) {
+        if value > values[values.len() - 1] && value < *to {
+            values.push(value);
         }
-        values.push(self.to.clone());
-        values
     }
+    values.push(to.clone());
+    values
 }
 
 /// A number with so many digits.
@@ -73,6 +71,14 @@ fn between(one: &Rational, other: &Rational) -> Option<Rational> {
     short((low * high).sqrt(), 5).filter(|middle| one < middle && middle < other)
 }
 
+/// Values that were looked at one after the other, and are in one state.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Run<S> {
+    /// The first and the last of them.
+    pub between: [Rational; 2],
+    pub state: S,
+}
+
 /// Runs of equal states, each by its first and its last value: of the states at some values, and where neighbours differ
 /// at values between them, until those that differ are nearly the same.
 ///
@@ -81,7 +87,7 @@ fn between(one: &Rational, other: &Rational) -> Option<Rational> {
 pub fn runs<S: PartialEq, E>(
     values: impl IntoIterator<Item = Rational>,
     mut find: impl FnMut(&Rational) -> Result<S, E>,
-) -> Result<Vec<([Rational; 2], S)>, E> {
+) -> Result<Vec<Run<S>>, E> {
     let mut found: Vec<(Rational, S)> = Vec::new();
     for value in values {
         let state = find(&value)?;
@@ -98,11 +104,11 @@ pub fn runs<S: PartialEq, E>(
         let state = find(&middle)?;
         found.insert(place + 1, (middle, state));
     }
-    let mut runs: Vec<([Rational; 2], S)> = Vec::new();
+    let mut runs: Vec<Run<S>> = Vec::new();
     for (value, state) in found {
-        match runs.last_mut().filter(|(_, last)| *last == state) {
-            Some((run, _)) => run[1] = value,
-            None => runs.push(([value.clone(), value], state)),
+        match runs.last_mut().filter(|last| last.state == state) {
+            Some(last) => last.between[1] = value,
+            None => runs.push(Run { between: [value.clone(), value], state }),
         }
     }
     Ok(runs)
@@ -131,15 +137,6 @@ pub struct Column {
     pub off: Vec<Option<[Rational; 2]>>,
 }
 
-/// Values of the symbol at which the same answer is the first that is proven to be enough.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Run {
-    /// The first and the last value at which that was proven.
-    pub between: [Rational; 2],
-    /// Its place among the simpler answers; none where only the exact one is enough.
-    pub first: Option<usize>,
-}
-
 /// Which simpler answer is enough where.
 #[derive(Clone, PartialEq, Debug)]
 pub struct EnoughMap {
@@ -148,18 +145,26 @@ pub struct EnoughMap {
     /// In the order of the values.
     pub columns: Vec<Column>,
     /// For the tolerance, in the order of the values.
-    pub runs: Vec<Run>,
+    pub runs: Vec<Run<Option<usize>>>,
+}
+
+impl EnoughMap {
+    /// The answers that are the first that is enough for some tolerance below the whole, at one value at least.
+    pub fn useful(&self) -> Vec<usize> {
+        let most = |own: &Option<[Rational; 2]>| own.as_ref().map(|[_, most]| most.clone());
+        let is_first = |place: usize, off: &[Option<[Rational; 2]>]| {
+            let cheaper = off[..place].iter().filter_map(most);
+            let least = cheaper.chain([Rational::one()]).min();
+            most(&off[place]) < least && off[place].is_some()
+        };
+        let is_useful =
+            |place: &usize| self.columns.iter().any(|column| is_first(*place, &column.off));
+        (0..self.simpler.len()).filter(is_useful).collect()
+    }
 }
 
 #[doc(hidden)]
 impl Problem {
-    /// The same with one more value.
-    fn at(&self, symbol: &str, value: &Rational) -> Result<Problem, ProblemError> {
-        let mut values = self.values.clone();
-        values.insert(symbol.to_owned(), value.clone());
-        Problem::of(self.source.clone(), values)
-    }
-
     /// Which simpler answer is enough where; `tell` hears of each value of the symbol.
     ///
     /// # Errors
@@ -178,11 +183,11 @@ impl Problem {
             true => self.usual_simpler(),
             false => asked.simpler.clone(),
         };
-        let values = range.values(*points);
+        let values = geometrically_spaced(&range.from, &range.to, *points);
         let mut columns = Vec::new();
         let runs = runs(values.iter().cloned(), |value| {
             tell(value);
-            let off = self.at(&range.symbol, value)?.shares(asked, &simpler)?;
+            let off = self.substituted(&range.symbol, value)?.shares(asked, &simpler)?;
             let is_enough = |own: &Option<[Rational; 2]>| {
                 own.as_ref().is_some_and(|[_, most]| most <= tolerance)
             };
@@ -192,7 +197,6 @@ impl Problem {
             }
             Ok::<_, ProblemError>(first)
         })?;
-        let runs = runs.into_iter().map(|(between, first)| Run { between, first }).collect();
         Ok(EnoughMap { simpler, columns, runs })
     }
 

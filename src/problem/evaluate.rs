@@ -169,19 +169,11 @@ impl Problem {
         self.question_for(name, window, Purpose::Stretches)
     }
 
-    /// The same where polynomials are all that is wanted.
+    /// The same for what is prepared for a purpose.
     ///
     /// # Errors
     /// As [`Problem::question`].
-    pub fn polynomials(
-        &self,
-        name: &str,
-        window: [Rational; 2],
-    ) -> Result<Question<'_>, ProblemError> {
-        self.question_for(name, window, Purpose::Polynomials)
-    }
-
-    fn question_for(
+    pub fn question_for(
         &self,
         name: &str,
         window: [Rational; 2],

@@ -36,7 +36,7 @@ use wavestep_polynomial::{Rational, Symbol};
 pub use advise::{Advice, Need, Tried, Verdict};
 pub use check::{Checked, Derivations, General, Periods, Solved};
 pub use derive::{Derived, Form, Functions, GeneralFormulas, Orders, Symbols, ToDerive};
-pub use enough_map::{Column, EnoughMap, MapRequest, Run, SymbolRange, runs};
+pub use enough_map::{Column, EnoughMap, MapRequest, Run, SymbolRange, geometrically_spaced, runs};
 pub use equal::{Crossing, EqualExtrema};
 pub use error::{EqualError, LockRefusal, Missing, ProblemError};
 pub use evaluate::{Digits, Proven};

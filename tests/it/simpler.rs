@@ -469,7 +469,7 @@ fn maps_of_what_is_enough_are_proven_at_their_ends() {
         for mu in &part.between {
             for (place, own) in simpler.iter().enumerate() {
                 let [least, most] = off(mu, own);
-                match part.first {
+                match part.state {
                     Some(first) if place == first => assert!(most <= tolerance, "{own} at {mu}"),
                     Some(first) if place > first => {}
                     _ => assert!(least > tolerance, "{own} at {mu}"),
@@ -481,7 +481,7 @@ fn maps_of_what_is_enough_are_proven_at_their_ends() {
         let [before, after] = [&pair[0].between[1], &pair[1].between[0]];
         assert!(before < after && (after - before) * rational(500, 1) < *before);
     }
-    let firsts: Vec<_> = map.runs.iter().map(|part| part.first).collect();
+    let firsts: Vec<_> = map.runs.iter().map(|part| part.state).collect();
     assert_eq!(firsts, [Some(1), Some(2)], "{:?}", map.runs);
     assert_eq!(map.columns.len(), 5);
     for column in &map.columns {
@@ -512,4 +512,38 @@ fn arrivals_are_counted_on_long_windows() {
     // After two arrivals the function decays, so that nothing of it is left.
     let off = late.bounds()[0].clone() - whole.bounds()[0].clone();
     assert!(off.abs() < rational(1, 1 << 40), "{late} {whole}");
+}
+
+/// The largest absolute value is that of the smallest value, of the largest, or of both.
+#[test]
+fn sizes_are_those_of_values_of_either_sign() {
+    let zero = Rational::default();
+    let size = |problem: &Problem, name: &str, to: i64, minus: Option<Simpler>| {
+        let (wanted, window) = (problem.wanted(name).unwrap(), [rational(0, 1), rational(to, 1)]);
+        let others = minus.map(|minus| problem.simpler(&minus).unwrap());
+        let signal = match &others {
+            Some(other) => {
+                problem.difference_on(other, &wanted, window.each_ref(), Purpose::Search)
+            }
+            None => problem.signal_on(&wanted, window.each_ref(), Purpose::Search),
+        };
+        Size::of(&*signal.unwrap(), (12, 1 << 12), &zero).unwrap()
+    };
+    let mass = builtin("mass-on-fixed-bar", "1");
+    // -2 - 2 exp(-2), where the front returns.
+    let strain = size(&mass, "strain_fixed", 5, None);
+    let exact = Rational::from_float(2.0 + 2.0 * f64::exp(-2.0)).unwrap();
+    for bound in &strain.bounds {
+        assert!((bound - &exact).abs() < rational(1, 1 << 40), "{bound}");
+    }
+    assert_eq!(strain.places.len(), 1);
+    let velocity = size(&mass, "velocity", 5, None);
+    assert_eq!((velocity.bounds, velocity.places.len()), ([rational(1, 1), rational(1, 1)], 1));
+    // After the n-th return a pushed bar is faster than the rigid body by 1, and just before it slower by 1.
+    let pushed = Problem::builtin("pushed-bar").unwrap();
+    let off = size(&pushed, "velocity", 6, Some("rigid".parse().unwrap()));
+    assert_eq!(off.bounds, [rational(1, 1), rational(1, 1)]);
+    let (after, before): (Vec<_>, Vec<_>) =
+        off.places.iter().partition(|place| place.is_attained());
+    assert_eq!((after.len(), before.len()), (4, 3), "{:?}", off.places);
 }

@@ -63,21 +63,6 @@ struct Told<'a> {
 }
 
 impl Told<'_> {
-    /// The answers that are drawn and told: those that are the first that is enough for some tolerance somewhere.
-    fn useful(&self) -> Vec<usize> {
-        let is_first = |place: usize| {
-            let most = |own: &Option<[BigRational; 2]>| own.as_ref().map(|[_, most]| most.clone());
-            self.map.columns.iter().any(|Column { off, .. }| {
-                let cheaper = off[..place].iter().filter_map(most).min();
-                most(&off[place]).is_some_and(|own| {
-                    own < BigRational::from_integer(1.into())
-                        && cheaper.is_none_or(|cheaper| own < cheaper)
-                })
-            })
-        };
-        (0..self.map.simpler.len()).filter(|place| is_first(*place)).collect()
-    }
-
     fn window(&self) -> String {
         match self.options.to.as_deref() {
             Some(to) => format!("{} <= t <= {to}", self.options.from),
@@ -86,7 +71,7 @@ impl Told<'_> {
     }
 
     fn text(&self) -> String {
-        let useful = self.useful();
+        let useful = self.map.useful();
         let symbol = &self.asked.range.symbol;
         let mut rows = vec![vec![symbol.clone()]];
         rows[0].extend(useful.iter().map(|place| self.map.simpler[*place].to_string()));
@@ -112,7 +97,7 @@ impl Told<'_> {
         }
         text +=
             &format!("\nWithin {}, the first that is enough:\n\n", whole(&self.asked.tolerance));
-        for Run { between: [from, to], first } in &self.map.runs {
+        for Run { between: [from, to], state: first } in &self.map.runs {
             let what = first
                 .map_or_else(|| "exact".to_owned(), |place| self.map.simpler[place].to_string());
             text += &format!("{} <= {symbol} <= {}  {what}\n", in_decimals(from), in_decimals(to));
@@ -122,7 +107,7 @@ impl Told<'_> {
 
     /// Marks on the line of the tolerance, where another answer is the first that is enough.
     fn borders(&self, tolerance: f64) -> Option<Curve> {
-        let border = |pair: &[Run]| {
+        let border = |pair: &[Run<Option<usize>>]| {
             let ends = [&pair[0].between[1], &pair[1].between[0]];
             let [low, high] = ends.map(|end| end.to_f64().unwrap_or(f64::NAN));
             [((low * high).sqrt(), tolerance), (f64::NAN, f64::NAN)]
@@ -177,7 +162,7 @@ impl Told<'_> {
             &format!("What is enough for {}", self.asked.quantity),
             Axis::logarithmic(symbol),
             Axis::logarithmic("tolerance, share of the largest value"),
-            self.useful().into_iter().map(curve).chain(self.borders(tolerance)).collect(),
+            self.map.useful().into_iter().map(curve).chain(self.borders(tolerance)).collect(),
             caption,
         )?;
         let chart =

@@ -11,6 +11,7 @@ use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
 use wavestep::answer::{Tolerance, WayError};
 use wavestep::export::{CHeading, to_c};
+use wavestep::planner::Purpose;
 use wavestep::signal::{Compiled, Evaluator as _};
 
 pub fn run(options: &Export) -> Result<String, Failure> {
@@ -22,7 +23,7 @@ pub fn run(options: &Export) -> Result<String, Failure> {
     let to = nearest.map_or(to.clone(), |nearest| nearest.max(to));
     let pulls = pulling(&problem, &to);
     let spinner = progress::spinner("expanding the observable");
-    let question = problem.polynomials(&options.quantity, [from, to])?;
+    let question = problem.question_for(&options.quantity, [from, to], Purpose::Polynomials)?;
     let absolute = tolerance.absolute(question.scale()?);
     let compiled = Compiled::new(&*question.signal, Some(absolute)).map_err(WayError::from)?;
     drop(spinner);

@@ -6,9 +6,9 @@
 
 pub mod book;
 pub mod dispersion;
+pub mod estimates;
 pub mod figures;
 pub mod hertz;
-pub mod largest_strain;
 pub mod picture;
 pub mod study;
 

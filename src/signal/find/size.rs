@@ -2,8 +2,8 @@
 //!
 //! Branch and bound: with `F(m + hu) = Σ_k c_k u^k` up to a remainder `R` on a cell, `|F| ≤ Σ_k |c_k| + R` there, and
 //! `|F(m)| ≥ |c_0| − R` is taken. A cell is done once its bound is hardly above the largest value that is known to be
-//! taken, is negligible, or nothing of it is told from zero; else it is halved. So a function that is zero is done at once, where a search for its extrema
-//! would halve cells for ever.
+//! taken, is negligible, or nothing of it is told from zero; else it is halved. So a function that is zero is done at once,
+//! where a search for its extrema would halve cells for ever.
 
 use super::cover::{is_sharp, middle_and_half, range_of};
 use super::search::{Search, Target};

@@ -11,7 +11,7 @@ use std::fs;
 use std::path::Path;
 use wavestep::Rational;
 use wavestep::scenes::SCENES;
-use wavestep_studies::largest_strain::{Estimate, Strains};
+use wavestep_studies::estimates::{Estimate, Strains};
 
 const TOLERANCES: [&str; 5] = ["1e-1", "1e-2", "1e-3", "1e-6", "1e-9"];
 

@@ -143,10 +143,4 @@ impl LargestStrain {
         let within = num_traits::ToPrimitive::to_f64(&low)?;
         Some(2.0 * (period as f64 + within))
     }
-
-    /// `[1 + (1/μ + 1/3)^{1/2}]`, the estimate 6.86 in `V/c`.
-    pub fn estimate(mass: &Rational, bits: u64) -> Ball {
-        let root = Ball::square_root(&(mass + ratio(1, 3)), bits).expect("a positive number");
-        root.add(&Ball::from_rational(&Rational::one(), bits), bits)
-    }
 }

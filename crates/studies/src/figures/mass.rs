@@ -3,6 +3,7 @@
 use super::largest_strain::LargestStrain;
 use super::scene::{course, problem};
 use super::{Drawn, Listed};
+use crate::estimates::Estimate;
 use crate::picture::PictureError;
 use crate::{nearest, ratio};
 use wavestep::ball::Ball;
@@ -86,8 +87,7 @@ pub(super) fn largest_strains(listed: &Listed) -> Drawn {
     }
     // It bends most at the beginning.
     let dense = (0..=20).map(|i| ratio(i, 40)).chain(ratios());
-    let estimate =
-        dense.map(|ratio| (nearest(&ratio), double(&LargestStrain::estimate(&ratio, 60))));
+    let estimate = dense.map(|ratio| (nearest(&ratio), double(&Estimate::Better.of(&ratio))));
     let estimate = Series::new("estimate 6.86", estimate.collect()).look(Look::Thin);
     series.push(estimate.styled(SOLID_BLACK));
     let panel = Panel::new(Axis::linear("largest strain −εL c/V"), series).named_at_ends();

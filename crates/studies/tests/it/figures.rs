@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use wavestep::ball::Ball;
 use wavestep_draw::Chart as _;
 use wavestep_polynomial::Rational;
+use wavestep_studies::estimates::Estimate;
 use wavestep_studies::figures::pulse::until_zero;
 use wavestep_studies::figures::{FIGURES, LargestStrain, find};
 
@@ -453,7 +454,7 @@ fn the_estimate_is_near_the_envelope() {
             .map(|n| strains.strain(n, &mu, 60))
             .reduce(|a, b| if a.is_below(&b) { b } else { a })
             .unwrap();
-        let estimate = LargestStrain::estimate(&ratio(mass, 1), 60);
+        let estimate = Estimate::Better.of(&ratio(mass, 1));
         let off = estimate.subtract(&largest, 60).multiply(&largest.reciprocal(60).unwrap(), 60);
         let limit = Ball::from_rational(&ratio(4, 100), 60);
         assert!(

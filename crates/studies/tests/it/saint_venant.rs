@@ -3,6 +3,7 @@
 use crate::figures::ratio;
 use wavestep_draw::{Axis, Caption, Figure, Panel, Series};
 use wavestep_polynomial::Rational;
+use wavestep_studies::estimates::Estimate;
 use wavestep_studies::figures::LargestStrain;
 use wavestep_studies::picture::Sampled;
 
@@ -50,7 +51,7 @@ pub fn saint_venant() -> Figure {
     }
     let Sampled { points: release, jumps } = release(&strains);
     let estimate = (1..=4 * LARGEST_RATIO).map(|i| {
-        let estimate = LargestStrain::estimate(&ratio(i, 4), 60);
+        let estimate = Estimate::Better.of(&ratio(i, 4));
         (i as f64 / 4.0, estimate.midpoint().to_double())
     });
     let panels = vec![

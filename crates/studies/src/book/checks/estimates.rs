@@ -4,7 +4,7 @@ use super::Checked;
 use crate::book::refusal::Refusal;
 use crate::book::stage::derived;
 use crate::book::verdict::Verdict;
-use crate::largest_strain::{Estimate, largest_strain};
+use crate::estimates::{Estimate, largest_strain};
 use crate::ratio;
 use num_traits::{One as _, Signed as _};
 use std::collections::BTreeMap;

@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use wavestep::ball::Ball;
 use wavestep::planner::Purpose;
-use wavestep::problem::{Problem, ProblemError, SymbolRange, runs};
+use wavestep::problem::{Problem, ProblemError, geometrically_spaced, runs};
 use wavestep::signal::{EvaluateError, Goal, Root, Search};
 use wavestep_polynomial::Rational;
 
@@ -148,8 +148,8 @@ impl Strains {
         estimate: Estimate,
         share: &Rational,
     ) -> Result<Vec<[Rational; 2]>, ProblemError> {
-        let range = SymbolRange { symbol: "1/mu".to_owned(), from: ratio(1, 4), to: ratio(100, 1) };
-        let runs = runs(range.values(LOOKS), |mass| self.holds(estimate, mass, share))?;
-        Ok(runs.into_iter().filter_map(|(ends, holds)| holds.then_some(ends)).collect())
+        let masses = geometrically_spaced(&ratio(1, 4), &ratio(100, 1), LOOKS);
+        let runs = runs(masses, |mass| self.holds(estimate, mass, share))?;
+        Ok(runs.into_iter().filter_map(|run| run.state.then_some(run.between)).collect())
     }
 }
