@@ -14,6 +14,7 @@ use crate::history::leaving::Passing;
 use crate::history::load::Course;
 use crate::history::moment::{Clock, Moment};
 use crate::history::motion::Motion;
+use crate::history::part::Source;
 use crate::history::passive::ErrorEnergy;
 use crate::history::passivity::{Passivity, StateError};
 use crate::history::pressing::TooLong;
@@ -147,6 +148,8 @@ pub(crate) struct Engine {
     pub bytes: u64,
     /// The time before which nothing is asked for.
     pub asked_from: f64,
+    /// What is asked for; without it all.
+    pub asked_sources: Option<Vec<Source>>,
     /// How far it is followed in all, as far as that is known.
     whole: f64,
     /// The size of the largest wave so far, at the start of its cell, and of the terms that its values are the sum of.
@@ -250,6 +253,7 @@ impl Engine {
             count: 0,
             bytes: 0,
             asked_from: 0.0,
+            asked_sources: None,
             whole: 0.0,
             loudest: Magnitude::ZERO,
             steepest: Magnitude::ZERO,

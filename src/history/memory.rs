@@ -1,10 +1,12 @@
 //! What following takes: cells and memory, foreseen, and what is forgotten because nobody will ask for it.
 
+use crate::ball::Number;
 use crate::expression::Fraction;
 use crate::history::cells::Cells;
 use crate::history::engine::{Engine, TOLD_APART};
 use crate::history::error::{HistoryError, When};
 use crate::history::moment::Moment;
+use crate::history::part::Source;
 use crate::history::track::{Arriving, Track};
 use crate::limits::{MAX_HISTORY_CELLS, memory};
 use crate::network::{Network, Observed, Reading, Side};
@@ -23,6 +25,8 @@ pub struct Asked {
     delays: Vec<Fraction>,
     /// Whether integrals of waves since the start are.
     is_integrated: bool,
+    /// Nothing but these; without them all.
+    readings: Option<Vec<Reading>>,
 }
 
 impl Asked {
@@ -33,18 +37,40 @@ impl Asked {
             from: network.scaled_time(from),
             delays: readings().flat_map(Reading::delays).cloned().collect(),
             is_integrated: observed.is_none() || readings().any(Reading::is_integral),
+            readings: observed.filter(|own| own.is_linear()).map(|_| readings().cloned().collect()),
         }
     }
 }
 
 impl Engine {
     /// From now on forgets what is not asked for.
-    pub fn ask_for(&mut self, Asked { from, delays, is_integrated }: &Asked) {
+    ///
+    /// # Errors
+    /// As [`Engine::reading`].
+    pub fn ask_for(&mut self, network: &Network, asked: &Asked) -> Outcome<()> {
+        let Asked { from, delays, is_integrated, readings } = asked;
         let about = |time: &Fraction| self.clock.about(&Moment::at(time.clone()));
         let back = delays.iter().map(about).fold(self.longest_travel(), f64::max);
         self.asked_from = about(from) * (1.0 - TOLD_APART) - back;
         if !is_integrated {
             self.waves.iter_mut().flatten().for_each(Track::forget_integral);
+        }
+        if let Some(readings) = readings {
+            let mut sources = Vec::new();
+            for reading in readings {
+                let parts = self.reading(self.elements(network), reading, &Number::one())?;
+                sources.extend(parts.into_iter().map(|part| part.source));
+            }
+            self.asked_sources = Some(sources);
+        }
+        Ok(())
+    }
+
+    /// The time before which nothing of a node or a wave is asked for.
+    fn asked_from(&self, is_read: impl Fn(&Source) -> bool) -> f64 {
+        match &self.asked_sources {
+            Some(sources) if !sources.iter().any(is_read) => f64::INFINITY,
+            _ => self.asked_from,
         }
     }
 
@@ -61,13 +87,15 @@ impl Engine {
 
     /// Forgets cells of a node, of what arrives there, and of what leaves it for ever.
     pub fn forget(&mut self, node: usize) {
-        if self.asked_from <= 0.0 {
-            return;
-        }
-        let is_early = self.states[node].about < self.asked_from;
-        let has_passed = |end: &Moment| is_early || self.clock.about(end) < self.asked_from;
-        while let Some(cell) = self.cells[node].forget(has_passed) {
-            self.bytes -= cell.bytes();
+        let about = self.states[node].about;
+        let has_passed = |end: &Moment, from: f64| about < from || self.clock.about(end) < from;
+        let reads_node =
+            |source: &Source| matches!(source, Source::Node { node: own, .. } if *own == node);
+        let from = self.asked_from(reads_node);
+        if from > 0.0 {
+            while let Some(cell) = self.cells[node].forget(|end| has_passed(end, from)) {
+                self.bytes -= cell.bytes();
+            }
         }
         let own = &self.nodes[node];
         for (side, arriving) in self.states[node].arriving.iter().enumerate() {
@@ -76,7 +104,13 @@ impl Engine {
                 (_, Side::Bar(bar)) => (bar, 1 - side, usize::MAX),
                 _ => continue,
             };
-            self.bytes -= self.waves[bar][direction].forget(number, has_passed, &self.cut);
+            let wave = (bar, direction);
+            let reads_wave = |source: &Source| matches!(source, Source::Wave { bar, direction, .. } if (*bar, *direction) == wave);
+            let from = self.asked_from(reads_wave);
+            if from > 0.0 {
+                let track = &mut self.waves[bar][direction];
+                self.bytes -= track.forget(number, |end| has_passed(end, from), &self.cut);
+            }
         }
     }
 

@@ -118,7 +118,7 @@ impl<'a> Follower<'a> {
         bits: u64,
     ) -> Result<Rc<Engine>, HistoryError> {
         let mut engine = Engine::new(network, Contacts::of(network.scene()), bits)?;
-        engine.ask_for(asked);
+        engine.ask_for(network, asked)?;
         engine.follow_until(until)?;
         Ok(Rc::new(engine))
     }

@@ -26,6 +26,11 @@ pub struct Observed {
 }
 
 impl Observed {
+    /// Whether it is a sum of readings.
+    pub(crate) fn is_linear(&self) -> bool {
+        matches!(self.value, ObservedValue::Linear(_))
+    }
+
     /// All that is read for it.
     pub(crate) fn all_readings(&self) -> impl Iterator<Item = &Reading> {
         let energies: &[EnergyTerm] = match &self.value {
