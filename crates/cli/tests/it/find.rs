@@ -147,6 +147,17 @@ fn what_rises_from_zero_behind_an_arrival_is_decided() {
     }
 }
 
+/// The bodies part and meet at instants that both scenes share, and that no precision tells apart.
+#[test]
+fn distances_are_told_where_two_scenes_change_at_one_instant() {
+    std::fs::write(anywhere().join("parts.wave"), DRILL).unwrap();
+    let line = "find parts.wave --distance energy --minus without:bit --to 2ms --digits 9";
+    let (code, text, errors) = run(anywhere(), &words(line));
+    assert_eq!((code, errors.as_str()), (0, ""), "{text}");
+    assert!(text.starts_with("energy: largest difference from without:bit = "), "{text}");
+    assert!(text.contains("of the largest value\nat t = ") && !text.contains('±'), "{text}");
+}
+
 #[test]
 fn mistakes_are_told_with_a_remedy() {
     for (line, code, message, remedy) in [
