@@ -12,6 +12,20 @@ fn output(arguments: &[&str]) -> String {
     out
 }
 
+/// A spring that was left alone has come back to rest long ago, but for far less than any double tells.
+#[test]
+fn what_has_died_out_is_told_as_that() {
+    let text = "scene \"Left alone\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\n\
+        spring rock { stiffness = sqrt(2), damping = 1/5 }\n\
+        line free - rod | rock - fixed\ncontacts open\nobserve depth = compression(rock)\n";
+    fs::write(anywhere().join("left.wave"), text).unwrap();
+    let told = output(&["eval", "left.wave", "--quantity", "depth", "--at", "400"]);
+    assert!(told.starts_with("depth(400) = 0 ± "), "{told}");
+    // What precision tells has its digits.
+    let told = output(&["eval", "left.wave", "--quantity", "depth", "--at", "40", "--digits", "9"]);
+    assert!(!told.contains('±') && told.contains("e-"), "{told}");
+}
+
 #[test]
 fn the_commands_follow_contacts_that_open() {
     let rows =
