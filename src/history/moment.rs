@@ -110,8 +110,7 @@ impl Clock {
         if !self.ties.borrow().contains(&what) {
             let (unit, name) = &self.unit;
             let at = Value::of(&at.multiply(unit, self.bits), TOLD_DIGITS).to_text(TOLD_DIGITS);
-            let assumption = what.tied(&format!("{at}{name}"));
-            self.assumed.add(format!("{assumption}, which {} bits do not decide", self.bits));
+            self.assumed.add(what.tied(&format!("{at}{name}")), self.bits);
             self.ties.borrow_mut().push(what);
         }
     }

@@ -152,6 +152,7 @@ impl System<Number> {
         cut: &Truncation,
     ) -> Motion {
         let mut states = vec![Series::zero(); self.states()];
+        let flat = self.flatness(start, input);
         let mut added = Vec::with_capacity(passivity.blocks.len());
         for (block, course) in passivity.blocks.iter().zip(courses) {
             for (place, member) in block.members.iter().enumerate() {
@@ -167,6 +168,7 @@ impl System<Number> {
                 states[*member] = Series::new(own, entry(&course.rest))
                     .with_error(entry(&course.error), entry(&course.fresh))
                     .with_error_at_start(at_start)
+                    .of_flatness(flat[*member])
                     .of_roughness(course.roughness);
             }
             added.push(course.added);
@@ -176,6 +178,27 @@ impl System<Number> {
         let velocities = outputs.by_ref().take(self.group.len()).collect();
         let forces = outputs.collect();
         Motion { state: states, added, velocities, forces }
+    }
+
+    /// How many derivatives of each entry of the state are exactly zero at the start, by those of what acts on it.
+    fn flatness(&self, state: &[Number], input: &[Series]) -> Vec<usize> {
+        let mut flat: Vec<usize> =
+            state.iter().map(|own| if own.is_zero() { STARTS } else { 0 }).collect();
+        let acting: Vec<usize> = input.iter().map(Series::flatness).collect();
+        // `y' = A y + B u` vanishes as often as all that it is the sum of.
+        loop {
+            let both: Vec<usize> = flat.iter().chain(&acting).copied().collect();
+            let pushed = |row: &Vec<Number>| {
+                let acts = row.iter().zip(&both).filter(|(entry, _)| !entry.is_zero());
+                acts.map(|(_, order)| order.saturating_add(1)).min().unwrap_or(STARTS)
+            };
+            let next: Vec<usize> =
+                flat.iter().zip(&self.change).map(|(own, row)| pushed(row).min(*own)).collect();
+            if next == flat {
+                return flat;
+            }
+            flat = next;
+        }
     }
 
     /// What leaves at a side, as a row: the velocity of its run less what arrives there.

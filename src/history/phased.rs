@@ -19,7 +19,7 @@ use crate::signal::{
 };
 use num_traits::Zero as _;
 use std::borrow::Cow;
-use std::cell::{OnceCell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::cmp::Ordering;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
@@ -62,7 +62,8 @@ impl Piece {
         }
         let exact = self.series.is_exact() && other.is_exact();
         let length = engine.clock.since(&self.ends[0], at)?;
-        Ok(exact && self.series.shift(&length, &engine.cut) == *other)
+        let shifted = self.series.shift(&length, &engine.cut);
+        Ok(exact && shifted.coefficients == other.coefficients)
     }
 }
 
@@ -84,6 +85,8 @@ pub(crate) struct Follower<'a> {
     asked: Asked,
     until: Moment,
     known: RefCell<Rc<Engine>>,
+    /// The scene is not followed to the end of the window with so many bits.
+    too_many_bits: Cell<u64>,
     /// Tells times that rest on no event, to any precision.
     scale: Rc<Scale<'a>>,
 }
@@ -107,8 +110,9 @@ impl<'a> Follower<'a> {
             Some(_) => 2 * LEAST_BITS,
         };
         let known = Precisions::growing_by_half(first, MAX_HISTORY_BITS).raise(attempt)?.best()?;
-        let (known, scale) = (RefCell::new(known), Scale::of(network));
-        Ok(Rc::new(Follower { network, asked, until, known, scale }))
+        let (known, too_many_bits) = (RefCell::new(known), Cell::new(u64::MAX));
+        let scale = Scale::of(network);
+        Ok(Rc::new(Follower { network, asked, until, known, too_many_bits, scale }))
     }
 
     fn follow(
@@ -137,18 +141,23 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// What is known at a precision; where more is known, that.
-    fn engine(&self, bits: u64) -> Result<Rc<Engine>, EvaluateError> {
+    /// What is known at a precision; where more is known, that, and less where following with it takes too much.
+    fn engine(&self, bits: u64) -> Rc<Engine> {
         let known = Rc::clone(&self.known.borrow());
-        if known.cut.bits >= bits {
-            return Ok(known);
-        }
         let bits = bits.next_multiple_of(STEP_BITS);
-        // The window was followed before, so nothing but the precision can be wanting.
-        let finer = Follower::follow(self.network, &self.asked, &self.until, bits)
-            .map_err(|_| EvaluateError::NotFollowed { bits })?;
-        *self.known.borrow_mut() = Rc::clone(&finer);
-        Ok(finer)
+        if known.cut.bits >= bits || bits >= self.too_many_bits.get() {
+            return known;
+        }
+        match Follower::follow(self.network, &self.asked, &self.until, bits) {
+            Ok(finer) => {
+                *self.known.borrow_mut() = Rc::clone(&finer);
+                finer
+            }
+            Err(_) => {
+                self.too_many_bits.set(bits);
+                known
+            }
+        }
     }
 }
 
@@ -261,7 +270,7 @@ impl<'a> FollowedSignal<'a> {
         if known.pieces.get().is_some() && self.follower.network.local_contact().is_some() {
             return Ok(known);
         }
-        let engine = self.follower.engine(bits)?;
+        let engine = self.follower.engine(bits);
         if Rc::ptr_eq(&engine, &known.engine) {
             return Ok(known);
         }

@@ -235,6 +235,7 @@ fn moved(sizes: &[Magnitude], j: usize, r: &Magnitude) -> Magnitude {
 /// - `|e(x)| ≤ error` on the cell, and `|e(0)| ≤ error_at_start`;
 /// - `|e'(x)| ≤ slope` on the cell, where known: of an integral the error of the integrand, often far below what `rest`
 ///   tells of a rough function;
+/// - `f` and its derivatives below the order `flat` are exactly zero at `x = 0`, whatever its coefficients say;
 /// - `|e(x)| ≤ fresh` if what arrived at the node, and its state at the start of the cell, had been free of errors.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Series {
@@ -243,6 +244,7 @@ pub struct Series {
     pub error: Magnitude,
     pub fresh: Magnitude,
     error_at_start: Magnitude,
+    flat: usize,
     slope: Option<Magnitude>,
     pub roughness: Option<Roughness>,
     /// Its sign on the cell, where that is known otherwise.
@@ -288,8 +290,8 @@ impl Series {
             coefficients.pop();
         }
         let (error, fresh, error_at_start) = (rest, rest, rest);
-        let (slope, roughness, signed) = (None, None, None);
-        Series { coefficients, rest, error, fresh, error_at_start, slope, roughness, signed }
+        let (flat, slope, roughness, signed) = (0, None, None, None);
+        Series { coefficients, rest, error, fresh, error_at_start, flat, slope, roughness, signed }
     }
 
     /// The same function, of whose error less is known to be at the start.
@@ -301,6 +303,16 @@ impl Series {
     pub fn with_error(self, error: Magnitude, fresh: Magnitude) -> Series {
         let error_at_start = self.error_at_start.min(error);
         Series { error, fresh, error_at_start, ..self }
+    }
+
+    /// The same function, of which so many derivatives are known to be zero at the start.
+    pub fn of_flatness(self, flat: usize) -> Series {
+        Series { flat, ..self }
+    }
+
+    /// How many derivatives are known to be exactly zero at the start; all of them where it is zero.
+    pub fn flatness(&self) -> usize {
+        if self.is_zero() { usize::MAX } else { self.flat }
     }
 
     fn with_slope(self, slope: Option<Magnitude>) -> Series {
@@ -393,6 +405,9 @@ impl Series {
 
     /// An enclosure of `f^(k)(0)/k!`: of `c_k`, and a bound of that derivative of the rest over `k!`.
     pub fn start(&self, k: usize, cut: &Truncation) -> Number {
+        if k < self.flat {
+            return Number::zero();
+        }
         let mut rest = match k {
             0 => self.error_at_start,
             _ => self.bound_of_derivative(&self.rest, k, cut),
@@ -416,10 +431,16 @@ impl Series {
             own.multiply(&sizes[0]).add(&other.multiply(&sizes[1]))
         };
         let slopes = self.slope_error().zip(other.slope_error());
+        let flatness = |series: &Series, factor: &Number| match factor.is_zero() {
+            true => usize::MAX,
+            false => series.flatness(),
+        };
+        let flat = flatness(self, a).min(flatness(other, b));
         Series::new((0..length).map(term).collect(), sum(&self.rest, &other.rest))
             .with_slope(slopes.map(|(own, other)| sum(&own, &other)))
             .with_error(sum(&self.error, &other.error), sum(&self.fresh, &other.fresh))
             .with_error_at_start(sum(&self.error_at_start, &other.error_at_start))
+            .of_flatness(flat)
             .of_roughness(self.roughness.max(other.roughness))
             .of_sign(sign_of_sum([(self, a), (other, b)]))
     }
@@ -507,6 +528,7 @@ impl Series {
         Series::new(coefficients, self.rest.add(&added).add(&norm.of_sizes(&radii)))
             .with_error(self.error.add(&rounded), self.fresh.add(&rounded))
             .with_error_at_start(self.error_at_start.add(&off))
+            .of_flatness(self.flat)
             .of_roughness(self.roughness.max(norm.roughness))
             .of_sign(self.signed)
     }
@@ -604,10 +626,12 @@ impl Series {
             coefficients.push(c.over(k as u64 + 1, cut.bits));
         }
         let longest = (*length).max(Magnitude::power_of_two(-cut.rate));
+        let flat = if coefficients[0].is_zero() { self.flatness().saturating_add(1) } else { 0 };
         Series::new(coefficients, self.rest.multiply(&longest))
             .with_slope(Some(self.error))
             .with_error(self.error.multiply(length), self.fresh.multiply(length))
             .with_error_at_start(Magnitude::ZERO)
+            .of_flatness(flat)
             .of_roughness(self.roughness)
     }
 
@@ -619,6 +643,7 @@ impl Series {
         let error = self.slope.unwrap_or(rest);
         Series::new(slopes.collect(), rest)
             .with_error(error, error)
+            .of_flatness(self.flat.saturating_sub(1))
             .of_roughness(self.roughness.map(Roughness::halved))
     }
 }

@@ -358,23 +358,26 @@ impl Law<'_> {
         velocities
     }
 
-    /// The force of a closed contact: what presses on the runs at its left, less what accelerates them;
-    /// from the right where the left is held.
+    /// The force of a closed contact: what presses on the runs at its left, less what accelerates them. From the right
+    /// where the left is held; and where the right alone has no mass, so that nothing cancels.
     fn contact_force(&self, run: usize, forces: &[Number], accelerations: &[Number]) -> Number {
         let group = self.group[run];
         let member = |other: &usize| self.group[*other] == group;
-        let held_left = (0..=run).filter(member).any(|run| self.node.is_imposed(run));
-        let side: Vec<usize> = match held_left {
-            false => (0..=run).filter(member).collect(),
-            true => (run + 1..self.node.runs()).filter(member).collect(),
-        };
+        let [left, right]: [Vec<usize>; 2] = [
+            (0..=run).filter(member).collect(),
+            (run + 1..self.node.runs()).filter(member).collect(),
+        ];
+        let is_held = |side: &[usize]| side.iter().any(|run| self.node.is_imposed(*run));
+        let mass = |run: &usize| self.node.mass_of(*run, self.bits);
+        let is_massless = |side: &[usize]| side.iter().all(|run| mass(run).is_zero());
+        let is_light = is_massless(&right) && !is_held(&right) && !is_massless(&left);
+        let from_right = is_held(&left) || is_light;
         let mut sum = Number::zero();
-        for run in side {
-            let mass = self.node.mass_of(run, self.bits);
-            let inertia = mass.multiply(&accelerations[group], self.bits);
+        for run in if from_right { right } else { left } {
+            let inertia = mass(&run).multiply(&accelerations[group], self.bits);
             sum = sum.add(&forces[run], self.bits).subtract(&inertia, self.bits);
         }
-        if held_left { sum.negate() } else { sum }
+        if from_right { sum.negate() } else { sum }
     }
 }
 

@@ -104,7 +104,10 @@ pub fn origin(network: &Network, to: &Rational, purpose: Purpose) -> Origin {
         Purpose::Values { digits } if digits <= MOST_FOLLOWED_DIGITS => {
             ClosedForm::foreseen(network, to).map(|bytes| bytes <= FOLLOWED_FROM)
         }
-        Purpose::Search => ClosedForm::parts(network, to).map(|parts| parts <= MOST_SEARCHED),
+        // Named rates hide which values are exactly zero behind an arrival.
+        Purpose::Search => ClosedForm::of_nothing(network, to).and_then(|form| {
+            Ok(form.order(to)? <= MOST_SEARCHED && !form.recurrence().has_named_rates())
+        }),
         Purpose::Polynomials => {
             let is_lattice = network.lattice().periods().len() > 1;
             let most = if is_lattice { MOST_LEFT_OUT } else { MOST_SEARCHED };

@@ -96,8 +96,13 @@ impl Point<'_> {
             match (self.decide)() {
                 Known::Rational(value) => return Ok(Value::Exact(value)),
                 Known::Irrational => {}
-                // No precision tells that a value is zero.
-                Known::Unknown => limit_bits = limit_bits.min(TIE_BITS.max(8 * digits as u64)),
+                Known::Unknown => {
+                    if let Some(nothing) = self.nothing(digits, limit_bits)? {
+                        return Ok(nothing);
+                    }
+                    // No precision tells that a value is zero.
+                    limit_bits = limit_bits.min(TIE_BITS.max(8 * digits as u64));
+                }
             }
         }
         let tie_bits = TIE_BITS.max(8 * digits as u64).min(limit_bits);
@@ -118,6 +123,20 @@ impl Point<'_> {
             Known::Rational(value) => Ok(Value::Exact(value)),
             _ => Value::certify(digits, limit_bits, &self.enclose),
         }
+    }
+
+    /// What is nothing beside other values, where a scene would be followed once more for its digits.
+    fn nothing(&self, digits: usize, limit_bits: u64) -> Result<Option<Value>, EvaluateError> {
+        if self.most_bits == u64::MAX {
+            return Ok(None);
+        }
+        let attempt = |bits| {
+            let ball = (self.enclose)(bits)?;
+            let nothing = Value::near_zero(&ball, digits);
+            let is_told = nothing.is_some() || !ball.contains_zero();
+            Ok(Attempt::of(nothing, is_told))
+        };
+        Precisions::doubling(LOOK_BITS, limit_bits.max(LOOK_BITS)).raise(attempt).map(Attempt::best)
     }
 
     /// The bits that tell a value from zero, rising; none where it is so small that it may be zero.

@@ -52,7 +52,7 @@ pub enum EvaluateError {
     TooSteep,
     #[error("this method sums waves, and this quantity is quadratic in them")]
     NotLinear,
-    #[error("the openings of the contacts cannot be followed with {bits} bits")]
+    #[error("the scene is followed no further with {bits} bits, and fewer do not tell this")]
     NotFollowed { bits: u64 },
     /// The waves have one pole of a complex pair each.
     #[error("the value is not real")]
@@ -79,9 +79,15 @@ fn too_many_echoes(echoes: u128, limit: usize) -> String {
 
 impl EvaluateError {
     /// Whether a search ended before it was decided: what is known until then holds.
-    pub(crate) fn is_unsettled(&self) -> bool {
-        use EvaluateError::{AccuracyNotReached, TooManyCells, TooManyRoots};
-        matches!(self, AccuracyNotReached { .. } | TooManyCells { .. } | TooManyRoots { .. })
+    pub fn is_unsettled(&self) -> bool {
+        use EvaluateError::{AccuracyNotReached, NotFollowed, TooManyCells, TooManyRoots};
+        matches!(
+            self,
+            AccuracyNotReached { .. }
+                | NotFollowed { .. }
+                | TooManyCells { .. }
+                | TooManyRoots { .. }
+        )
     }
 
     /// Whether the closed form of waves takes more work or memory than is allowed.

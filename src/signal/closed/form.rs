@@ -280,7 +280,7 @@ impl ClosedForm {
     }
 
     /// The waves of a scene, of which nothing is seen.
-    fn of_nothing(network: &Network, to: &Rational) -> Result<ClosedForm, EvaluateError> {
+    pub fn of_nothing(network: &Network, to: &Rational) -> Result<ClosedForm, EvaluateError> {
         let nothing = Observation { waves: Vec::new(), forcing: Expression::zero() };
         ClosedForm::of_scene(network, &nothing, Root::from(Fraction::one()), to)
     }

@@ -101,6 +101,24 @@ impl<'a> Balanced<'a> {
             _ => Ok(false),
         }
     }
+
+    /// As [`Signal::taylor`], about a time that is told from the breaks.
+    fn expanded(
+        &self,
+        places: &[usize],
+        order: usize,
+        place @ (middle, half): (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Outcome<Taylor> {
+        let stretch = self.stretch(places[0], Limit::Right);
+        let rate = |order, kept| {
+            let flow = self.flow.taylor(stretch, order, place, kept, bits)?;
+            Ok(flow.scaled(&self.slowness(bits)?, bits))
+        };
+        let value = || (self.of.point(middle, Limit::Right)?.enclose)(bits);
+        taylor_by_rate(rate, value, (order, half, terms), bits)
+    }
 }
 
 impl Rule for Balanced<'_> {
@@ -149,7 +167,7 @@ impl Rule for Balanced<'_> {
             return Ok(vec![(self.of.point(time, Limit::Right)?.enclose)(bits)?]);
         }
         let (about, half) = self.within(places[0], (time, half), bits)?;
-        let near = self.taylor(places, 0, (&about, &half), 2, bits)?;
+        let near = self.expanded(places, 0, (&about, &half), 2, bits)?;
         Ok(vec![near.coefficients[0].widened(&near.tail(1))])
     }
 
@@ -161,13 +179,16 @@ impl Rule for Balanced<'_> {
         terms: usize,
         bits: u64,
     ) -> Outcome<Taylor> {
-        let stretch = self.stretch(places[0], Limit::Right);
-        let rate = |order, kept| {
-            let flow = self.flow.taylor(stretch, order, place, kept, bits)?;
-            Ok(flow.scaled(&self.slowness(bits)?, bits))
-        };
-        let value = || (self.of.point(middle, Limit::Right)?.enclose)(bits);
-        taylor_by_rate(rate, value, (order, half, terms), bits)
+        if order == 0
+            && Magnitude::from_rational(half) < Magnitude::power_of_two(-(bits as i64) / 3)
+        {
+            // So short a time may be an instant that another scene has too, and is told from no break then: one beside
+            // it is.
+            let (about, reach) = self.within(places[0], (middle.clone(), half.clone()), bits)?;
+            let near = self.expanded(places, order, (&about, &reach), terms, bits)?;
+            return Ok(near.part(&((middle - about) / &reach), &(half / &reach), bits));
+        }
+        self.expanded(places, order, place, terms, bits)
     }
 
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {

@@ -103,6 +103,61 @@ fn undecided_roots_end_with_code_3_and_a_report() {
     assert!(errors.contains("error: 1 interval stays undecided"));
 }
 
+/// A drill whose bit rests on the rock; what is seen of it stands in lines below.
+const DRILL: &str = "scene \"A drill\"\n\
+    material steel { modulus = 206 GPa, density = 7850 kg/m^3 }\n\
+    bar piston { material = steel, diameter = 4 cm, length = 30 cm, velocity = 10 m/s }\n\
+    bar rod { material = steel, diameter = 4 cm, length = 3 m }\n\
+    mass bit { mass = 1.2 kg }\n\
+    spring rock { stiffness = 200 kN/mm, damping = 5 kN*s/m }\n\
+    line free - piston | rod - bit | rock - fixed\n\
+    contacts open\n\
+    observe push = force(rock)\n\
+    observe depth = compression(rock)\n\
+    observe energy = energy(line)\n";
+
+/// Ram, cushion and helmet decay together at rates that have names.
+const PILE: &str = "scene \"A pile\"\n\
+    mass ram { mass = 2, velocity = 1 }\n\
+    spring cushion { stiffness = 3, damping = 1/5 }\n\
+    mass helmet { mass = 1 }\n\
+    bar pile { impedance = 1, travel = 2 }\n\
+    support toe { damping = 1/2, stiffness = 2 }\n\
+    line free - ram | cushion - helmet - pile - toe - free\n\
+    observe speed = velocity(pile.right)\n\
+    observe depth = displacement(pile.right)\n";
+
+/// Exactly zero until the first wave arrives, and behind it like a power of the time since then: of the first order for
+/// velocities of what has a mass before it, of the second for displacements.
+#[test]
+fn what_rises_from_zero_behind_an_arrival_is_decided() {
+    for (name, text, quantity, to) in [
+        ("rests", DRILL, "push", "1ms"),
+        ("rests", DRILL, "depth", "1ms"),
+        ("driven", PILE, "speed", "4"),
+        ("driven", PILE, "depth", "4"),
+    ] {
+        std::fs::write(anywhere().join(format!("{name}.wave")), text).unwrap();
+        let line = format!("find {name}.wave --zero {quantity} --to {to}");
+        let (code, text, errors) = run(anywhere(), &words(&line));
+        assert_eq!(code, 0, "{line}: {text}{errors}");
+        assert!(!errors.contains("assuming"), "{line}: {errors}");
+        assert!(text.starts_with(&format!("{quantity} = 0 for 0")), "{text}");
+        assert!(text.contains("(identically)") && text.contains(", 0 undecided;"), "{text}");
+    }
+}
+
+/// The bodies part and meet at instants that both scenes share, and that no precision tells apart.
+#[test]
+fn distances_are_told_where_two_scenes_change_at_one_instant() {
+    std::fs::write(anywhere().join("parts.wave"), DRILL).unwrap();
+    let line = "find parts.wave --distance energy --minus without:bit --to 2ms --digits 9";
+    let (code, text, errors) = run(anywhere(), &words(line));
+    assert_eq!((code, errors.as_str()), (0, ""), "{text}");
+    assert!(text.starts_with("energy: largest difference from without:bit = "), "{text}");
+    assert!(text.contains("of the largest value\nat t = ") && !text.contains('±'), "{text}");
+}
+
 #[test]
 fn mistakes_are_told_with_a_remedy() {
     for (line, code, message, remedy) in [

@@ -12,6 +12,35 @@ fn output(arguments: &[&str]) -> String {
     out
 }
 
+/// A spring that was left alone has come back to rest long ago, but for far less than any double tells.
+#[test]
+fn what_has_died_out_is_told_as_that() {
+    let text = "scene \"Left alone\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\n\
+        spring rock { stiffness = sqrt(2), damping = 1/5 }\n\
+        line free - rod | rock - fixed\ncontacts open\nobserve depth = compression(rock)\n";
+    fs::write(anywhere().join("left.wave"), text).unwrap();
+    let told = output(&["eval", "left.wave", "--quantity", "depth", "--at", "400"]);
+    assert!(told.starts_with("depth(400) = 0 ± "), "{told}");
+    // What precision tells has its digits.
+    let told = output(&["eval", "left.wave", "--quantity", "depth", "--at", "40", "--digits", "9"]);
+    assert!(!told.contains('±') && told.contains("e-"), "{told}");
+}
+
+/// An assumption is told once, with the most bits that were tried.
+#[test]
+fn assumptions_are_told_once() {
+    let text = "scene \"A force that touches zero\"\nbar rod { impedance = 1, travel = 1 }\n\
+        load push { force = (t - 5/4)*(t - 5/4)*(t + 1) }\n\
+        line free - push - rod | fixed\ncontacts open\nobserve force = force(rod.right)\n";
+    fs::write(anywhere().join("touches.wave"), text).unwrap();
+    // Digits take more bits than the first that came to the end.
+    let line = ["eval", "touches.wave", "--quantity", "force", "--at", "9/4", "--digits", "300"];
+    let (code, text, errors) = run(anywhere(), &line);
+    assert_eq!(code, 0, "{text}{errors}");
+    assert_eq!(text, "force(9/4) = 0\n");
+    assert_eq!(errors.matches("note: assuming").count(), 1, "{errors}");
+}
+
 #[test]
 fn the_commands_follow_contacts_that_open() {
     let rows =
