@@ -14,6 +14,10 @@ fn symbol(name: &str) -> Symbol {
     Symbol::new(name).expect("a name")
 }
 
+fn times(factor: i64, symbol: &Symbol) -> Polynomial {
+    Polynomial::monomial(&Rational::from_integer(factor.into()), &[(symbol, 1)])
+}
+
 /// A linear congruential generator: the same polynomials on every run.
 struct Random(u64);
 
@@ -52,7 +56,7 @@ fn calculus(criterion: &mut Criterion) {
     for degree in DEGREES {
         let p = dense(degree, 1);
         let terms = p.term_count();
-        let twice_mu = Polynomial::symbol(&mu).scale(&Rational::from_integer(2.into()));
+        let twice_mu = times(2, &mu);
         let at = |name| BenchmarkId::new(name, terms);
         group.bench_function(at("substitute s -> 2*mu"), |b| {
             b.iter(|| black_box(&p).substitute(&s, &twice_mu))
@@ -90,10 +94,7 @@ fn ring(criterion: &mut Criterion) {
             b.iter(|| black_box(&p) - black_box(&third))
         });
         group.bench_function(at("times 2*mu - s"), |b| {
-            let [twice_mu, s] = [("mu", 2), ("s", 1)].map(|(name, times)| {
-                Polynomial::symbol(&symbol(name)).scale(&Rational::from_integer(times.into()))
-            });
-            let factor = &twice_mu - &s;
+            let factor = &times(2, &symbol("mu")) - &times(1, &symbol("s"));
             b.iter(|| black_box(&p) * black_box(&factor))
         });
     }
