@@ -13,7 +13,7 @@ use wavestep_polynomial::Rational;
 pub enum NotReduced {
     /// What is wrong with an element, or with what is observed.
     #[error("`{0}`: {1}")]
-    Fault(String, Fault),
+    Fault(String, Box<Fault>),
     #[error(transparent)]
     Network(#[from] NetworkError),
     #[error(transparent)]
@@ -35,7 +35,7 @@ fn network(scaled: &ScaledScene, observable: usize, ideal: &Ideal) -> Result<Net
             Some(Part::Element(element) | Part::Property(element, _)) => name(*element),
             _ => scene.observables[0].name.clone(),
         };
-        return Err(NotReduced::Fault(name, fault));
+        return Err(NotReduced::Fault(name, Box::new(fault)));
     }
     let expanded = scene.expanded().map_err(NetworkError::from)?;
     Ok(Network::new(&expanded)?)
@@ -54,7 +54,7 @@ pub(super) fn reduced(
             ModelError::Refused { model, reason: NotRepresented::LocalContact(name) }.into()
         );
     }
-    let refused = |error| WayError::Reduced(model, error);
+    let refused = |error| WayError::Reduced(model, Box::new(error));
     let network = network(scaled, observable, ideal).map_err(refused)?;
     let observed = &network.observables()[0];
     let signal = planner::of_scene(&network, observed, window, Purpose::Polynomials);

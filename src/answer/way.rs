@@ -25,7 +25,7 @@ pub enum WayError {
     Model(#[from] ModelError),
     /// A model of bars without waves.
     #[error("the model \"{0}\" does not represent this: {1}")]
-    Reduced(&'static str, NotReduced),
+    Reduced(&'static str, Box<NotReduced>),
     /// A model has no scene to be made of.
     #[error("{0} models a scene of bars, and this is a recurrence")]
     NeedsScene(&'static str),

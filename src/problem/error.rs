@@ -325,8 +325,11 @@ impl From<WayError> for ProblemError {
     fn from(error: WayError) -> ProblemError {
         match error {
             WayError::Method(MethodError::Evaluate(error)) => error.into(),
-            WayError::Reduced(_, NotReduced::Network(error)) => error.into(),
-            WayError::Reduced(_, NotReduced::Signal(error)) => error.into(),
+            WayError::Reduced(model, error) => match *error {
+                NotReduced::Network(error) => error.into(),
+                NotReduced::Signal(error) => error.into(),
+                error => ProblemError::Way(Box::new(WayError::Reduced(model, Box::new(error)))),
+            },
             error => ProblemError::Way(Box::new(error)),
         }
     }

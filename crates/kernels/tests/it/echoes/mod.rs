@@ -91,7 +91,7 @@ impl Worst {
         let mut values = [0.0];
         sum.fill(&[time], Limit::Right, &mut values).expect("in range");
         let value = |method| {
-            in_double(&sum, method, DoubleDouble::from(time), Limit::Right).expect("in range")
+            in_double(sum, method, DoubleDouble::from(time), Limit::Right).expect("in range")
         };
         let all = Method::ALL.map(value).into_iter().chain(values);
         for (worst, value) in self.ulps.iter_mut().zip(all) {
