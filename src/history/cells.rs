@@ -27,6 +27,15 @@ impl<T> Cells<T> {
         self.kept.push_back((start, cell));
     }
 
+    /// Changes the last cell.
+    ///
+    /// # Panics
+    /// Where there has been none.
+    pub fn change_last<R>(&mut self, change: impl FnOnce(&mut T) -> R) -> R {
+        let (_, last) = self.kept.back_mut().expect("the last cell is kept");
+        change(last)
+    }
+
     /// Whether there has been none yet.
     pub fn is_empty(&self) -> bool {
         self.kept.is_empty()

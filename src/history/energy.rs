@@ -160,6 +160,11 @@ impl Wave {
         &self.series
     }
 
+    /// The series, when the wave is no longer needed.
+    pub fn take_series(&mut self) -> Series {
+        std::mem::replace(&mut self.series, Series::zero())
+    }
+
     /// Whether so few bits are asked for that they change anything.
     fn is_rough(&self, bits: u64, cut: &Truncation) -> bool {
         !self.series.is_exact() && bits < cut.bits

@@ -10,10 +10,11 @@ use crate::expression::Fraction;
 use crate::history::cells::Cells;
 use crate::history::contacts::{Cause, Contact, Guard, Happening};
 use crate::history::error::{HistoryError, NotFollowed, Question};
+use crate::history::leaving::Passing;
 use crate::history::load::Course;
 use crate::history::moment::{Clock, Moment};
 use crate::history::motion::Motion;
-use crate::history::passive::{ErrorEnergy, Passage};
+use crate::history::passive::ErrorEnergy;
 use crate::history::passivity::{Passivity, StateError};
 use crate::history::pressing::TooLong;
 use crate::history::series::{CellNorm, LONGEST_CELL, Series, Truncation};
@@ -90,14 +91,20 @@ struct Longest<'a> {
 }
 
 /// What a node does on a cell, before it is taken over.
-struct Planned {
-    inputs: Vec<Series>,
-    motion: Motion,
+pub(crate) struct Planned {
+    pub inputs: Vec<Series>,
+    pub motion: Motion,
     guards: Vec<Guard>,
-    end: Moment,
-    length: Number,
+    pub end: Moment,
+    pub length: Number,
     /// The contact that changes at the end of the cell, because its force or gap comes to zero.
     first: Option<usize>,
+}
+
+impl Planned {
+    fn norm(&self, cut: &Truncation) -> CellNorm {
+        CellNorm::of_series(self.inputs.iter().chain(&self.motion.state), &self.length, cut)
+    }
 }
 
 /// A node as it is.
@@ -111,6 +118,8 @@ pub(crate) struct State {
     /// Of each block of the state.
     pub errors: Vec<StateError>,
     pub arriving: [Arriving; 2],
+    /// Of what leaves at its left and at its right.
+    pub passing: [Option<Passing>; 2],
     displacements: Vec<Number>,
     /// How long its last cell beside a pressed local contact was allowed to be.
     pressed_for: Option<Rational>,
@@ -138,11 +147,13 @@ pub(crate) struct Engine {
     pub bytes: u64,
     /// The time before which nothing is asked for.
     pub asked_from: f64,
+    /// How far it is followed in all, as far as that is known.
+    whole: f64,
     /// The size of the largest wave so far, at the start of its cell, and of the terms that its values are the sum of.
-    loudest: Magnitude,
-    steepest: Magnitude,
+    pub loudest: Magnitude,
+    pub steepest: Magnitude,
     /// The energy of all errors so far; not known where there are local contacts, which are not linear.
-    errors: Option<ErrorEnergy>,
+    pub errors: Option<ErrorEnergy>,
 }
 
 type Outcome<T> = Result<T, HistoryError>;
@@ -239,6 +250,7 @@ impl Engine {
             count: 0,
             bytes: 0,
             asked_from: 0.0,
+            whole: 0.0,
             loudest: Magnitude::ZERO,
             steepest: Magnitude::ZERO,
             errors: network.local_contact().is_none().then_some(ErrorEnergy::NONE),
@@ -325,6 +337,7 @@ impl Engine {
                 state,
                 errors,
                 arriving,
+                passing: [None, None],
                 displacements,
                 pressed_for: None,
             });
@@ -376,6 +389,11 @@ impl Engine {
         followed
     }
 
+    /// Tells how much was followed of what is followed until an instant, in several steps.
+    pub fn follow_in_all(&mut self, until: &Moment) {
+        self.whole = self.clock.about(until);
+    }
+
     fn follow_all(&mut self, until: &Moment) -> Outcome<()> {
         let (mut looked, end) = (0.0, self.clock.about(until));
         while let Some((node, now)) = self.behind() {
@@ -383,7 +401,7 @@ impl Engine {
                 break;
             }
             let passed = self.states[node].about / end;
-            tell_followed(passed);
+            tell_followed(self.states[node].about / self.whole.max(end));
             if passed > OFTEN * looked {
                 looked = passed;
                 self.foresee_memory(node, until)?;
@@ -648,18 +666,21 @@ impl Engine {
     }
 
     /// Takes over what a node did until an instant.
-    fn finish(&mut self, node: usize, planned: Planned) -> Outcome<()> {
-        let Planned { mut inputs, mut motion, mut guards, end, length, first } = planned;
-        let pushes = !guards.iter().any(Guard::may_be_idle);
+    fn finish(&mut self, node: usize, mut planned: Planned) -> Outcome<()> {
         // With a tie a contact may open at the end of any cell.
-        let opens = first.is_some() || self.clock.has_ties();
+        let opens = planned.first.is_some() || self.clock.has_ties();
+        let Planned { inputs, motion, guards, .. } = &mut planned;
+        let pushes = !guards.iter().any(Guard::may_be_idle);
         let forces = guards.iter_mut().filter_map(Guard::force_mut);
-        for series in forces.chain(&mut inputs).chain(&mut motion.velocities) {
+        for series in forces.chain(inputs).chain(&mut motion.velocities) {
             series.keep_sign(pushes, opens);
         }
-        let (cut, length) = (self.cut, &length);
-        let known = inputs.iter().chain(&motion.state).filter_map(|series| series.roughness);
-        let norm = CellNorm::new(length.magnitude(), &cut).of_roughness(known.max());
+        let cut = self.cut;
+        let norm = planned.norm(&cut);
+        let leaving = self.leaving(node, &planned, &norm)?;
+        self.count_leaving(&leaving);
+        let Planned { motion, guards, end, length, .. } = planned;
+        let length = &length;
         let own = &self.nodes[node];
         let now = self.states[node].now.clone();
         for (guard, (contact, _)) in guards.iter().zip(own.contacts()) {
@@ -680,20 +701,6 @@ impl Engine {
             }
         }
         let state = &mut self.states[node];
-        let mut leaving = Vec::with_capacity(2);
-        for (side, run) in own.side_runs().into_iter().enumerate() {
-            let bar = if side == 0 { own.left } else { own.right };
-            let Side::Bar(bar) = bar else { continue };
-            let wave = state.system.leaving(&motion, &inputs, (side, run), cut.bits);
-            let wave = wave.settled(&norm, &cut);
-            self.loudest = self.loudest.max(wave.coefficient(0).magnitude());
-            self.steepest = self.steepest.max(wave.size_from(0, &norm.length));
-            let passage = Passage::of(&self.bars[bar].0, length);
-            if let Some(errors) = &mut self.errors {
-                errors.add_wave(&wave.fresh_on(&norm.length, cut.bits), &passage);
-            }
-            leaving.push((bar, 1 - side, wave, passage));
-        }
         let displacements = state.displacements.clone();
         for (velocity, start) in motion.velocities.iter().zip(&mut state.displacements) {
             let displacement = velocity.integral_over(start.clone(), &norm.length, &cut);
@@ -713,14 +720,6 @@ impl Engine {
         let errors = (&state.errors[..], &mut self.errors);
         (state.state, state.errors) =
             state.system.ended(&state.passivity, &motion, errors, length, &cut);
-        for (bar, direction, wave, passage) in leaving {
-            let wave = match &self.errors {
-                Some(errors) => errors.settle(wave, &passage, &cut),
-                None => wave,
-            };
-            self.bytes += wave.bytes();
-            self.waves[bar][direction].push(wave, end.clone(), length.clone());
-        }
         for block in &state.passivity.blocks {
             let own = block.members.iter().map(|member| state.state[*member].magnitude());
             self.cut.largest = self.cut.largest.max(block.size(own));
@@ -733,6 +732,7 @@ impl Engine {
                 *cell += 1;
             }
         }
+        self.send(node, leaving, &end);
         let velocities = motion.velocities;
         let (forces, gaps) = guards.into_iter().map(Guard::into_force_and_gap).unzip();
         let length = norm.length;

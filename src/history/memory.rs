@@ -48,6 +48,12 @@ impl Engine {
         }
     }
 
+    /// From now on forgets all before an instant, but for waves that entered a bar a travel time before.
+    pub fn forget_before(&mut self, moment: &Moment) {
+        self.asked_from = self.clock.about(moment) * (1.0 - TOLD_APART) - self.longest_travel();
+        self.waves.iter_mut().flatten().for_each(Track::forget_integral);
+    }
+
     fn longest_travel(&self) -> f64 {
         let travels = self.bars.iter().filter_map(|(_, travel)| travel.clone());
         travels.map(|travel| self.clock.about(&Moment::at(travel))).fold(0.0, f64::max)

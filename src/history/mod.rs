@@ -5,11 +5,13 @@
 //! where a gap closes the contact is formed again; each of these instants is exact or enclosed, and what
 //! cannot be decided is refused by name.
 //!
-//! Read `engine` for the way from cell to cell, `contacts` for which of them are closed, `reading` for what is taken
-//! from it, `crossing` and `positive` for the proof that nothing is passed over, `observe` and `phased` for what is seen
-//! of it, `validity` for how long closed contacts are true, `closed_form` for instants in closed form, `series` for the
-//! arithmetic, `cells` and `memory` for what is kept of it, `pressing` for local contacts, `passivity` and `passive` for what becomes of errors, at a node and in the
-//! line, `energy` for what a wave holds, `body` for energies and momenta of bodies and for why they never meet again.
+//! Read `engine` for the way from cell to cell, `leaving` for what a node sends out, `contacts` for which of them are
+//! closed, `reading` for what is taken from it, `crossing` and `positive` for the proof that nothing is passed over,
+//! `story` for how events are told, `observe` and `phased` for what is seen of it, `validity` for how long closed
+//! contacts are true, `closed_form` for instants in closed form, `series` for the arithmetic, `cells` and `memory` for
+//! what is kept of it, `pressing` for local contacts, `passivity` and `passive` for what becomes of errors, at a node
+//! and in the line, `energy` for what a wave holds, `body` for energies and momenta of bodies and for why they never
+//! meet again.
 
 mod body;
 pub mod cells;
@@ -21,6 +23,7 @@ mod engine;
 mod error;
 #[expect(clippy::module_inception, reason = "the module is named after what it tells")]
 mod history;
+mod leaving;
 pub mod load;
 mod memory;
 pub mod moment;
@@ -34,6 +37,7 @@ pub mod positive;
 pub mod pressing;
 mod reading;
 pub mod series;
+mod story;
 pub mod track;
 mod validity;
 

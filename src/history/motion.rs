@@ -120,7 +120,7 @@ impl<'a> Given<'a> {
 }
 
 /// A row times series.
-fn combined<'a>(row: &[Number], parts: impl Iterator<Item = &'a Series>, bits: u64) -> Series {
+pub fn combined<'a>(row: &[Number], parts: impl Iterator<Item = &'a Series>, bits: u64) -> Series {
     let parts = parts.zip(row).filter(|(_, c)| !c.is_zero());
     parts.fold(Series::zero(), |sum, (part, c)| sum.combine(&Number::one(), part, c, bits))
 }
@@ -178,18 +178,12 @@ impl System<Number> {
         Motion { state: states, added, velocities, forces }
     }
 
-    /// What leaves at a side: the velocity of its run less what arrives there.
-    pub fn leaving(
-        &self,
-        motion: &Motion,
-        input: &[Series],
-        (side, run): (usize, usize),
-        bits: u64,
-    ) -> Series {
+    /// What leaves at a side, as a row: the velocity of its run less what arrives there.
+    pub fn leaving_row(&self, (side, run): (usize, usize), bits: u64) -> Vec<Number> {
         let mut row = self.output[run].clone();
         let own = &mut row[self.states() + side];
         *own = own.subtract(&Number::one(), bits);
-        combined(&row, motion.state.iter().chain(input), bits)
+        row
     }
 
     /// Enclosures of the first coefficients of all outputs, velocities of runs and then forces of contacts.

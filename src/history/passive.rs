@@ -33,7 +33,7 @@ pub struct ErrorEnergy(Magnitude);
 
 /// A wave that leaves into a bar while a cell lasts.
 pub struct Passage {
-    length: Magnitude,
+    pub length: Magnitude,
     /// `√(2Zh)`, and `1/√(2Zh)` where the cell is known to have a length.
     root: Magnitude,
     inverse_root: Option<Magnitude>,

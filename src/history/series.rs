@@ -141,6 +141,16 @@ impl CellNorm {
         CellNorm { length, powers, largest, factors, roughness: None }
     }
 
+    /// That of a cell on which these series are known, as rough as they are.
+    pub fn of_series<'a>(
+        known: impl Iterator<Item = &'a Series>,
+        length: &Number,
+        cut: &Truncation,
+    ) -> CellNorm {
+        let roughness = known.filter_map(|series| series.roughness).max();
+        CellNorm::new(length.magnitude(), cut).of_roughness(roughness)
+    }
+
     /// The norm of errors of a roughness.
     pub fn of_roughness(self, roughness: Option<Roughness>) -> CellNorm {
         CellNorm { roughness, ..self }

@@ -51,6 +51,22 @@ impl Track {
         self.cells.push(start, Wave::new(series, length));
     }
 
+    /// The last cell, with its start.
+    pub fn last(&self) -> &(Moment, Wave) {
+        self.cells.get(self.cells.count() - 1)
+    }
+
+    /// Goes on with the last cell, by a series in place of its own if one is given; gives how many bytes that held.
+    pub fn lengthen(&mut self, series: Option<Series>, end: Moment, length: Number) -> u64 {
+        self.end = end;
+        self.cells.change_last(|last| {
+            let bytes = last.series().bytes();
+            let series = series.unwrap_or_else(|| last.take_series());
+            *last = Wave::new(series, length);
+            bytes
+        })
+    }
+
     /// From now on forgets the integrals of what is forgotten.
     pub fn forget_integral(&mut self) {
         self.passed = None;
@@ -185,6 +201,14 @@ impl Arriving {
                 let (start, wave) = waves[*bar][*direction].cells.get(*cell);
                 Ok(wave.series().shift(&clock.since(&start.after(travel), now)?, cut))
             }
+        }
+    }
+
+    /// The number of the cell that arrives now, where one arrives after the other.
+    pub fn cell(&self) -> Option<usize> {
+        match self {
+            Arriving::Delayed { cell, .. } => Some(*cell),
+            _ => None,
         }
     }
 

@@ -5,6 +5,7 @@ use super::squares::truncation;
 use super::{Values, network_of, rational, values};
 use proptest::prelude::*;
 use wavestep::ball::{Magnitude, Number};
+use wavestep::history::motion::combined;
 use wavestep::history::passive::{ErrorEnergy, Passage};
 use wavestep::history::passivity::Passivity;
 use wavestep::history::series::Series;
@@ -54,7 +55,9 @@ proptest! {
                 wave.energy(cut).value(&length).ball(64).to_double().0 * impedance
             };
             let runs = node.side_runs();
-            let leaving = [0, 1].map(|side| system.leaving(&motion, &arriving, (side, runs[side]), cut.bits));
+            let parts = || motion.state.iter().chain(&arriving);
+            let row = |side: usize| system.leaving_row((side, runs[side]), cut.bits);
+            let leaving = [0, 1].map(|side| combined(&row(side), parts(), cut.bits));
             let (after, _) = system.ended(&passivity, &motion, (&errors, &mut None), &length, cut);
             let before = held(&state) + carried(&arriving[0], 1.0) + carried(&arriving[1], 3.0);
             let after = held(&after) + carried(&leaving[0], 1.0) + carried(&leaving[1], 3.0);

@@ -79,7 +79,7 @@ fn two_zeros_near_each_other_are_both_found() {
     let history = History::of(&network_of(&near, &[]), Some(&until), 15).unwrap();
     assert_eq!(kinds(&history.events), [EventKind::Opening, EventKind::Closing]);
     assert_eq!(history.events[0].time.to_text(15), "1.999999999 = 1999999999/1000000000");
-    assert_eq!(history.events[1].time.to_text(15), "2.00000000200000");
+    assert_eq!(history.events[1].time.to_text(15), "2.000000002 = 1000000001/500000000");
     let above = pressed("(t - 1)*(t - 1) + 1/1000000000000000000");
     let history = History::of(&network_of(&above, &[]), Some(&until), 15).unwrap();
     assert_eq!(kinds(&history.events), []);

@@ -354,7 +354,11 @@ fn what_cannot_be_computed_is_explained() {
             1,
             "eval hopkinson --quantity force --from 0s --to 50ms --points 2 --memory 10MB".into(),
         ),
-        ("memory-of-cells", 1, "events mass-that-bounces --memory 1MB".into()),
+        (
+            "memory-of-cells",
+            1,
+            "find mass-that-bounces --zero velocity --to 60 --memory 1MB".into(),
+        ),
         ("cells-many", 1, "eval hopkinson-with-release --quantity force --at 1000s".into()),
     ] {
         assert_fails(&folder, name, &words(&line), code);

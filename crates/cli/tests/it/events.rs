@@ -39,6 +39,25 @@ fn json_holds_exact_and_certified_numbers() {
     assert_eq!(json["contacts"][0]["durations"].as_array().unwrap().len(), 2);
 }
 
+/// What was before an event that is told is forgotten where memory is scarce; what is told is the same.
+#[test]
+fn events_take_little_memory() {
+    let text = "scene \"Bars that part\"\nbar a { impedance = 1, travel = 3/10, velocity = 1 }\n\
+                bar b { impedance = 1, travel = sqrt(2) }\nspring left { stiffness = 5 }\n\
+                mass light { mass = 1/100 }\nspring right { stiffness = 5 }\n\
+                bar c { impedance = 1, travel = sqrt(2) }\n\
+                line free - a | b - left - light - right - c - free\ncontacts open\n";
+    let file = anywhere().join("part.wave");
+    std::fs::write(&file, text).unwrap();
+    for (scene, until, memory) in
+        [("mass-that-bounces", "100", "1MB"), (file.to_str().unwrap(), "20", "8MB")]
+    {
+        let line = ["events", scene, "--until", until];
+        let scarce = output(&[&line[..], &["--memory", memory]].concat());
+        assert_eq!(scarce, output(&line), "{scene}");
+    }
+}
+
 /// In the closed form the right bar pulls the left one after t = 2; across phases the left one is at rest.
 #[test]
 fn eval_goes_on_across_phases() {
