@@ -150,7 +150,7 @@ fn main() {
             measure(&format!("echoes one by one, {method:?}, n = {n}"), 16, || {
                 for time in &times[..16] {
                     let time = DoubleDouble::from(*time);
-                    black_box(sum.value(method, time, Limit::Right).expect("in range"));
+                    black_box(sum.pair(method, time, Limit::Right).expect("in range"));
                 }
             });
         }

@@ -416,7 +416,9 @@ fn remedy_of_way(error: &WayError) -> &'static str {
         WayError::Method(MethodError::NoTaps(_)) => "use the method compiled or certified",
         WayError::Method(_) => "ask for a shorter window, or use the method certified",
         WayError::Model(ModelError::Setting { .. }) => "give a setting within these bounds",
-        WayError::Model(_) => "use another model, or a method on the exact solution",
+        WayError::Model(_) | WayError::Reduced(..) => {
+            "use another model, or a method on the exact solution"
+        }
         WayError::NeedsRecurrence(_) => "use the method of steps",
         WayError::NeedsScene(_) => DESCRIBE,
         WayError::NeedsClosedContacts(_) => "use the method compiled or certified",

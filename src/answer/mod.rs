@@ -9,6 +9,7 @@ mod cost;
 mod doubles;
 mod method;
 mod question;
+mod reduced;
 mod tolerance;
 mod way;
 mod weigh;
@@ -17,6 +18,7 @@ pub use cost::{Cost, Costs, InvalidCosts, PIECES, Size, TERMS, Work, coefficient
 pub use doubles::{Accuracy, Doubles, Remark, Tested, doubles};
 pub use method::{InvalidMethod, Method};
 pub use question::Question;
+pub use reduced::NotReduced;
 pub use tolerance::{InvalidTolerance, Tolerance};
 pub use way::{Way, WayError};
 pub use weigh::{Candidate, Promise, Verdict, Weighed, consider};

@@ -2,13 +2,16 @@
 
 use crate::answer::method::Method;
 use crate::answer::question::Question;
+use crate::answer::reduced::{NotReduced, reduced};
 use crate::answer::tolerance::Tolerance;
 use crate::answer::weigh::Weighed;
 use crate::ball::in_decimals;
-use crate::model::{Leapfrog, Model, ModelError, Modes, RigidBody, Steps, ThirdOfMass};
+use crate::model::{Leapfrog, Model, ModelError, Modes, Steps};
 use crate::network::ScaledScene;
+use crate::scene::Ideal;
 use crate::signal::{
     Certified, Compiled, EvaluateError, Evaluator, Limit, Marched, MethodError, Summation, Summed,
+    Table,
 };
 use num_traits::ToPrimitive as _;
 use wavestep_polynomial::Rational;
@@ -20,6 +23,9 @@ pub enum WayError {
     Method(#[from] MethodError),
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// A model of bars without waves.
+    #[error("the model \"{0}\" does not represent this: {1}")]
+    Reduced(&'static str, Box<NotReduced>),
     /// A model has no scene to be made of.
     #[error("{0} models a scene of bars, and this is a recurrence")]
     NeedsScene(&'static str),
@@ -54,12 +60,19 @@ impl From<EvaluateError> for WayError {
     }
 }
 
+/// What is left out where bars are rigid, or springs.
+const RIGID: &str = "Bars do not yield, and all waves in them are left out.";
+const THIRD: &str = "Bars are strained uniformly at every time, with a third of their mass at the end that moves, or \
+    half of it at both; waves are left out.";
+
 /// A way that is ready to give values.
 enum Ways<'a> {
     /// A method on the exact solution.
     Method(Box<dyn Evaluator + 'a>),
     /// A model, and the place of the observable in the scene.
     Model(Box<dyn Model>, usize),
+    /// A scene without waves, and what it leaves out.
+    Reduced(Table, &'static str),
 }
 
 /// A way to the values of a question.
@@ -94,22 +107,29 @@ impl<'a> Way<'a> {
                 if question.contacts_open {
                     return Err(WayError::NeedsClosedContacts(method.name()));
                 }
-                return Way::of_model(method, network, place);
+                return Way::of_model(method, (network, place), signal.window());
             }
         };
         Ok(Way { method, inner: Ways::Method(evaluator) })
     }
 
-    /// A model made ready for the observable at this place of a scene, which needs no recurrence. Methods on
+    /// A model made ready on a window for the observable at this place of a scene, which needs no recurrence. Methods on
     /// the exact solution are refused.
     pub fn of_model(
         method: Method,
-        scene: &impl AsRef<ScaledScene>,
-        place: usize,
+        (scene, place): (&impl AsRef<ScaledScene>, usize),
+        window: [&Rational; 2],
     ) -> Result<Way<'a>, WayError> {
+        let without_waves = |name, ideal: Ideal, left_out| {
+            let table = reduced(name, (scene.as_ref(), place), &ideal, window)?;
+            Ok(Way { method, inner: Ways::Reduced(table, left_out) })
+        };
         let model: Box<dyn Model> = match method {
-            Method::Rigid => Box::new(RigidBody::new(scene)?),
-            Method::Third => Box::new(ThirdOfMass::new(scene)?),
+            Method::Rigid => return without_waves("rigid body", Ideal::Rigid, RIGID),
+            Method::Third => {
+                let spring = Ideal::Spring { share: None, rate: None };
+                return without_waves("a third of the mass", spring, THIRD);
+            }
             Method::Modes { count } => Box::new(Modes::new(scene, count)?),
             Method::Leapfrog { cells, courant } => Box::new(Leapfrog::new(scene, cells, courant)?),
             Method::Steps { tolerance } => Box::new(Steps::new(scene, tolerance)?),
@@ -127,6 +147,7 @@ impl<'a> Way<'a> {
         match &self.inner {
             Ways::Method(evaluator) => evaluator.law(),
             Ways::Model(model, _) => format!("a model: {}", model.assumptions()),
+            Ways::Reduced(_, left_out) => format!("a model: {left_out}"),
         }
     }
 
@@ -134,7 +155,7 @@ impl<'a> Way<'a> {
     pub fn bound(&self) -> Option<f64> {
         match &self.inner {
             Ways::Method(evaluator) => evaluator.bound(),
-            Ways::Model(..) => None,
+            Ways::Model(..) | Ways::Reduced(..) => None,
         }
     }
 
@@ -142,34 +163,29 @@ impl<'a> Way<'a> {
     pub fn value(&self, at: &Rational, side: Limit) -> Result<f64, WayError> {
         match &self.inner {
             Ways::Method(evaluator) => Ok(evaluator.value(at, side)?),
-            Ways::Model(..) if side == Limit::Left => Err(WayError::LeftLimit(self.method.name())),
-            Ways::Model(model, place) => {
-                let at = at.to_f64().unwrap_or(f64::NAN);
-                Ok(model.values(*place, &[at])?[0])
-            }
+            _ => Ok(self.exact_values(std::slice::from_ref(at), side)?[0]),
         }
     }
 
     /// The values at many times, just after arrivals.
     pub fn values(&self, at: &[f64]) -> Result<Vec<f64>, WayError> {
+        let mut values = vec![0.0; at.len()];
         match &self.inner {
-            Ways::Method(evaluator) => {
-                let mut values = vec![0.0; at.len()];
-                evaluator.values(at, &mut values)?;
-                Ok(values)
-            }
-            Ways::Model(model, place) => Ok(model.values(*place, at)?),
+            Ways::Method(evaluator) => evaluator.values(at, &mut values)?,
+            Ways::Model(model, place) => return Ok(model.values(*place, at)?),
+            Ways::Reduced(table, _) => table.evaluator().unsorted(at, &mut values),
         }
+        Ok(values)
     }
 
     pub fn exact_values(&self, at: &[Rational], side: Limit) -> Result<Vec<f64>, WayError> {
         match &self.inner {
-            Ways::Model(model, place) if side == Limit::Right => {
-                let at: Vec<f64> = at.iter().map(|at| at.to_f64().unwrap_or(f64::NAN)).collect();
-                Ok(model.values(*place, &at)?)
-            }
             Ways::Method(evaluator) => Ok(evaluator.exact_values(at, side)?),
-            Ways::Model(..) => Err(WayError::LeftLimit(self.method.name())),
+            _ if side == Limit::Left => Err(WayError::LeftLimit(self.method.name())),
+            _ => {
+                let at: Vec<f64> = at.iter().map(|at| at.to_f64().unwrap_or(f64::NAN)).collect();
+                self.values(&at)
+            }
         }
     }
 }

@@ -84,12 +84,4 @@ impl Course {
         }
         sum
     }
-
-    /// The value, where it does not change with time.
-    pub fn constant(&self) -> Option<f64> {
-        let constant = |(rate, polynomial): &(Complex, Vec<Complex>)| {
-            *rate == [0.0, 0.0] && polynomial.len() <= 1
-        };
-        self.terms.iter().all(constant).then(|| self.value(0.0))
-    }
 }

@@ -68,36 +68,6 @@ pub enum NotRepresented {
     FreeEnd(String),
     #[error("what {0} joins does not approach at the start")]
     NoApproach(String),
-    #[error("bar {0} is endless, so its mass has no bound")]
-    EndlessBody(String),
-    #[error("bar {0} is strained at the start, and a rigid one is not")]
-    StrainedBody(String),
-    #[error("the line has no mass")]
-    NoMass,
-    #[error("it takes one body, and spring {0} parts this line into more")]
-    SeveralBodies(String),
-    #[error("an end is fixed without a spring, so that a rigid line cannot move")]
-    HeldBody,
-    #[error("spring {0} does not lie between the body and a fixed end")]
-    SpringElsewhere(String),
-    #[error("load {0} imposes a velocity")]
-    ImposedVelocity(String),
-    #[error("the force of load {0} varies in time")]
-    VaryingForce(String),
-    #[error("bar {0} is endless, and no spring")]
-    EndlessSpring(String),
-    #[error("it takes one bar; this line has {0}")]
-    NotOneBar(usize),
-    #[error("it takes a line with one free and one fixed end")]
-    OtherEnds,
-    #[error("{0} stands at the fixed end, which it takes bare")]
-    FixedEndNotBare(String),
-    #[error("{0} is no mass; it takes masses at the struck end")]
-    NotAMass(String),
-    #[error("bar {0} is not at rest at the start")]
-    NotAtRest(String),
-    #[error("no mass strikes the bar")]
-    NoStriker,
     #[error("bar {0} is endless, and waves that leave are no vibration")]
     EndlessVibration(String),
     #[error("it takes a line with at least one bar")]
@@ -120,10 +90,6 @@ pub enum NotSeen {
     Energy,
     #[error("the momentum of an endless bar")]
     EndlessMomentum,
-    #[error("the momentum of a bar, which a third of its mass does not tell")]
-    MomentumOfThird,
-    #[error("the force within a rigid bar")]
-    ForceInRigidBar,
     #[error("what the model does not have")]
     Other,
 }

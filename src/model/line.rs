@@ -29,11 +29,6 @@ pub(crate) struct Bar {
 }
 
 impl Bar {
-    /// `Zτ`, its mass; infinite for an endless bar.
-    pub fn mass(&self) -> f64 {
-        self.impedance * self.travel.unwrap_or(f64::INFINITY)
-    }
-
     /// The waves to the right and to the left before the start: `(V ± X_0/Z)/2`.
     pub fn before(&self) -> [f64; 2] {
         let pressed = self.force / self.impedance;

@@ -1,5 +1,4 @@
-//! Cheaper models of the same scene: a rigid body, a spring with a third of the bar's mass, modes of
-//! vibration, finite differences, and the method of steps in doubles.
+//! Cheaper models of the same scene: modes of vibration, finite differences, and the method of steps in doubles.
 //!
 //! Each computes in doubles and leaves something out; what that costs is measured against the exact
 //! solution. A model refuses what it cannot represent, and says why.
@@ -13,19 +12,15 @@ mod laws;
 mod leapfrog;
 pub mod line;
 mod modes;
-mod rigid;
 pub mod shape;
 mod steps;
-mod third;
 pub mod track;
 
 pub use equivalent::equivalent_stiffness;
 pub use error::{BadSetting, ModelError, NotRepresented, NotSeen};
 pub use leapfrog::Leapfrog;
 pub use modes::Modes;
-pub use rigid::RigidBody;
 pub use steps::Steps;
-pub use third::ThirdOfMass;
 
 /// A model of a scene that gives values of its observables.
 pub trait Model {

@@ -1,7 +1,7 @@
 //! Why a problem has no answer.
 
 use super::NoClosedForm;
-use crate::answer::{InvalidMethod, InvalidTolerance, WayError};
+use crate::answer::{InvalidMethod, InvalidTolerance, NotReduced, WayError};
 use crate::field::FieldError;
 use crate::history::HistoryError;
 use crate::language::{ChangeError, Diagnostic};
@@ -330,6 +330,11 @@ impl From<WayError> for ProblemError {
     fn from(error: WayError) -> ProblemError {
         match error {
             WayError::Method(MethodError::Evaluate(error)) => error.into(),
+            WayError::Reduced(model, error) => match *error {
+                NotReduced::Network(error) => error.into(),
+                NotReduced::Signal(error) => error.into(),
+                error => ProblemError::Way(Box::new(WayError::Reduced(model, Box::new(error)))),
+            },
             error => ProblemError::Way(Box::new(error)),
         }
     }

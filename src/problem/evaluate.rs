@@ -253,7 +253,9 @@ impl Problem {
     ) -> Result<Doubles, ProblemError> {
         let scaled = self.scaled()?;
         let place = wanted.place.expect("an observable of the scene");
-        let way = Way::of_model(method, scaled, place).map_err(|error| match error {
+        let none = Rational::default();
+        let window = [times.iter().min(), times.iter().max()].map(|time| time.unwrap_or(&none));
+        let way = Way::of_model(method, (scaled, place), window).map_err(|error| match error {
             WayError::Model(error @ ModelError::Refused { .. }) if contact.is_some() => {
                 ProblemError::ModelOfLocalContact(error)
             }

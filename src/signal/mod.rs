@@ -31,7 +31,7 @@ pub use error::EvaluateError;
 pub use find::{Extremum, Goal, Place, Root, Roots, Search};
 pub use method::{
     Certified, Compiled, Evaluator, Marched, MethodError, StablePrecision, Summation, Summed,
-    instructions,
+    Table, instructions,
 };
 pub use operations::of_recurrence;
 pub(crate) use operations::{

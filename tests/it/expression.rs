@@ -3,6 +3,7 @@
 //! They hold two symbols `a`, `b` and the variable `x`, coefficients over the factors declared
 //! below, and exponents linear in `x` whose rates are symbols as well as numbers.
 
+use crate::support::polynomial;
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
@@ -22,10 +23,6 @@ const FACTORS: [&str; 4] = ["a", "b", "a - b", "a + 1"];
 
 /// Rates that are zero or a product of declared factors and a number.
 const RATES: [&str; 7] = ["0", "-a", "-b", "2", "b - a", "-1/3*a", "3*a + 3"];
-
-fn polynomial(text: &str) -> Polynomial {
-    text.parse().expect("a polynomial")
-}
 
 fn fraction(text: &str) -> Fraction {
     polynomial(text).into()

@@ -1,5 +1,6 @@
 //! What is known for every n or k at once, against what is derived one by one.
 
+use crate::support::fraction;
 use std::collections::BTreeMap;
 
 use wavestep::export::{self, TEXT_WIDTH};
@@ -216,7 +217,7 @@ fn claims_about_intricate_recurrences_hold() {
 fn laguerre_polynomials_are_sums_of_binomials() {
     let x = Symbol::new("x").unwrap();
     for c in ["2", "-1/3", "a", "a + 1/2"] {
-        let c = Fraction::from(c.parse::<Polynomial>().unwrap());
+        let c = fraction(c);
         for k in 0..=12u32 {
             let mut expected = Fraction::zero();
             for j in 0..=k {

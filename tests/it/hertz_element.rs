@@ -6,8 +6,7 @@ use num_traits::ToPrimitive as _;
 use wavestep::ball::Ball;
 use wavestep::language::{Source, read_scene};
 use wavestep::model::{
-    Leapfrog, Model, ModelError, Modes, NotRepresented, RigidBody, Steps, ThirdOfMass,
-    equivalent_stiffness,
+    Leapfrog, Model, ModelError, Modes, NotRepresented, Steps, equivalent_stiffness,
 };
 use wavestep::network::{Network, NetworkError, ScaledScene};
 use wavestep::scene::{Hertz, Kind, Scene};
@@ -438,12 +437,7 @@ fn a_contact_has_no_recurrence_and_one_model() {
     let scene = two_bars("3/2", "free");
     let refused = Network::new(scene.scene()).unwrap().recurrence();
     assert_eq!(refused.err(), Some(NetworkError::NotLinear("tip".to_owned())));
-    let refusals = [
-        RigidBody::new(&scene).err(),
-        ThirdOfMass::new(&scene).err(),
-        Modes::new(&scene, 3).err(),
-        Leapfrog::new(&scene, 4, 1.0).err(),
-    ];
+    let refusals = [Modes::new(&scene, 3).err(), Leapfrog::new(&scene, 4, 1.0).err()];
     for refusal in refusals {
         let Some(ModelError::Refused { reason, .. }) = refusal else { panic!("{refusal:?}") };
         assert_eq!(reason, NotRepresented::LocalContact("tip".to_owned()));

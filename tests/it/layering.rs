@@ -24,7 +24,7 @@ const LAYERS: [(&str, &[&str]); 21] = [
     ("history", &["ball", "enclosure", "expression", "network", "scene", "signal", "solution"]),
     ("planner", &["ball", "enclosure", "expression", "history", "network", "recurrence", "signal"]),
     ("field", &["ball", "enclosure", "expression", "network", "planner", "scene", "signal"]),
-    ("answer", &["ball", "model", "network", "signal"]),
+    ("answer", &["ball", "model", "network", "planner", "scene", "signal"]),
     ("export", &["expression", "network", "recurrence", "scene", "signal", "solution"]),
     ("language", &["expression", "recurrence", "scene"]),
     (

@@ -1,17 +1,14 @@
 //! Formulas with square roots, cosines and sines: they look as a person would write them, read back
 //! as what they show, and come out of derivations with second-order poles.
 
+use crate::support::fraction;
 use proptest::prelude::*;
 use wavestep::export::{Formula, LATEX_WIDTH, expression_text, latex};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, parse_number, read_expression, read_listing, read_recurrence};
 use wavestep::signal::{ClosedSignal, EvaluateError, Limit, Value, digits};
 use wavestep::solution::Solution;
-use wavestep_polynomial::{Polynomial, Rational, Symbol};
-
-fn fraction(text: &str) -> Fraction {
-    text.parse::<Polynomial>().expect("a polynomial").into()
-}
+use wavestep_polynomial::{Rational, Symbol};
 
 fn read(text: &str) -> Expression {
     read_expression(&Source::new("text", text).unwrap()).unwrap_or_else(|error| panic!("{error}"))
@@ -114,7 +111,7 @@ fn numbers() -> BoxedStrategy<Fraction> {
 
 fn expressions() -> BoxedStrategy<Expression> {
     let symbols = ["1", "s", "mu", "s^2", "s*mu"].map(fraction);
-    let over = Fraction::reciprocal(&"r + 1".parse().unwrap()).unwrap();
+    let over = Fraction::reciprocal(fraction("r + 1").numerator()).unwrap();
     let part = (numbers(), numbers(), 0_usize..5, 0_usize..4, 0_usize..5, any::<bool>());
     prop::collection::vec(part, 0..4)
         .prop_map(move |parts| {

@@ -1,6 +1,7 @@
 //! Square roots in exact values: division, square roots of fractions, and the calculus with poles
 //! that are roots of quadratics.
 
+use crate::support::polynomial;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use wavestep::enclosure::{Numbers, enclose_expression};
@@ -9,11 +10,7 @@ use wavestep::expression::{
 };
 use wavestep::language::{Source, read_recurrence};
 use wavestep::recurrence::Recurrence;
-use wavestep_polynomial::{Polynomial, Rational, Symbol};
-
-fn polynomial(text: &str) -> Polynomial {
-    text.parse().expect("a polynomial")
-}
+use wavestep_polynomial::{Rational, Symbol};
 
 fn fraction(text: &str) -> Fraction {
     polynomial(text).into()

@@ -31,24 +31,32 @@ fn doubles(problem: &Problem, name: &str, times: &[f64]) -> Vec<f64> {
     found.unwrap().values
 }
 
-/// A bar as a spring is Rayleigh's model, derived here from masses and springs, there from its equation.
+/// A bar as a spring is Rayleigh's model: `(M + m/3) u'' + k u = 0`, with the momentum of the mass.
 #[test]
 fn a_bar_as_a_spring_is_rayleighs_model() {
     for mu in ["1/10", "1", "4"] {
         let rod = builtin("mass-on-fixed-bar", mu);
         let third = rod.changed(&[Change::Spring(None, None)]).unwrap();
         let times: Vec<f64> = (0..40).map(|i| f64::from(i) / 7.0).collect();
+        let m = mu.parse::<f64>().unwrap_or(0.1);
+        let (whole, stiffness) = (1.0 + m / 3.0, 1.0 / m);
+        let (start, omega) = (1.0 / whole, f64::sqrt(stiffness / whole));
         for name in ["velocity", "strain_impact", "strain_fixed"] {
+            let equation = times.iter().map(|t| match name {
+                "velocity" => start * (omega * t).cos(),
+                _ => -stiffness * start / omega * (omega * t).sin(),
+            });
             let own = doubles(&third, name, &times);
             let model = rod.signal(name).unwrap().values_by(&times, Method::Third).unwrap().values;
-            for (own, model) in own.iter().zip(&model) {
+            for ((own, model), exact) in own.iter().zip(&model).zip(equation) {
+                assert!((own - exact).abs() < 1e-11, "{mu} {name}: {own} {exact}");
                 assert!((own - model).abs() < 1e-11, "{mu} {name}: {own} {model}");
             }
         }
     }
 }
 
-/// The same for a rigid bar between springs, and its momentum.
+/// A rigid bar between springs: `M u'' + d u' + k u = 0`, with the momentum of the bar.
 #[test]
 fn a_rigid_bar_is_the_rigid_body() {
     let text = "bar rod { impedance = 2, travel = 3/2, velocity = 1 }\nmass m { mass = 1/2 }\n\
@@ -57,10 +65,24 @@ fn a_rigid_bar_is_the_rigid_body() {
     let bar = scene(text);
     let rigid = bar.changed(&[Change::Rigid(Some("rod".to_owned()))]).unwrap();
     let times: Vec<f64> = (0..40).map(|i| f64::from(i) / 7.0).collect();
+    let (mass, stiffness, damping) = (3.5, 3.0, 0.25);
+    let (start, beta) = (3.0 / mass, damping / 2.0 / mass);
+    let omega = f64::sqrt(stiffness / mass - beta * beta);
     for name in ["v", "u", "f"] {
+        let equation = times.iter().map(|t| {
+            let (decay, sine, cosine) =
+                ((-beta * t).exp(), (omega * t).sin() / omega, (omega * t).cos());
+            let [u, v] = [start * decay * sine, start * decay * (cosine - beta * sine)];
+            match name {
+                "v" => v,
+                "u" => u,
+                _ => stiffness * u + damping * v,
+            }
+        });
         let own = doubles(&rigid, name, &times);
         let model = bar.signal(name).unwrap().values_by(&times, Method::Rigid).unwrap().values;
-        for (own, model) in own.iter().zip(&model) {
+        for ((own, model), exact) in own.iter().zip(&model).zip(equation) {
+            assert!((own - exact).abs() < 1e-11, "{name}: {own} {exact}");
             assert!((own - model).abs() < 1e-11, "{name}: {own} {model}");
         }
     }

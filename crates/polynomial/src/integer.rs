@@ -45,14 +45,6 @@ pub(crate) fn from_limbs(sign: Sign, limbs: &[u64]) -> BigInt {
     BigInt::from_biguint(sign, BigUint::from_slice(&halves))
 }
 
-/// The product of all factors, neighbours first: lengths stay equal, and long products are fast.
-pub(crate) fn product(mut factors: Vec<BigInt>) -> BigInt {
-    while factors.len() > 1 {
-        factors = factors.chunks(2).map(|pair| pair.iter().product()).collect();
-    }
-    factors.pop().unwrap_or_else(BigInt::one)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -73,14 +65,6 @@ mod tests {
                     assert_eq!(lcm(&(a.abs() + 1), b), (a.abs() + 1_u32).lcm(b));
                 }
             }
-        }
-    }
-
-    #[test]
-    fn product_of_any_number_of_factors() {
-        for n in 0..20_u32 {
-            let factors: Vec<BigInt> = (1..=n).map(|i| BigInt::from(i) - 7).collect();
-            assert_eq!(product(factors.clone()), factors.iter().product());
         }
     }
 }

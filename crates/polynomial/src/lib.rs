@@ -32,5 +32,4 @@ pub use ordinary::Ordinary;
 pub use polynomial::Polynomial;
 pub use row::{IntegerRef, IntegerRow};
 pub use symbol::Symbol;
-pub use text::{Expected, ReadError};
 pub use univariate::Univariate;

@@ -190,7 +190,9 @@ mod tests {
 
     #[test]
     fn broken_invariants_are_seen() {
-        let valid: Polynomial = "1/2*a*b + a".parse().unwrap();
+        let [a, b] = ["a", "b"].map(|name| Polynomial::symbol(&Symbol::new(name).unwrap()));
+        let half = Polynomial::constant(&BigRational::new(1.into(), 2.into()));
+        let valid = &(&(&half * &a) * &b) + &a;
         assert!(valid.is_valid());
         let damages: [fn(&mut Polynomial); 9] = [
             |p| p.symbols = [p.symbols[1].clone(), p.symbols[0].clone()].into(),

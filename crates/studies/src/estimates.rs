@@ -1,22 +1,17 @@
-//! Estimates of the largest strain when a rigid mass strikes a bar whose far end is fixed, and for which masses they hold.
+//! Estimates of the largest strain when a rigid mass strikes a bar whose far end is fixed, and the exact one.
 //!
 //! The exact strain is enclosed by a search of all extrema at the fixed end, until what the mass does as it leaves the bar
 //! arrives there. Masses are in that of the bar, `1/μ`, and strains in `V/c`.
 
 use crate::ratio;
 use num_traits::One as _;
-use std::cmp::Ordering;
-use std::collections::BTreeMap;
 use wavestep::ball::Ball;
 use wavestep::planner::Purpose;
-use wavestep::problem::{Problem, ProblemError, geometrically_spaced, runs};
-use wavestep::signal::{EvaluateError, Goal, Root, Search};
+use wavestep::problem::{Problem, ProblemError};
+use wavestep::signal::{Goal, Root, Search};
 use wavestep_polynomial::Rational;
 
 const BITS: u64 = 96;
-
-/// At how many masses it is looked whether an estimate holds.
-const LOOKS: usize = 49;
 
 /// An estimate of the largest strain.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -50,16 +45,6 @@ impl Estimate {
         match self {
             Estimate::Better => root.add(&Ball::from_rational(&Rational::one(), BITS), BITS),
             _ => root,
-        }
-    }
-
-    /// The formula in LaTeX, in `V/c`.
-    pub fn formula(self) -> &'static str {
-        match self {
-            Estimate::Spring => r"(1/\mu)^{1/2}",
-            Estimate::Third => r"(3/(\mu (3 + \mu)))^{1/2}",
-            Estimate::Energy => r"(1/\mu + 1/3)^{1/2}",
-            Estimate::Better => r"1 + (1/\mu + 1/3)^{1/2}",
         }
     }
 }
@@ -99,57 +84,4 @@ pub fn largest_strain(mass: &Rational) -> Result<Ball, ProblemError> {
     let fixed = signal("strain_fixed", [&mu, &(&opening + &mu)])?;
     let smallest = Search::new(&*fixed)?.enclose_extremum(Goal::Smallest, BITS)?;
     Ok(smallest.multiply_rational(&ratio(-1, 1), BITS))
-}
-
-/// The largest strains of masses, each worked out once.
-#[derive(Default)]
-pub struct Strains(BTreeMap<Rational, Ball>);
-
-impl Strains {
-    /// Of one mass.
-    ///
-    /// # Errors
-    /// As [`largest_strain`].
-    pub fn of(&mut self, mass: &Rational) -> Result<Ball, ProblemError> {
-        if let Some(known) = self.0.get(mass) {
-            return Ok(known.clone());
-        }
-        let strain = largest_strain(mass)?;
-        self.0.insert(mass.clone(), strain.clone());
-        Ok(strain)
-    }
-
-    /// Whether an estimate is within a share of the largest strain.
-    fn holds(
-        &mut self,
-        estimate: Estimate,
-        mass: &Rational,
-        share: &Rational,
-    ) -> Result<bool, ProblemError> {
-        let exact = self.of(mass)?;
-        let off = estimate.of(mass).subtract(&exact, BITS);
-        let allowed = exact.multiply_rational(share, BITS);
-        let (low, high) = (off.subtract(&allowed, BITS), off.add(&allowed, BITS));
-        match (low.sign(), high.sign()) {
-            (Some(Ordering::Less), Some(Ordering::Greater)) => Ok(true),
-            (Some(Ordering::Greater), _) | (_, Some(Ordering::Less)) => Ok(false),
-            _ => Err(EvaluateError::AccuracyNotReached { best: Box::new(off), bits: BITS }.into()),
-        }
-    }
-
-    /// For which masses from 1/4 to 100 an estimate is within a share of the largest strain: the first and the last mass of
-    /// each range, at both of which that is proven. At a mass at most one part in a thousand beyond, within 1/4 to 100, it is
-    /// proven not to be; between the ends it was tested at some of 49 masses.
-    ///
-    /// # Errors
-    /// As [`largest_strain`], and where a share is not told from what is allowed.
-    pub fn ranges(
-        &mut self,
-        estimate: Estimate,
-        share: &Rational,
-    ) -> Result<Vec<[Rational; 2]>, ProblemError> {
-        let masses = geometrically_spaced(&ratio(1, 4), &ratio(100, 1), LOOKS);
-        let runs = runs(masses, |mass| self.holds(estimate, mass, share))?;
-        Ok(runs.into_iter().filter_map(|run| run.state.then_some(run.between)).collect())
-    }
 }

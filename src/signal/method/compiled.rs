@@ -55,6 +55,10 @@ impl<'a> Compiled<'a> {
         &self.table
     }
 
+    pub(crate) fn into_table(self) -> Table {
+        self.table
+    }
+
     /// The pieces of the table.
     pub fn pieces(&self) -> &[Piece] {
         &self.pieces.all

@@ -29,6 +29,7 @@ pub use compiled::Compiled;
 pub use error::MethodError;
 pub use marched::Marched;
 pub use summed::{StablePrecision, Summed};
+pub use wavestep_kernels::Table;
 pub use wavestep_kernels::echoes::Method as Summation;
 
 use crate::signal::signal::Limit;

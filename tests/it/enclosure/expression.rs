@@ -1,13 +1,10 @@
 //! Enclosed expressions.
 
+use crate::support::fraction as read;
 use wavestep::ball::{Ball, BallError};
 use wavestep::enclosure::{EnclosureError, enclose_expression};
 use wavestep::expression::{Expression, Fraction};
-use wavestep_polynomial::{Polynomial, Rational, Symbol};
-
-fn read(text: &str) -> Fraction {
-    text.parse::<Polynomial>().expect("a polynomial").into()
-}
+use wavestep_polynomial::{Rational, Symbol};
 
 fn rational(numerator: i64, denominator: i64) -> Rational {
     Rational::new(numerator.into(), denominator.into())

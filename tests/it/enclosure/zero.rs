@@ -1,5 +1,6 @@
 //! Enclosed zeros.
 
+use crate::support::fraction;
 use wavestep::ball::Ball;
 use wavestep::enclosure::enclose_zero;
 use wavestep::enclosure::zero::ZeroError;
@@ -15,8 +16,7 @@ fn ends(low: i64, high: i64) -> [Rational; 2] {
 }
 
 fn polynomial(text: &str) -> Expression {
-    let read: wavestep_polynomial::Polynomial = text.parse().unwrap();
-    Expression::from(Fraction::from(read))
+    fraction(text).into()
 }
 
 #[test]

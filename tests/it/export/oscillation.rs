@@ -1,13 +1,10 @@
 //! Real expressions as sums of oscillations.
 
+use crate::support::fraction as read;
 use wavestep::export::oscillation::oscillations;
 use wavestep::export::tree::Circular;
-use wavestep::expression::{Expression, Fraction};
-use wavestep_polynomial::{Polynomial, Symbol};
-
-fn read(text: &str) -> Fraction {
-    text.parse::<Polynomial>().expect("a polynomial").into()
-}
+use wavestep::expression::Expression;
+use wavestep_polynomial::Symbol;
 
 /// The sum of `p · e^{growth} · cos angle` and the like is the expression again.
 #[test]

@@ -1,17 +1,18 @@
 //! Loads as series.
 
+use crate::support::fraction;
 use wavestep::ball::{Magnitude, Number};
 use wavestep::enclosure::Numbers;
-use wavestep::expression::{Expression, Fraction};
+use wavestep::expression::Expression;
 use wavestep::history::load::Course;
 use wavestep::history::series::{CellNorm, Truncation};
-use wavestep_polynomial::{Polynomial, Rational, Symbol};
+use wavestep_polynomial::{Rational, Symbol};
 
 /// `2 − t + t²/3` at `t = 3/2` is exactly `5/4`, falls by nothing, and is bent by 1/3.
 #[test]
 fn polynomials_are_exact() {
     let time = Symbol::new("t").unwrap();
-    let course = Fraction::from("2 - t + 1/3*t*t".parse::<Polynomial>().unwrap());
+    let course = fraction("2 - t + 1/3*t*t");
     let course = Course::of(&Numbers::new(&[]), &course.into(), &time, 64).unwrap();
     let ratio = |a: i64, b: i64| Number::Exact(Rational::new(a.into(), b.into()));
     let cut = Truncation::new(64, 0);
@@ -23,9 +24,8 @@ fn polynomials_are_exact() {
 #[test]
 fn courses_are_continued() {
     let time = Symbol::new("t").unwrap();
-    let read = |text: &str| Fraction::from(text.parse::<Polynomial>().unwrap());
-    let decaying = Expression::exponential(read("-1/2*t")).times(&read("2 + 3*t"));
-    let course = &decaying + &Expression::cosine(&read("2*t"));
+    let decaying = Expression::exponential(fraction("-1/2*t")).times(&fraction("2 + 3*t"));
+    let course = &decaying + &Expression::cosine(&fraction("2*t"));
     let course = Course::of(&Numbers::new(&[]), &course, &time, 200).unwrap();
     assert!(course.rate() >= Magnitude::from_u64(2));
     let ratio = |a: i64, b: i64| Number::Exact(Rational::new(a.into(), b.into()));

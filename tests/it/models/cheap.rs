@@ -1,22 +1,29 @@
-//! The rigid body and the third of the mass: what they keep, and how far off they are.
+//! The rigid body and the third of the mass: what they keep, how far off they are, and what they refuse.
 
-use crate::models::{built_in, doubles, exact, largest, mean, network, times};
-use wavestep::model::{Model, RigidBody, Steps, ThirdOfMass};
+use crate::models::{built_in, doubles, exact, largest, mean, times};
+use wavestep::{Method, Problem};
+
+fn read(text: &str) -> Problem {
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    Problem::read("test.wave", lines.join("\n")).unwrap()
+}
+
+fn values(problem: &Problem, name: &str, times: &[f64], method: Method) -> Vec<f64> {
+    problem.signal(name).unwrap().values_by(times, method).unwrap().values
+}
 
 /// Momentum is kept, and the mean velocity over whole round trips is the rigid one.
 #[test]
 fn free_lines_move_as_rigid_ones_in_the_mean() {
     let network = built_in("struck-free-bar", &[("mu", "1/2")]);
-    let rigid = RigidBody::new(&network).unwrap();
-    assert_eq!(rigid.mass(), 1.5);
+    let bar = Problem::builtin("struck-free-bar").unwrap().with("mu", "1/2").unwrap();
     let times = times("40", 400);
-    let momentum = 5;
-    for value in rigid.values(momentum, &doubles(&times)).unwrap() {
+    for value in values(&bar, "momentum", &doubles(&times), Method::Rigid) {
         assert!((value - 1.0).abs() < 1e-15);
     }
-    for observable in [0, 1] {
+    for (observable, name) in ["velocity", "far_velocity"].into_iter().enumerate() {
         let exact = exact(&network, observable, &times);
-        let value = rigid.values(observable, &[1.0]).unwrap()[0];
+        let value = values(&bar, name, &[1.0], Method::Rigid)[0];
         assert!((value - 2.0 / 3.0).abs() < 1e-15);
         assert!((mean(&exact) - value).abs() < 0.01, "{}", mean(&exact));
         // What is left out is as large as the waves.
@@ -44,18 +51,15 @@ fn stiff_lines_move_as_rigid_ones() {
             observe c = compression(k)
             observe P = momentum(line)"
         );
-        let network = network(&text, &[]);
-        let rigid = RigidBody::new(&network).unwrap();
+        let bar = read(&text);
         // The mean over twenty round trips takes out the waves; both sides are averaged.
-        let steps = Steps::new(&network, 1e-6).unwrap();
         let mut times = Vec::new();
         for start in [0.2, 0.7, 1.1] {
             times.extend((0..499).map(|k| start + 0.1 / 499.0 * f64::from(k)));
         }
-        for observable in 0..5 {
-            let name = &network.observables()[observable].name;
-            let pair = [&rigid as &dyn Model, &steps];
-            let pair = pair.map(|model| model.values(observable, &times).unwrap());
+        for name in ["v", "u", "F", "c", "P"] {
+            let pair = [Method::Rigid, Method::Steps { tolerance: 1e-6 }];
+            let pair = pair.map(|method| values(&bar, name, &times, method));
             for (a, b) in pair[0].chunks(499).zip(pair[1].chunks(499)) {
                 let (a, b) = (mean(a), mean(b));
                 assert!((a - b).abs() < 0.03 * (1.0 + b.abs()), "{damping} {name} {a} {b}");
@@ -78,16 +82,15 @@ fn rigid_motion_obeys_its_equation() {
             observe u = displacement(a.right)
             observe F = force(s)"
         );
-        let network = network(&text, &[]);
-        let rigid = RigidBody::new(&network).unwrap();
+        let bar = read(&text);
         let (h, at) = (1e-3, 0.9);
         let times: Vec<f64> = [-2.0, -1.0, 1.0, 2.0, 0.0].map(|k| at + k * h).into();
         let slope =
             |values: &[f64]| (8.0 * (values[2] - values[1]) - (values[3] - values[0])) / (12.0 * h);
-        let [v, u, force] = [0, 1, 2].map(|i| rigid.values(i, &times).unwrap());
+        let [v, u, force] = ["v", "u", "F"].map(|name| values(&bar, name, &times, Method::Rigid));
         assert!((slope(&u) - v[4]).abs() < 1e-10, "{stiffness} {damping}");
         assert!((slope(&v) + force[4] - 5.0).abs() < 1e-10, "{stiffness} {damping}");
-        assert!((rigid.values(0, &[0.0]).unwrap()[0] - 3.0).abs() < 1e-15);
+        assert!((values(&bar, "v", &[0.0], Method::Rigid)[0] - 3.0).abs() < 1e-15);
     }
 }
 
@@ -97,14 +100,14 @@ fn rigid_motion_obeys_its_equation() {
 fn the_third_is_the_estimate_of_the_source() {
     for (mu, inverse, bound) in [("1/16", 16.0, 0.02), ("1/4", 4.0, 0.05), ("1", 1.0, 0.06)] {
         let network = built_in("mass-on-fixed-bar", &[("mu", mu)]);
-        let model = ThirdOfMass::new(&network).unwrap();
+        let bar = Problem::builtin("mass-on-fixed-bar").unwrap().with("mu", mu).unwrap();
         // (M + m/3) ω² = k: M = 1, m = μ, k = 1/μ.
         let ride = 1.0 + 1.0 / (3.0 * inverse);
         let period = std::f64::consts::TAU * f64::sqrt(ride / inverse);
         // With V/c = 1 for the front, and a third that strikes along.
         let energy = f64::sqrt(inverse + 1.0 / 3.0);
         let estimate = 1.0 + energy;
-        let strains = model.values(2, &[period / 4.0, period / 2.0]).unwrap();
+        let strains = values(&bar, "strain_fixed", &[period / 4.0, period / 2.0], Method::Third);
         assert!((largest(&strains) - energy / ride).abs() < 1e-14);
         assert!(strains[1].abs() < 1e-14);
         // The exact strain at the fixed end while the contact presses: less than half a period.
@@ -134,26 +137,86 @@ fn the_third_is_the_same_from_both_sides() {
             observe p = momentum(hammer)",
             if line.starts_with("free") { 4 } else { -4 }
         );
-        ThirdOfMass::new(&network(&text, &[])).unwrap()
+        read(&text)
     };
     let left = scene("free - hammer | rod - fixed");
     let right = scene("fixed - rod | hammer - free");
     let times = [0.0, 1e-4, 7e-4];
-    for (observable, sign) in [(1, 1.0), (2, 1.0), (3, -1.0), (4, -1.0)] {
-        let pair = [&left, &right].map(|model| model.values(observable, &times).unwrap());
+    let values = |bar, name, times: &[f64]| values(bar, name, times, Method::Third);
+    for (observable, sign) in [("F", 1.0), ("s", 1.0), ("u", -1.0), ("p", -1.0)] {
+        let pair = [&left, &right].map(|bar| values(bar, observable, &times));
         for (a, b) in pair[0].iter().zip(&pair[1]) {
             assert!((a - sign * b).abs() <= 1e-12 * a.abs(), "{observable} {a} {b}");
         }
     }
     // 8/3 of the 8 kg of the bar ride along with 3 kg: 4 m/s become 4·3/(17/3).
     let start = 12.0 / (3.0 + 8.0 / 3.0);
-    assert!((left.values(4, &[0.0]).unwrap()[0] - 3.0 * start).abs() < 1e-12);
+    assert!((values(&left, "p", &[0.0])[0] - 3.0 * start).abs() < 1e-12);
     // The hammer at the left end, and a quarter of the bar from it, or from the fixed end.
-    assert!((left.values(0, &[0.0]).unwrap()[0] - 1.75 * start).abs() < 1e-12);
-    assert!((right.values(0, &[0.0]).unwrap()[0] + 1.25 * start).abs() < 1e-12);
+    assert!((values(&left, "v", &[0.0])[0] - 1.75 * start).abs() < 1e-12);
+    assert!((values(&right, "v", &[0.0])[0] + 1.25 * start).abs() < 1e-12);
     // The force is k u: EA/L = 5e7.
     let t = 1e-4;
     let omega = f64::sqrt(5e7 / (17.0 / 3.0));
     let force = 5e7 * start / omega * (omega * t).sin();
-    assert!((left.values(1, &[t]).unwrap()[0] - force).abs() < 1e-9 * force);
+    assert!((values(&left, "F", &[t])[0] - force).abs() < 1e-9 * force);
+}
+
+const BAR: &str = "bar a { impedance = 1, travel = 1, velocity = 1 }\n";
+
+/// A refusal says what is not represented, by name; energies are those of the masses and springs.
+#[test]
+fn what_has_waves_or_cannot_move_is_refused() {
+    let refused = [
+        (
+            Method::Rigid,
+            "bar e { impedance = 1 }\nline free - a - e - endless",
+            "`e`: an endless bar is no mass and no spring",
+        ),
+        (
+            Method::Rigid,
+            "bar s { impedance = 1, travel = 1, strain = 1 }\nline free - a - s - free",
+            "`s`: a bar without waves has no strain at the start",
+        ),
+        (Method::Rigid, "line free - a - fixed", "`a`: this bar cannot move"),
+        (
+            Method::Rigid,
+            "line free - a - free\nobserve X = force(a.at(1/4))",
+            "`X`: what happens in a rigid bar is not known",
+        ),
+        (Method::Third, "line fixed - a - fixed", "`a`: this bar cannot move"),
+        (
+            Method::Third,
+            "bar e { impedance = 1 }\nline free - a - e - endless",
+            "`e`: an endless bar is no mass and no spring",
+        ),
+    ];
+    for (method, scene, told) in refused {
+        let text = format!("scene \"A\"\n{BAR}{scene}\nobserve v = velocity(a.left)");
+        let name = if scene.contains("X = ") { "X" } else { "v" };
+        let bar = read(&text);
+        let error = bar.signal(name).unwrap().values_by(&[1.0], method).unwrap_err();
+        assert!(error.is_not_supported(), "{error}");
+        let text = error.to_string();
+        assert!(text.ends_with(&format!("does not represent this: {told}")), "{text}");
+    }
+}
+
+/// What used to take one body takes several, and forces that vary.
+#[test]
+fn rigid_bars_are_as_many_bodies_as_springs_part_them_into() {
+    let bar = read(&format!(
+        "scene \"A\"\n{BAR}spring k {{ stiffness = 1 }}\nmass m {{ mass = 1 }}\nline free - m - k - a - free\n\
+         observe F = force(k)\nobserve e = energy(line)"
+    ));
+    // The spring swings with half of the mass: `F = −∫ V cos(√2 t)`.
+    let force = values(&bar, "F", &[1.5], Method::Rigid)[0];
+    assert!((force + (1.5 * f64::sqrt(2.0)).sin() / f64::sqrt(2.0)).abs() < 1e-14, "{force}");
+    assert!((values(&bar, "e", &[1.5], Method::Rigid)[0] - 0.5).abs() < 1e-14);
+    let pushed = read(&format!(
+        "scene \"A\"\n{BAR}load f {{ force = exp(-t) }}\nline free - f - a - free\n\
+         observe v = velocity(a.left)"
+    ));
+    let own = values(&pushed, "v", &[2.0], Method::Rigid)[0];
+    assert!((own - (2.0 - (-2.0_f64).exp())).abs() < 1e-14, "{own}");
 }

@@ -1,7 +1,7 @@
 //! Every refusal says what is not represented, by name.
 
 use crate::models::{Settings, built_in, network};
-use wavestep::model::{Leapfrog, Model, ModelError, Modes, RigidBody, Steps, ThirdOfMass};
+use wavestep::model::{Leapfrog, Model, ModelError, Modes, Steps};
 use wavestep::network::Network;
 
 type Outcome = Result<Box<dyn Model>, ModelError>;
@@ -12,8 +12,6 @@ fn boxed(model: impl Model + 'static) -> Box<dyn Model> {
 
 fn make(model: &str, network: &Network) -> Outcome {
     match model {
-        "rigid" => RigidBody::new(network).map(boxed),
-        "third" => ThirdOfMass::new(network).map(boxed),
         "modes" => Modes::new(network, 3).map(boxed),
         "leapfrog" => Leapfrog::new(network, 4, 1.0).map(boxed),
         "steps" => Steps::new(network, 1e-6).map(boxed),
@@ -24,73 +22,7 @@ fn make(model: &str, network: &Network) -> Outcome {
 const BAR: &str = "bar a { impedance = 1, travel = 1, velocity = 1 }\n";
 
 /// The model, the scene behind its title, and what the message ends with.
-const REFUSED: [(&str, &str, &str); 25] = [
-    (
-        "rigid",
-        "bar e { impedance = 1 }\nline free - a - e - endless",
-        "bar e is endless, so its mass has no bound",
-    ),
-    (
-        "rigid",
-        "bar s { impedance = 1, travel = 1, strain = 1 }\nline free - a - s - free",
-        "bar s is strained at the start, and a rigid one is not",
-    ),
-    (
-        "rigid",
-        "line free - a - fixed",
-        "an end is fixed without a spring, so that a rigid line cannot move",
-    ),
-    (
-        "rigid",
-        "spring k { stiffness = 1 }\nmass m { mass = 1 }\nline free - m - k - a - free",
-        "it takes one body, and spring k parts this line into more",
-    ),
-    (
-        "rigid",
-        "spring k { stiffness = 1 }\nspring j { stiffness = 1 }\nline fixed - k - j - a - free",
-        "spring k does not lie between the body and a fixed end",
-    ),
-    ("rigid", "load v { velocity = 1 }\nline free - v - a - free", "load v imposes a velocity"),
-    (
-        "rigid",
-        "load f { force = exp(-t) }\nline free - f - a - free",
-        "the force of load f varies in time",
-    ),
-    (
-        "third",
-        "bar b { impedance = 1, travel = 1 }\nbar c { impedance = 1, travel = 1 }\nline free - a - b - c - fixed",
-        "it takes one bar; this line has 3",
-    ),
-    (
-        "third",
-        "bar e { impedance = 1 }\nmass m { mass = 1, velocity = 1 }\nline free - m - e - endless\n#no a",
-        "bar e is endless, and no spring",
-    ),
-    (
-        "third",
-        "mass m { mass = 1, velocity = 1 }\nline free - m - a - free",
-        "it takes a line with one free and one fixed end",
-    ),
-    (
-        "third",
-        "mass m { mass = 1, velocity = 1 }\nspring k { stiffness = 1 }\nline free - m - a - k - fixed",
-        "k stands at the fixed end, which it takes bare",
-    ),
-    (
-        "third",
-        "spring k { stiffness = 1 }\nmass m { mass = 1, velocity = 1 }\nline free - m - k - a - fixed",
-        "k is no mass; it takes masses at the struck end",
-    ),
-    (
-        "third",
-        "mass m { mass = 1, velocity = 1 }\nline free - m - a - fixed",
-        "bar a is not at rest at the start",
-    ),
-    (
-        "third",
-        "load f { force = 1 }\nbar b { impedance = 1, travel = 1 }\nline free - f - b - fixed\n#no a",
-        "f is no mass; it takes masses at the struck end",
-    ),
+const REFUSED: [(&str, &str, &str); 9] = [
     (
         "modes",
         "bar e { impedance = 1 }\nline free - a - e - endless",
@@ -124,12 +56,6 @@ const REFUSED: [(&str, &str, &str); 25] = [
         "beside k something moves that has no mass, and nothing resists it",
     ),
     ("steps", "#units", "have no common measure"),
-    ("rigid", "#observe", "X observes the force within a rigid bar"),
-    (
-        "third",
-        "#momentum",
-        "p observes the momentum of a bar, which a third of its mass does not tell",
-    ),
 ];
 
 #[test]
@@ -138,15 +64,6 @@ fn refusals_name_what_is_not_represented() {
     for (model, scene, told) in REFUSED {
         let outcome = match scene {
             "#units" => make(model, &built_in("incommensurate", &[])).map(drop),
-            "#observe" => {
-                let text =
-                    format!("scene \"A\"\n{BAR}line free - a - free\nobserve X = force(a.at(1/4))");
-                make(model, &network(&text, &[])).unwrap().values(0, &[1.0]).map(drop)
-            }
-            "#momentum" => {
-                let text = "scene \"A\"\nmass m { mass = 1, velocity = 1 }\nbar b { impedance = 1, travel = 1 }\nline free - m - b - fixed\nobserve p = momentum(b)";
-                make(model, &network(text, &[])).unwrap().values(0, &[1.0]).map(drop)
-            }
             scene => {
                 let bar = if scene.ends_with("#no a") { "" } else { BAR };
                 let text = format!("scene \"A\"\n{bar}{scene}\n");
@@ -165,7 +82,7 @@ fn refusals_name_what_is_not_represented() {
 #[test]
 fn energies_and_momenta_of_endless_bars_are_refused() {
     let energy = built_in("struck-free-bar", &[("mu", "1")]);
-    for model in ["rigid", "modes", "leapfrog", "steps"] {
+    for model in ["modes", "leapfrog", "steps"] {
         let error = make(model, &energy).unwrap().values(4, &[1.0]).unwrap_err().to_string();
         assert!(
             error.ends_with("energy observes an energy, of which it keeps no account"),
@@ -218,7 +135,7 @@ fn settings_times_and_symbols_are_checked() {
     let many = Modes::new(&network, 20_000).unwrap().values(0, &vec![1.0; 60_000]).unwrap_err();
     assert!(matches!(many, ModelError::TooMuch { what: "terms", .. }), "{many}");
     let open: Settings<'_> = &[];
-    for model in ["rigid", "third", "modes", "leapfrog", "steps"] {
+    for model in ["modes", "leapfrog", "steps"] {
         let Err(error) = make(model, &built_in("mass-on-fixed-bar", open)) else {
             panic!("{model}")
         };

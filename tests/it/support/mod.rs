@@ -6,9 +6,23 @@ pub mod print;
 pub mod snapshot;
 
 use wavestep::expression::{Expression, Fraction};
+use wavestep::language::{Source, read_expression};
 use wavestep::recurrence::{LinearForm, Recurrence};
 use wavestep::solution::{EchoByEcho, PeriodByPeriod};
-use wavestep_polynomial::Rational;
+use wavestep_polynomial::{Polynomial, Rational};
+
+/// A polynomial, as a text of the language.
+pub fn polynomial(text: &str) -> Polynomial {
+    let read = fraction(text);
+    assert_eq!(read.denominator(), Polynomial::one(), "{text}");
+    read.numerator().clone()
+}
+
+/// A fraction, as a text of the language.
+pub fn fraction(text: &str) -> Fraction {
+    let read = read_expression(&Source::new("fraction", text).unwrap());
+    read.unwrap().as_fraction().expect("no exponential")
+}
 
 /// `pieces[wave][n]`, period by period.
 pub fn by_periods(recurrence: &Recurrence, through: usize) -> Vec<Vec<Expression>> {

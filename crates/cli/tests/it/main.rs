@@ -21,6 +21,7 @@ mod questions;
 mod scene;
 #[path = "../../../../tests/it/support/snapshot.rs"]
 mod snapshot;
+mod strains;
 mod typeset;
 mod validity;
 

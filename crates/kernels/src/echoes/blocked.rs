@@ -568,7 +568,8 @@ mod tests {
                 for (&time, value) in times.iter().zip(&version) {
                     let method = Method::Scaled;
                     let right = sum
-                        .value(method, DoubleDouble::from(time), Limit::Right)
+                        .pair(method, DoubleDouble::from(time), Limit::Right)
+                        .map(DoubleDouble::high)
                         .expect("in range");
                     assert!((value - right).abs() < 1e-14, "{time}: {value} and not {right}");
                 }

@@ -95,19 +95,9 @@ impl EchoSum {
         self.delays.last() - 1
     }
 
-    /// `f(T)` by one method, the echoes of late arrival last. Before the first arrival it is 0. An
-    /// echo that arrives at this very time counts in the limit from the right.
-    /// [`Method::Expanded`] and [`Method::Plain`] decide that, as all else, from the rounded delay.
-    pub fn value(
-        &self,
-        method: Method,
-        time: DoubleDouble,
-        limit: Limit,
-    ) -> Result<f64, EchoError> {
-        self.pair(method, time, limit).map(DoubleDouble::high)
-    }
-
-    /// The same, not rounded by [`Method::DoubleDouble`]: for sums of waves that cancel.
+    /// `f(T)` by one method, the echoes of late arrival last, not rounded by [`Method::DoubleDouble`]: for sums of waves
+    /// that cancel. Before the first arrival it is 0. An echo that arrives at this very time counts in the limit from the
+    /// right. [`Method::Expanded`] and [`Method::Plain`] decide that, as all else, from the rounded delay.
     pub fn pair(
         &self,
         method: Method,

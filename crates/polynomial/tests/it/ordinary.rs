@@ -1,5 +1,6 @@
 //! Ordinary powers over one denominator.
 
+use crate::support::read;
 use num_integer::Integer as _;
 use num_traits::One as _;
 use wavestep_polynomial::{Integer, Ordinary, Polynomial, Rational};
@@ -11,7 +12,7 @@ const TEXTS: [&str; 6] =
 /// denominator.
 #[test]
 fn coefficients_are_those_of_the_polynomials() {
-    let all: Vec<Polynomial> = TEXTS.iter().map(|text| text.parse().unwrap()).collect();
+    let all: Vec<Polynomial> = TEXTS.iter().map(|text| read(text)).collect();
     let groups = (0..all.len()).map(|i| &all[i..=i]).chain([&all[..], &all[2..5]]);
     for (polynomials, divisor) in groups.flat_map(|group| [1, 2, 12, 35].map(|d| (group, d))) {
         let ordinary = Ordinary::new(polynomials, &divisor.into());

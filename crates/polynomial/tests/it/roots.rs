@@ -159,7 +159,7 @@ fn only_primes_and_minus_one_have_symbols() {
 
 #[test]
 fn norms_are_free_of_roots() {
-    let p: Polynomial = "1 + sqrt(2) + sqrt(3)".parse().unwrap();
+    let p = read("1 + sqrt(2) + sqrt(3)");
     let (multiplier, norm) = p.norm();
     assert_eq!(norm, Polynomial::integer(-8));
     assert_eq!(&p * &multiplier, norm);

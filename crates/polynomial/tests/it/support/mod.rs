@@ -2,6 +2,7 @@
 //! powers, long and negative and fractional coefficients.
 
 use proptest::prelude::*;
+use std::collections::BTreeMap;
 use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol, Univariate, factorial};
 
 /// One term: coefficient and powers.
@@ -15,9 +16,40 @@ pub fn rational(numerator: i64, denominator: i64) -> Rational {
     Rational::new(numerator.into(), denominator.into())
 }
 
+/// A sum of products of numbers, names, square roots and powers, such as `-3/2*mu^2*s + sqrt(-1)`.
 pub fn read(text: &str) -> Polynomial {
-    let p: Polynomial = text.parse().expect("a polynomial");
-    valid(p)
+    let (mut terms, mut depth) = (vec![String::new()], 0);
+    for c in text.chars().filter(|c| !c.is_whitespace()) {
+        depth += i32::from(c == '(') - i32::from(c == ')');
+        if depth == 0 && (c == '+' || c == '-') {
+            terms.push(if c == '-' { "-1*".to_owned() } else { String::new() });
+        } else {
+            terms.last_mut().expect("a term").push(c);
+        }
+    }
+    if terms[0].is_empty() {
+        terms.remove(0);
+    }
+    valid(terms.iter().map(|term| read_term(term)).sum())
+}
+
+fn read_term(text: &str) -> Polynomial {
+    let (mut coefficient, mut powers) = (rational(1, 1), BTreeMap::new());
+    for factor in text.split('*') {
+        if let Ok(number) = factor.parse::<Rational>() {
+            coefficient *= number;
+            continue;
+        }
+        let (base, exponent) = factor.split_once('^').unwrap_or((factor, "1"));
+        let root = base.strip_prefix("sqrt(").and_then(|rest| rest.strip_suffix(')'));
+        let symbol = match root {
+            Some(radicand) => Symbol::square_root(radicand.parse().unwrap()).expect("no square"),
+            None => symbol(base),
+        };
+        *powers.entry(symbol).or_insert(0) += exponent.parse::<u32>().expect("an exponent");
+    }
+    let powers: Vec<_> = powers.iter().map(|(symbol, exponent)| (symbol, *exponent)).collect();
+    Polynomial::monomial(&coefficient, &powers)
 }
 
 /// The polynomial itself, its invariants asserted.
