@@ -148,6 +148,8 @@ pub(crate) struct Engine {
     pub bytes: u64,
     /// The time before which nothing is asked for.
     pub asked_from: f64,
+    /// Whether waves are kept that leave for ever.
+    pub keeps_departed: bool,
     /// What is asked for; without it all.
     pub asked_sources: Option<Vec<Source>>,
     /// How far it is followed in all, as far as that is known.
@@ -253,6 +255,7 @@ impl Engine {
             count: 0,
             bytes: 0,
             asked_from: 0.0,
+            keeps_departed: false,
             asked_sources: None,
             whole: 0.0,
             loudest: Magnitude::ZERO,

@@ -74,10 +74,16 @@ impl Engine {
         }
     }
 
-    /// From now on forgets all before an instant, but for waves that entered a bar a travel time before.
+    /// From now on forgets all before an instant, but for waves that entered a bar a travel time before, and those that
+    /// leave for ever: an endless bar holds their energy.
     pub fn forget_before(&mut self, moment: &Moment) {
         self.asked_from = self.clock.about(moment) * (1.0 - TOLD_APART) - self.longest_travel();
-        self.waves.iter_mut().flatten().for_each(Track::forget_integral);
+        self.keeps_departed = true;
+        for ((_, travel), waves) in self.bars.iter().zip(&mut self.waves) {
+            if travel.is_some() {
+                waves.iter_mut().for_each(Track::forget_integral);
+            }
+        }
     }
 
     fn longest_travel(&self) -> f64 {
@@ -101,7 +107,7 @@ impl Engine {
         for (side, arriving) in self.states[node].arriving.iter().enumerate() {
             let (bar, direction, number) = match (arriving, [own.left, own.right][side]) {
                 (Arriving::Delayed { bar, direction, cell, .. }, _) => (*bar, *direction, *cell),
-                (_, Side::Bar(bar)) => (bar, 1 - side, usize::MAX),
+                (_, Side::Bar(bar)) if !self.keeps_departed => (bar, 1 - side, usize::MAX),
                 _ => continue,
             };
             let wave = (bar, direction);

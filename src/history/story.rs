@@ -86,7 +86,7 @@ struct Course {
     counted: Moment,
     durations: Vec<Option<Value>>,
     impulses: Vec<Value>,
-    /// When it opened last, and the coefficient of restitution after that, once it is known.
+    /// When it opened last, until the coefficient of restitution after that is told.
     opened: Option<Moment>,
     restitution: Option<Value>,
 }
@@ -364,12 +364,10 @@ impl Story<'_> {
     /// The coefficient of restitution after the last opening, unless it is told: the relative velocity of the mean
     /// motions then over that at the start, with the sign changed; none where the bodies did not meet.
     fn tell_restitution(&mut self, contact: usize) -> Outcome<()> {
-        let Some(opened) = self.courses[contact].opened.clone() else { return Ok(()) };
+        let Some(opened) = self.courses[contact].opened.take() else { return Ok(()) };
         let approach = self.approaches()?[contact].clone();
         let approach = approach.filter(|own| own.sign() == Some(Ordering::Less));
-        let (Some(before), None) = (approach, &self.courses[contact].restitution) else {
-            return Ok(());
-        };
+        let Some(before) = approach else { return Ok(()) };
         if let Some(after) = self.relative(contact, &opened)? {
             let bits = self.engine.cut.bits;
             let ratio = after.multiply(&before.reciprocal(bits)?, bits).negate();

@@ -28,8 +28,8 @@ const MAX_ARRIVALS: usize = 64;
 /// How many larger numbers are tried where samples pass and no proof is found.
 const MORE: usize = 3;
 
-/// The shares of its mass that a bar may have at an end, in so many parts of it; then those beside the best one, at half
-/// the distance, so often.
+/// The shares of its mass that a bar may have at an end, in so many parts of it, for samples; then those beside the best
+/// one, at half the distance, so often, each by the proven largest difference.
 const SHARES: std::ops::RangeInclusive<i64> = 2..=12;
 const PARTS: i64 = 20;
 const HALVINGS: u32 = 5;
@@ -295,7 +295,7 @@ impl Adviser<'_> {
         self.attempt(Simpler::Scene(vec![Change::Spring(None, None)]));
     }
 
-    /// All bars springs, with the share of their masses that is best for samples.
+    /// All bars springs, with the share of their masses whose largest difference is the smallest.
     fn shares(&mut self) {
         let third = Simpler::Scene(vec![Change::Spring(None, None)]);
         let usual = self.tried.iter().find(|own| own.simpler == third).map(|own| &own.verdict);
@@ -310,18 +310,24 @@ impl Adviser<'_> {
             let spring = |bar: &String| Change::Spring(Some(bar.clone()), Some(share.clone()));
             Simpler::Scene(bars.iter().map(spring).collect())
         };
-        let worst = |share: Rational| {
+        let sampled = |share: Rational| {
             let other = self.problem().simpler(&with(&share)).ok()?;
             Some((self.sample(&other).ok()?.0.worst, share))
         };
+        let proven = |share: Rational| {
+            let other = self.problem().simpler(&with(&share)).ok()?;
+            let [_, most] = self.comparison.share(&other, self.tolerance).ok()?;
+            Some((most, share))
+        };
         let shares = SHARES.map(|share| Rational::new(share.into(), PARTS.into()));
-        let Some(mut best) = shares.filter_map(worst).min() else { return };
+        let begun = shares.filter_map(sampled).min();
+        let Some(mut best) = begun.and_then(|(_, share)| proven(share)) else { return };
         for halving in 1..=HALVINGS {
             let step = Rational::new(1.into(), (PARTS << halving).into());
             let beside = [&best.1 - &step, &best.1 + &step];
-            best = beside.into_iter().filter_map(worst).chain([best]).min().expect("one at least");
+            best = beside.into_iter().filter_map(proven).chain([best]).min().expect("one at least");
         }
-        if self.share_of(&best.0) < usual {
+        if best.0 < usual {
             self.attempt(with(&best.1));
         }
     }

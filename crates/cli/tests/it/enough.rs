@@ -107,6 +107,98 @@ fn what_is_enough_of_shipped_scenes_is_as_the_page_says() {
     }
 }
 
+/// What kinds of answers there are, each with its colour.
+const KINDS: [(&str, &str); 6] = [
+    ("bars rigid, or springs with mass", "#0072b2"),
+    ("less of the scene", "#56b4e9"),
+    ("the first arrivals", "#009e73"),
+    ("the first modes", "#e69f00"),
+    ("contacts kept closed", "#cc79a7"),
+    ("nothing less than the exact answer", "#d9d9d9"),
+];
+
+fn kind(answer: &str) -> usize {
+    let word = answer.split([':', '+']).next().unwrap_or_default();
+    match word {
+        "rigid" | "third" | "spring" => 0,
+        "without" | "endless" => 1,
+        "echoes" => 2,
+        "modes" => 3,
+        "closed" => 4,
+        "exact" => 5,
+        _ => panic!("a kind of answer without a colour: {answer}"),
+    }
+}
+
+/// The table of the page as a picture: a row for each scene, a column for each tolerance.
+fn drawn(rows: &[Vec<&str>]) -> String {
+    let [left, top, wide_cell, high_cell] = [190, 60, 138, 22];
+    let right = left + TOLERANCES.len() * wide_cell;
+    let bottom = top + rows.len() * high_cell;
+    let height = bottom + 20 + KINDS.len().div_ceil(2) * 20;
+    let mut picture = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {height}\" role=\"img\" \
+         font-family=\"sans-serif\" font-size=\"12\" fill=\"#1a1a1a\">\n\
+         <title>The smallest answer that is enough</title>\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
+        right + 10
+    );
+    let text = |x: usize, y: usize, anchor: &str, text: &str| {
+        format!("<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}</text>\n")
+    };
+    picture +=
+        &text(left.midpoint(right), 20, "middle", "allowed difference, over the largest value");
+    for (column, tolerance) in TOLERANCES.iter().enumerate() {
+        picture += &text(left + column * wide_cell + wide_cell / 2, top - 8, "middle", tolerance);
+    }
+    for (row, cells) in rows.iter().enumerate() {
+        let y = top + row * high_cell;
+        picture += &text(left - 8, y + 15, "end", cells[0]);
+        let mut column = 0;
+        while column < TOLERANCES.len() {
+            let answer = cells[2 + column];
+            let same = cells[2 + column..].iter().take_while(|own| **own == answer).count();
+            let (x, wide, high) = (left + column * wide_cell, same * wide_cell - 2, high_cell - 2);
+            let fill = KINDS[kind(answer)].1;
+            picture += &format!(
+                "<rect x=\"{x}\" y=\"{y}\" width=\"{wide}\" height=\"{high}\" fill=\"{fill}\" \
+                 fill-opacity=\"0.55\"/>\n"
+            );
+            picture += &text(x + wide / 2, y + 15, "middle", answer);
+            column += same;
+        }
+    }
+    for (place, (name, colour)) in KINDS.iter().enumerate() {
+        let (x, y) = (left + place % 2 * (right - left) / 2, bottom + 16 + place / 2 * 20);
+        picture += &format!(
+            "<rect x=\"{x}\" y=\"{y}\" width=\"14\" height=\"14\" fill=\"{colour}\" fill-opacity=\"0.55\"/>\n"
+        );
+        picture += &text(x + 22, y + 12, "start", name);
+    }
+    picture + "</svg>\n"
+}
+
+#[test]
+fn the_picture_of_the_table_is_fresh() {
+    let page = fs::read_to_string(Path::new(ROOT).join("docs/enough.md")).unwrap();
+    let [start, end] = MARKS.map(|mark| page.find(mark).unwrap());
+    let rows: Vec<Vec<&str>> = page[start..end]
+        .lines()
+        .filter(|line| line.starts_with("| `"))
+        .map(|line| {
+            line.trim_matches('|').split('|').map(|cell| cell.trim().trim_matches('`')).collect()
+        })
+        .collect();
+    let scenes = SCENES.iter().filter(|scene| scene.text.contains("\nscene ")).count();
+    assert_eq!(rows.len(), scenes);
+    let (file, picture) = (Path::new(ROOT).join("docs/pictures/smallest.svg"), drawn(&rows));
+    if std::env::var_os("UPDATE_DOCUMENTS").is_some() {
+        fs::write(file, picture).unwrap();
+        return;
+    }
+    assert_eq!(fs::read_to_string(file).unwrap(), picture, "run with UPDATE_DOCUMENTS=1");
+}
+
 const ESTIMATE_MARKS: [&str; 2] =
     ["<!-- estimates: made by crates/cli/tests/it/enough.rs -->\n", "<!-- end of estimates -->"];
 
