@@ -105,9 +105,19 @@ fn cells_grow_in_proportion_to_the_window() {
                 bar b { impedance = 1, travel = sqrt(2) }\nspring left { stiffness = 5 }\n\
                 mass light { mass = 1/100 }\nspring right { stiffness = 5 }\n\
                 bar c { impedance = 1, travel = sqrt(2) }\n\
-                line free - a | b - left - light - right - c - free\ncontacts open\n";
+                line free - a | b - left - light - right - c - free\ncontacts open\n\
+                observe held = energy(line)\nobserve carried = momentum(line)\n";
     let network = network_of(text, &[]);
     let cells =
         [10, 20].map(|until| History::of(&network, Some(&rational(until, 1)), 9).unwrap().cells);
     assert!(cells[1] < 3 * cells[0] && cells[1] < 1500, "{cells:?}");
+    // Waves go on unchanged through cells that are joined: energy and momentum are what they were at the start.
+    for (observable, known) in [0.15, 0.3].into_iter().enumerate() {
+        for at in [rational(97, 10), rational(197, 10)] {
+            for value in told(&network, observable, [&at, &at]) {
+                let value: f64 = value.parse().unwrap();
+                assert!((value - known).abs() < 1e-15, "{observable} at {at}: {value}");
+            }
+        }
+    }
 }
