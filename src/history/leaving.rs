@@ -151,7 +151,7 @@ impl Engine {
         let norm = CellNorm::of_series(parts.iter(), &reach, cut);
         let wave = combined(&old.factors, parts.iter(), cut.bits).settled(&norm, cut);
         let passage = Passage::of(&self.bars[bar].0, &reach);
-        Ok(Some((Next::Joined(wave, passage), goes_on(&passing.until))))
+        Ok(Some((Next::Joined(wave, passage), goes_on(&Some(until.clone())))))
     }
 
     /// What a leaving wave is made of, where that is nothing but what arrives.
