@@ -160,6 +160,11 @@ impl Wave {
         &self.series
     }
 
+    /// How long its cell is.
+    pub fn length(&self) -> &Number {
+        &self.length
+    }
+
     /// The series, when the wave is no longer needed.
     pub fn take_series(&mut self) -> Series {
         std::mem::replace(&mut self.series, Series::zero())

@@ -3,7 +3,7 @@
 //! A node begins a cell whenever something new arrives at any of its sides. Where its sides have nothing to do with
 //! each other, at an open contact, a wave that comes back goes on through such a beginning unchanged. Told apart for
 //! ever, the cells of one side would be cut at those of the other on each passage, and ever more of them would travel.
-//! So what goes on joins the cell that it goes on from, unless the node at the other end has used that already.
+//! So what goes on joins the cell that it goes on from, unless the node at the other end has passed that already.
 
 use crate::ball::Number;
 use crate::history::engine::{Engine, Planned};
@@ -12,6 +12,7 @@ use crate::history::moment::Moment;
 use crate::history::motion::combined;
 use crate::history::passive::Passage;
 use crate::history::series::{CellNorm, Series};
+use crate::history::track::Track;
 use crate::network::Side;
 use std::cmp::Ordering;
 
@@ -21,11 +22,10 @@ const SHORT: i64 = 4;
 
 type Outcome<T> = Result<T, HistoryError>;
 
-/// What a leaving wave is made of, where that is nothing but what arrives.
+/// What the last cell of a leaving wave is made of, where that is nothing but what arrives.
 pub(crate) struct Passing {
-    start: Moment,
-    /// Until when its series holds; without an end where what arrives is always the same.
-    until: Option<Moment>,
+    /// Until when its series holds.
+    until: Moment,
     /// Of what arrives at the left and at the right.
     factors: [Number; 2],
     /// The cells that arrive, where their factors are not zero.
@@ -33,7 +33,7 @@ pub(crate) struct Passing {
 }
 
 impl Passing {
-    fn goes_on(&self, later: &Passing) -> bool {
+    fn is_same(&self, later: &Passing) -> bool {
         self.factors == later.factors && self.cells == later.cells
     }
 }
@@ -87,75 +87,74 @@ impl Engine {
     ) -> Outcome<Leaving> {
         let (cut, direction) = (&self.cut, 1 - side);
         let row = self.states[node].system.leaving_row((side, run), cut.bits);
-        let passing = self.passing(node, &row)?;
-        let is_used = self.is_used(bar, direction);
+        let passing = self.passing(node, &row, &planned.end)?;
+        let track = &self.waves[bar][direction];
         let leaving =
             |next, length, passing| Leaving { bar, direction, side, next, length, passing };
-        if let (Some(passing), false) = (&passing, is_used)
-            && let Some((next, passing)) = self.joined(node, (bar, side), passing, planned)?
+        let so_far = |next, passing| {
+            Ok(leaving(next, self.clock.since(&track.last().0, &planned.end)?, passing))
+        };
+        let is_used = self.is_used(bar, direction);
+        if let (Some(new), false) = (&passing, is_used)
+            && let Some((next, until)) = self.joined(node, (bar, side), new, planned)?
         {
-            let length = self.clock.since(&passing.start, &planned.end)?;
-            return Ok(leaving(next, length, Some(passing)));
+            return so_far(next, passing.map(|own| Passing { until, ..own }));
         }
         let parts = planned.motion.state.iter().chain(&planned.inputs);
         let wave = combined(&row, parts, cut.bits).settled(norm, cut);
-        let track = &self.waves[bar][direction];
-        let (start, last) = track.last();
-        if !is_used && wave.is_exact() && last.series().is_exact() {
-            let until = self.clock.since(start, &track.end)?;
-            let is_same = last.series().shift(&until, cut).coefficients == wave.coefficients;
-            if is_same && until.exact().is_some() {
-                let length = self.clock.since(start, &planned.end)?;
-                return Ok(leaving(Next::Longer, length, None));
-            }
+        if !is_used && self.continues(track, &wave)? {
+            return so_far(Next::Longer, None);
         }
         let next = Next::Cell(wave, Passage::of(&self.bars[bar].0, &planned.length));
-        let until = Some(planned.end.clone());
-        let passing = passing.map(|own| Passing { until, ..own });
+        let passing = passing.map(|own| Passing { until: planned.end.clone(), ..own });
         Ok(leaving(next, planned.length.clone(), passing))
     }
 
-    /// How a wave that is nothing but what arrives goes on with its last cell: by a series for as long as that stays
-    /// the same, if both cells are short.
+    /// Whether a wave is the same polynomial as the last cell before it, where both are known exactly.
+    fn continues(&self, track: &Track, wave: &Series) -> Outcome<bool> {
+        let (start, last) = track.last();
+        if !wave.is_exact() || !last.series().is_exact() {
+            return Ok(false);
+        }
+        let length = self.clock.since(start, &track.end)?;
+        let is_same = last.series().shift(&length, &self.cut).coefficients == wave.coefficients;
+        Ok(is_same && length.exact().is_some())
+    }
+
+    /// How a wave that is nothing but what arrives joins its last cell, and until when the series of that holds then:
+    /// it goes on while it holds; after that another takes its place, for as long as what arrives stays the same, if
+    /// both cells are short.
     fn joined(
         &self,
         node: usize,
         (bar, side): (usize, usize),
-        passing: &Passing,
+        new: &Passing,
         planned: &Planned,
-    ) -> Outcome<Option<(Next, Passing)>> {
-        let cut = &self.cut;
-        let old = self.states[node].passing[side].as_ref().filter(|old| old.goes_on(passing));
+    ) -> Outcome<Option<(Next, Moment)>> {
+        let (cut, track) = (&self.cut, &self.waves[bar][1 - side]);
+        let old = self.states[node].passing[side].as_ref().filter(|old| old.is_same(new));
         let Some(old) = old else { return Ok(None) };
-        let start = &old.start;
-        let goes_on = |until: &Option<Moment>| {
-            let (start, until, factors) = (start.clone(), until.clone(), old.factors.clone());
-            Passing { start, until, factors, cells: old.cells }
-        };
-        let holds = match &old.until {
-            Some(until) => self.clock.compare(&planned.end, until)? != Ordering::Greater,
-            None => true,
-        };
-        if holds {
-            return Ok(Some((Next::Longer, goes_on(&old.until))));
+        if self.clock.compare(&planned.end, &old.until)? != Ordering::Greater {
+            return Ok(Some((Next::Longer, old.until.clone())));
         }
+        let (start, last) = track.last();
         let is_long = |length: &Number| length.magnitude().scale(SHORT) > cut.longest;
-        if is_long(&self.clock.since(start, &passing.start)?) || is_long(&planned.length) {
+        if is_long(last.length()) || is_long(&planned.length) {
             return Ok(None);
         }
-        let until = passing.until.as_ref().unwrap_or(&planned.end);
-        let reach = self.clock.since(start, until)?;
+        let reach = self.clock.since(start, &new.until)?;
         let arriving = self.states[node].arriving.iter();
         let parts = arriving.map(|own| own.series(&self.waves, start, &self.clock, cut));
         let parts = parts.collect::<Result<Vec<_>, _>>()?;
         let norm = CellNorm::of_series(parts.iter(), &reach, cut);
         let wave = combined(&old.factors, parts.iter(), cut.bits).settled(&norm, cut);
         let passage = Passage::of(&self.bars[bar].0, &reach);
-        Ok(Some((Next::Joined(wave, passage), goes_on(&Some(until.clone())))))
+        Ok(Some((Next::Joined(wave, passage), new.until.clone())))
     }
 
-    /// What a leaving wave is made of, where that is nothing but what arrives.
-    fn passing(&self, node: usize, row: &[Number]) -> Outcome<Option<Passing>> {
+    /// What leaves by a row of the system, until what arrives changes; none where the motion of the node itself or its
+    /// loads are part of it. What never changes is told to the end of the cell.
+    fn passing(&self, node: usize, row: &[Number], end: &Moment) -> Outcome<Option<Passing>> {
         let state = &self.states[node];
         let (own, given) = row.split_at(state.system.states());
         let (arriving, lumps) = given.split_at(2);
@@ -174,7 +173,7 @@ impl Engine {
             });
         }
         let factors = [0, 1].map(|side: usize| arriving[side].clone());
-        Ok(Some(Passing { start: state.now.clone(), until, factors, cells }))
+        Ok(Some(Passing { until: until.unwrap_or_else(|| end.clone()), factors, cells }))
     }
 
     /// Whether the node at the other end has passed the last cell of a wave, or that is the one before the start.
@@ -219,7 +218,9 @@ impl Engine {
                     self.bytes += wave.bytes();
                     self.bytes -= track.lengthen(Some(wave), end.clone(), length);
                 }
-                Next::Longer => drop(track.lengthen(None, end.clone(), length)),
+                Next::Longer => {
+                    track.lengthen(None, end.clone(), length);
+                }
             }
             self.states[node].passing[side] = passing;
         }

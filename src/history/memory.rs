@@ -25,7 +25,7 @@ pub struct Asked {
     delays: Vec<Fraction>,
     /// Whether integrals of waves since the start are.
     is_integrated: bool,
-    /// Nothing but these; without them all.
+    /// Nothing but these; without them all, as for an energy, which whole waves are part of.
     readings: Option<Vec<Reading>>,
 }
 
@@ -46,7 +46,7 @@ impl Engine {
     /// From now on forgets what is not asked for.
     ///
     /// # Errors
-    /// As [`Engine::reading`].
+    /// [`HistoryError::MissingValue`] for a symbol without a value.
     pub fn ask_for(&mut self, network: &Network, asked: &Asked) -> Outcome<()> {
         let Asked { from, delays, is_integrated, readings } = asked;
         let about = |time: &Fraction| self.clock.about(&Moment::at(time.clone()));
@@ -66,16 +66,16 @@ impl Engine {
         Ok(())
     }
 
-    /// The time before which nothing of a node or a wave is asked for.
-    fn asked_from(&self, is_read: impl Fn(&Source) -> bool) -> f64 {
+    /// The time before which nothing of a node or a wave is needed: for ever where no reading is of it.
+    fn needed_from(&self, is_read: impl Fn(&Source) -> bool) -> f64 {
         match &self.asked_sources {
             Some(sources) if !sources.iter().any(is_read) => f64::INFINITY,
             _ => self.asked_from,
         }
     }
 
-    /// From now on forgets all before an instant, but for waves that entered a bar a travel time before, and those that
-    /// leave for ever: an endless bar holds their energy.
+    /// From now on forgets all before an instant less the longest travel time, but for waves that leave for ever: an
+    /// endless bar holds their energy.
     pub fn forget_before(&mut self, moment: &Moment) {
         self.asked_from = self.clock.about(moment) * (1.0 - TOLD_APART) - self.longest_travel();
         self.keeps_departed = true;
@@ -86,6 +86,7 @@ impl Engine {
         }
     }
 
+    /// The longest travel time, for choices that need no proof.
     fn longest_travel(&self) -> f64 {
         let travels = self.bars.iter().filter_map(|(_, travel)| travel.clone());
         travels.map(|travel| self.clock.about(&Moment::at(travel))).fold(0.0, f64::max)
@@ -95,9 +96,7 @@ impl Engine {
     pub fn forget(&mut self, node: usize) {
         let about = self.states[node].about;
         let has_passed = |end: &Moment, from: f64| about < from || self.clock.about(end) < from;
-        let reads_node =
-            |source: &Source| matches!(source, Source::Node { node: own, .. } if *own == node);
-        let from = self.asked_from(reads_node);
+        let from = self.needed_from(|source| source.is_at(node));
         if from > 0.0 {
             while let Some(cell) = self.cells[node].forget(|end| has_passed(end, from)) {
                 self.bytes -= cell.bytes();
@@ -110,9 +109,7 @@ impl Engine {
                 (_, Side::Bar(bar)) if !self.keeps_departed => (bar, 1 - side, usize::MAX),
                 _ => continue,
             };
-            let wave = (bar, direction);
-            let reads_wave = |source: &Source| matches!(source, Source::Wave { bar, direction, .. } if (*bar, *direction) == wave);
-            let from = self.asked_from(reads_wave);
+            let from = self.needed_from(|source| source.is_wave(bar, direction));
             if from > 0.0 {
                 let track = &mut self.waves[bar][direction];
                 self.bytes -= track.forget(number, |end| has_passed(end, from), &self.cut);

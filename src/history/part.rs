@@ -26,6 +26,16 @@ pub(crate) enum Source {
     Node { node: usize, quantity: NodeQuantity },
 }
 
+impl Source {
+    pub fn is_at(&self, node: usize) -> bool {
+        matches!(self, Source::Node { node: own, .. } if *own == node)
+    }
+
+    pub fn is_wave(&self, bar: usize, direction: usize) -> bool {
+        matches!(self, Source::Wave { bar: own, direction: way, .. } if (*own, *way) == (bar, direction))
+    }
+}
+
 /// What changes at a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum NodeQuantity {

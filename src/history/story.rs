@@ -1,7 +1,8 @@
 //! A history that is being told while it is followed: events in the order of time, and what became of each contact.
 //!
 //! Mostly all is told at the end. Where what is followed takes much memory, events are told on the way, and what was
-//! before them is forgotten but for the waves that are still on their way.
+//! before them is forgotten but for the waves that are still on their way. Beside a contact that has lost its force and
+//! stays closed nothing is forgotten: what may still be told happened when it lost it.
 
 use crate::ball::{Number, Value};
 use crate::expression::{Expression, Fraction};
@@ -57,17 +58,23 @@ fn has_parted(network: &Network, engine: &Engine, moment: &Moment) -> Outcome<bo
     if count == 0 || !(0..count).all(apart) {
         return Ok(count == 0);
     }
-    let joints: Vec<usize> = engine.layout.contacts.iter().map(|contact| contact.joint).collect();
-    let parts = parts(network, &joints);
-    let wall = [0..0, usize::MAX..usize::MAX];
-    for (contact, joint) in joints.iter().enumerate() {
-        let left = parts.iter().find(|part| part.end == *joint).unwrap_or(&wall[0]);
-        let right = parts.iter().find(|part| part.start == *joint).unwrap_or(&wall[0]);
-        if !engine.never_meets(network, contact, [left, right], moment)? {
+    for contact in 0..count {
+        let [left, right] = beside(network, engine, contact);
+        if !engine.never_meets(network, contact, [&left, &right], moment)? {
             return Ok(false);
         }
     }
     Ok(true)
+}
+
+/// The parts of the line at the left and at the right of a contact, if all contacts were open; an empty one for a wall.
+fn beside(network: &Network, engine: &Engine, contact: usize) -> [Range<usize>; 2] {
+    let joints: Vec<usize> = engine.layout.contacts.iter().map(|contact| contact.joint).collect();
+    let (parts, joint) = (parts(network, &joints), joints[contact]);
+    let side = |is_beside: &dyn Fn(&Range<usize>) -> bool| {
+        parts.iter().find(|part| is_beside(part)).cloned().unwrap_or_default()
+    };
+    [side(&|part| part.end == joint), side(&|part| part.start == joint)]
 }
 
 /// An event in the scale of the scene.
@@ -79,10 +86,11 @@ struct Row {
 
 /// What became of a contact so far.
 struct Course {
-    /// Since when it has been closed, without a change that was told.
+    /// Since when it has been closed; none while it is open.
     since: Option<Moment>,
-    /// Its impulse since then until an instant.
+    /// Its impulse since then, as far as it is counted.
     impulse: Number,
+    /// Until when that is.
     counted: Moment,
     durations: Vec<Option<Value>>,
     impulses: Vec<Value>,
@@ -163,6 +171,7 @@ impl Story<'_> {
                 Some(until) => self.engine.clock.earlier(until.clone(), times(count))?,
             };
             let is_last = until == Some(&next);
+            // Until then it may end early.
             if let Some(until) = until.filter(|_| count > patience) {
                 self.engine.foresee_cells(until)?;
             }
@@ -342,19 +351,11 @@ impl Story<'_> {
     /// The relative velocity of the mean motions beside a contact at an instant; none where a body has no mean motion.
     fn relative(&self, contact: usize, moment: &Moment) -> Outcome<Option<Number>> {
         let engine = &self.engine;
-        let joints: Vec<usize> =
-            engine.layout.contacts.iter().map(|contact| contact.joint).collect();
-        let parts = parts(self.network, &joints);
-        let joint = joints[contact];
-        let sides = [
-            parts.iter().find(|part| part.end == joint),
-            parts.iter().find(|part| part.start == joint),
-        ];
         let mut velocities = Vec::new();
-        for side in sides {
-            velocities.push(match side {
-                Some(part) => engine.mean_velocity(self.network, part, moment)?,
-                None => Some(Number::zero()),
+        for part in beside(self.network, engine, contact) {
+            velocities.push(match part.is_empty() {
+                true => Some(Number::zero()),
+                false => engine.mean_velocity(self.network, &part, moment)?,
             });
         }
         let [Some(left), Some(right)] = &velocities[..] else { return Ok(None) };
@@ -429,7 +430,7 @@ impl Story<'_> {
         })
     }
 
-    /// The parts of the line at an instant.
+    /// The parts of the line between the contacts that are open after the last event.
     fn parts(&self) -> Vec<Range<usize>> {
         let contacts = self.engine.layout.contacts.iter().zip(&self.closed);
         let open = contacts.filter(|(_, closed)| !**closed).map(|(contact, _)| contact.joint);

@@ -56,7 +56,7 @@ impl Track {
         self.cells.get(self.cells.count() - 1)
     }
 
-    /// Goes on with the last cell, by a series in place of its own if one is given; gives how many bytes that held.
+    /// Goes on with the last cell, by a series in place of its own if one is given; gives how many bytes its own held.
     pub fn lengthen(&mut self, series: Option<Series>, end: Moment, length: Number) -> u64 {
         self.end = end;
         self.cells.change_last(|last| {

@@ -111,7 +111,7 @@ pub fn origin(network: &Network, to: &Rational, purpose: Purpose) -> Origin {
         Purpose::Polynomials => {
             let is_lattice = network.lattice().periods().len() > 1;
             let most = if is_lattice { MOST_LEFT_OUT } else { MOST_SEARCHED };
-            ClosedForm::parts(network, to).map(|parts| parts <= most)
+            ClosedForm::of_nothing(network, to).and_then(|form| Ok(form.order(to)? <= most))
         }
         _ => return Origin::Closed,
     };

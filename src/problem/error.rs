@@ -221,11 +221,6 @@ fn in_powers(terms: f64) -> String {
 }
 
 impl ProblemError {
-    /// Whether a search ended before it was decided.
-    pub fn is_unsettled(&self) -> bool {
-        matches!(self, ProblemError::Evaluate(error) if error.is_unsettled())
-    }
-
     /// Whether the closed form of waves takes too much, so that a scene is better followed.
     pub(super) fn is_too_much_of_a_closed_form(&self) -> bool {
         matches!(self, ProblemError::Evaluate(error) if error.is_too_much())

@@ -79,7 +79,7 @@ fn too_many_echoes(echoes: u128, limit: usize) -> String {
 
 impl EvaluateError {
     /// Whether a search ended before it was decided: what is known until then holds.
-    pub fn is_unsettled(&self) -> bool {
+    pub(crate) fn is_unsettled(&self) -> bool {
         use EvaluateError::{AccuracyNotReached, NotFollowed, TooManyCells, TooManyRoots};
         matches!(
             self,

@@ -11,7 +11,7 @@ use super::validity;
 use num_rational::BigRational;
 use wavestep::language::ChangeError;
 use wavestep::planner::Purpose;
-use wavestep::problem::{Against, Other, Problem, ProblemError, Simpler, Size, Wanted};
+use wavestep::problem::{Against, Other, Problem, ProblemError, Simpler, Size};
 use wavestep::signal::{Place, Search};
 
 pub fn run(options: &Find) -> Result<String, Failure> {
@@ -110,25 +110,16 @@ fn distances(
     let _progress = progress::spinner("searching");
     // What is so much smaller than the quantity is no distance.
     let nothing = BigRational::new(1.into(), num_bigint::BigInt::from(1) << 100_u32);
-    let asked = (options.digits, options.max_bits);
-    let sizes = |wanted: &Wanted| -> Result<[Size; 2], ProblemError> {
-        let window = window.each_ref();
-        let difference = problem.difference_on(other, wanted, window, Purpose::Search)?;
-        let signal = problem.signal_on(wanted, window, Purpose::Search)?;
-        let size = Size::of(&*signal, asked, &Default::default())?;
-        let negligible = &size.bounds[0] * &nothing;
-        Ok([Size::of(&*difference, asked, &negligible)?, size])
-    };
-    let is_one = names.len() == 1;
     let mut rows = Vec::new();
     for name in names {
         let wanted = problem.wanted(name)?;
-        let sizes = match sizes(&wanted) {
-            // The others are told all the same.
-            Err(error) if !is_one && error.is_unsettled() => Err(error.to_string()),
-            sizes => Ok(sizes?),
-        };
-        rows.push((wanted, sizes));
+        let difference =
+            problem.difference_on(other, &wanted, window.each_ref(), Purpose::Search)?;
+        let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?;
+        let asked = (options.digits, options.max_bits);
+        let size = Size::of(&*signal, asked, &Default::default())?;
+        let negligible = &size.bounds[0] * &nothing;
+        rows.push((wanted, Size::of(&*difference, asked, &negligible)?, size));
     }
     let (report, undecided) = found::distances(&rows, problem, &window, options);
     settled(report, undecided, "distance")

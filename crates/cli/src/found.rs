@@ -77,10 +77,9 @@ pub fn extremum(extremum: &Extremum, goal: Goal, told: &Told<'_>) -> String {
 /// At how many places a distance is told in text.
 const MOST_PLACES: usize = 4;
 
-/// Of each quantity how far it is from another answer, how large it is, and where they are farthest apart; or why that
-/// is not known.
+/// Of each quantity how far it is from another answer, how large it is, and where they are farthest apart.
 pub fn distances(
-    rows: &[(Wanted, Result<[Size; 2], String>)],
+    rows: &[(Wanted, Size, Size)],
     problem: &Problem,
     window: &[BigRational; 2],
     options: &Find,
@@ -95,23 +94,12 @@ pub fn distances(
     let is_nothing = |distance: &Size, size: &Size| {
         distance.places.is_empty() && distance.over(size).is_some_and(|share| share[1] < little)
     };
-    let is_open = |(_, sizes): &&(Wanted, Result<[Size; 2], String>)| {
-        sizes.as_ref().map_or(true, |[distance, size]| {
-            !is_nothing(distance, size) && matches!(bounded(&distance.bounds), Value::Enclosed(_))
-        })
+    let is_open = |(_, distance, size): &&(Wanted, Size, Size)| {
+        !is_nothing(distance, size) && matches!(bounded(&distance.bounds), Value::Enclosed(_))
     };
     let undecided = rows.iter().filter(is_open).count();
     if options.format == Format::Text {
-        let row = |(wanted, sizes): &(Wanted, Result<[Size; 2], String>)| {
-            let [distance, size] = match sizes {
-                Ok(sizes) => sizes,
-                Err(reason) => {
-                    let name = &wanted.name;
-                    return format!(
-                        "{name}: largest difference from {minus} undecided: {reason}\n"
-                    );
-                }
-            };
+        let row = |(wanted, distance, size): &(Wanted, Size, Size)| {
             let told = Told { options, name: minus, level: "", problem, wanted, window };
             if is_nothing(distance, size) {
                 return format!(
@@ -132,11 +120,7 @@ pub fn distances(
         };
         return (rows.iter().map(row).collect(), undecided);
     }
-    let rows = rows.iter().map(|(wanted, sizes)| {
-        let [distance, size] = match sizes {
-            Ok(sizes) => sizes,
-            Err(reason) => return json!({ "quantity": wanted.name, "undecided": reason }),
-        };
+    let rows = rows.iter().map(|(wanted, distance, size)| {
         let mut body = json!({
             "quantity": wanted.name,
             "distance": number(&bounded(&distance.bounds)),

@@ -271,15 +271,10 @@ impl ClosedForm {
         ClosedForm::of_nothing(network, to)?.foresee(to)
     }
 
-    /// How many pieces or arrivals the waves of a scene have until a time.
+    /// The waves of a scene, of which nothing is seen.
     ///
     /// # Errors
-    /// As [`ClosedForm::of_scene`], and where there are more than can be counted.
-    pub fn parts(network: &Network, to: &Rational) -> Result<usize, EvaluateError> {
-        ClosedForm::of_nothing(network, to)?.order(to)
-    }
-
-    /// The waves of a scene, of which nothing is seen.
+    /// As [`ClosedForm::of_scene`].
     pub fn of_nothing(network: &Network, to: &Rational) -> Result<ClosedForm, EvaluateError> {
         let nothing = Observation { waves: Vec::new(), forcing: Expression::zero() };
         ClosedForm::of_scene(network, &nothing, Root::from(Fraction::one()), to)
