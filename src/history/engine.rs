@@ -314,7 +314,7 @@ impl Engine {
             let still = vec![Number::zero(); node.elements.len()];
             let velocity = |run: usize| self.starting_velocity(node, run);
             let state = system.state(node, velocity, &still, &self.places[number], bits)?;
-            let passivity = Passivity::at(node, &system, &state)?;
+            let passivity = Passivity::at(node, &system, (&state, bits))?;
             let errors = passivity.errors(&state);
             if let Some(all) = &mut self.errors {
                 errors.iter().for_each(|own| all.add_state(&own.size()));
