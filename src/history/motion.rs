@@ -5,7 +5,7 @@ use crate::history::error::{HistoryError, NotFollowed};
 use crate::history::passive::ErrorEnergy;
 use crate::history::passivity::{Block, Passivity, StateError};
 use crate::history::separation::{Rows, Separation};
-use crate::history::series::{CellNorm, Roughness, Series, Truncation};
+use crate::history::series::{CellNorm, LONGEST_CELL, Roughness, Series, Truncation};
 use crate::network::{Node, System, dot};
 
 /// So many derivatives at the start of a cell are enclosed one by one.
@@ -35,6 +35,11 @@ fn free_motion(block: &Block, own: &[Number], slow: &[Vec<Number>], cut: &Trunca
         None => middle(value).magnitude(),
     });
     block.size(free)
+}
+
+/// What is as small as this cannot be told from nothing.
+fn told(error: &StateError, cut: &Truncation) -> Magnitude {
+    error.size().max(cut.largest.scale(ROUNDING - cut.bits as i64))
 }
 
 /// The precision of a slow motion: what is left of the equation is as much larger than a rounding as the block is faster
@@ -266,7 +271,7 @@ impl System<Number> {
         let given = Given::new(input, norm, cut);
         let rates = passivity.blocks.iter().zip(errors).map(|(block, error)| {
             let own: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
-            let told = error.size().max(cut.largest.scale(ROUNDING - cut.bits as i64));
+            let told = told(error, cut);
             let has_died_out = |separation: &&Separation| {
                 let columns = self.slow_columns(block, separation, &own, &given);
                 free_motion(block, &own, &columns, cut) <= told
@@ -275,6 +280,27 @@ impl System<Number> {
             slow.map_or(block.rate, |separation| separation.rate)
         });
         rates.max().unwrap_or(Magnitude::ZERO)
+    }
+
+    /// About how many cells, as short as its fastest motions need, the fastest block takes until these have died out;
+    /// none where that is far more than there may be.
+    pub fn cells_until_gone(
+        &self,
+        node: &Node<Number>,
+        passivity: &Passivity,
+        (state, errors): (&[Number], &[StateError]),
+        input: &[Series],
+        (norm, cut): (&CellNorm, &Truncation),
+    ) -> Option<f64> {
+        let blocks = passivity.blocks.iter().zip(errors);
+        let (block, error) = blocks.max_by_key(|(block, _)| block.rate)?;
+        let separation = block.separations.last()?;
+        let time = Passivity::halving(node, self, (block, separation))?;
+        let own: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
+        let columns = self.slow_columns(block, separation, &own, &Given::new(input, norm, cut));
+        let free = free_motion(block, &own, &columns, cut).top()?;
+        let halvings = free - told(error, cut).top()?;
+        Some(halvings.max(0) as f64 * block.rate.scale(time - LONGEST_CELL).to_double())
     }
 
     /// The *slow motion* of a block: the polynomial that solves `s' = A s + B u` for the polynomials of its inputs,
