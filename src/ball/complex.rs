@@ -113,10 +113,6 @@ impl ComplexBall {
     /// `e^z = e^re (cos im + i sin im)`.
     pub fn exp(&self, precision: u64) -> Result<Self, BallError> {
         let size = self.re.exp(precision)?;
-        // What has died out has done so at any angle.
-        if size.midpoint().is_zero() {
-            return Ok(Self::new(size.clone(), size));
-        }
         if self.im.is_exact() && self.im.contains_zero() {
             return Ok(size.into());
         }

@@ -7,8 +7,7 @@
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{One, Signed as _, Zero};
-use std::cmp::Ordering;
+use num_traits::{One, Zero};
 
 use super::ball::Ball;
 use super::binary::{Binary, LEAST_PRECISION};
@@ -67,24 +66,15 @@ impl Reduction {
     }
 }
 
-/// Zero, give or take `e^(−2^40) < 2^(−2^40)`: what has died out for longer than that.
-fn died_out() -> Ball {
-    Ball::new(Binary::zero(), Magnitude::power_of_two(-(1 << ARGUMENT_BITS)))
-}
-
-/// Encloses `e^x`: the true value lies in the ball, and `radius ≤ 2^(−p)·e^x` for precision `p`, where `x ≥ −2^40`.
+/// Encloses `e^x`: the true value lies in the ball, and `radius ≤ 2^(−p)·e^x` for precision `p`.
 ///
-/// Results of any size down to that are represented: `e^(−10^6)` is not zero.
+/// Results of any size are represented: `e^(−10^6)` is not zero.
 ///
 /// About `2√p` products of `p` bits, and one of `p` bits for each bit of `⌊x⌋`.
 pub fn exp_of_rational(x: &BigRational, precision: u64) -> Result<Ball, BallError> {
     let (numerator, denominator) = (x.numer(), x.denom());
     if numerator.magnitude() > &(denominator.magnitude() << ARGUMENT_BITS) {
-        return if numerator.is_negative() {
-            Ok(died_out())
-        } else {
-            Err(BallError::ArgumentTooLarge)
-        };
+        return Err(BallError::ArgumentTooLarge);
     }
     // |a| < 2^bits(a) and b ≥ 2^(bits(b)−1).
     let top = numerator.bits() as i64 - denominator.bits() as i64 + 1;
@@ -101,12 +91,8 @@ impl Ball {
     /// `e^m r (1 + r)` for `r ≤ 1`, since `e^r ≤ 1 + r + r²` there, and else at most
     /// `e^m 2^{3r/2}`, since `log₂ e < 3/2`.
     pub fn exp(&self, precision: u64) -> Result<Ball, BallError> {
-        let largest = Magnitude::power_of_two(i64::from(ARGUMENT_BITS));
-        if self.magnitude() > largest {
-            let above =
-                self.add(&Ball::from_integer(&BigInt::from(1_u64 << ARGUMENT_BITS)), precision);
-            let is_gone = above.sign() == Some(Ordering::Less);
-            return if is_gone { Ok(died_out()) } else { Err(BallError::ArgumentTooLarge) };
+        if self.magnitude() > Magnitude::power_of_two(i64::from(ARGUMENT_BITS)) {
+            return Err(BallError::ArgumentTooLarge);
         }
         let midpoint = self.midpoint();
         let reduction = Reduction::new(midpoint.top().unwrap_or(i64::MIN), precision);

@@ -6,7 +6,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One as _;
 use proptest::prelude::*;
-use wavestep::ball::{Ball, BallError, Binary, ComplexBall, Magnitude, exp_of_rational};
+use wavestep::ball::{Ball, BallError, Binary, Magnitude, exp_of_rational};
 
 /// An enclosure of `e^x` from another library's value of `bits` bits.
 fn second_opinion(x: &Binary, bits: usize) -> Ball {
@@ -90,27 +90,11 @@ fn the_exponent_of_the_result_is_unbounded() {
     assert!(start(-(1 << 40), 3).ends_with("e-477511832732"));
 }
 
-/// What has died out for longer than that is zero, within less than can be told.
-#[test]
-fn what_has_died_out_is_enclosed() {
-    let gone = Ball::new(Binary::zero(), Magnitude::power_of_two(-(1 << 40)));
-    let far = -integer((1 << 40) + 1);
-    assert_eq!(exp_of_rational(&far, 64), Ok(gone.clone()));
-    assert_eq!(Ball::from_rational(&far, 64).exp(64), Ok(gone.clone()));
-    let [re, im] = [-(1_i64 << 41), 1 << 50].map(|part| Ball::from_integer(&part.into()));
-    let turned = ComplexBall::new(re, im).exp(64).unwrap();
-    assert_eq!([turned.real(), turned.imaginary()], [&gone, &gone]);
-    // All of the ball has to be.
-    let near =
-        Ball::from_rational(&far, 64).add(&Ball::new(Binary::zero(), Magnitude::from_u64(2)), 64);
-    assert_eq!(near.exp(64), Err(BallError::ArgumentTooLarge));
-}
-
 #[test]
 fn arguments_beyond_the_limit_are_an_error() {
     let over = integer((1 << 40) + 1);
     assert_eq!(exp_of_rational(&over, 64), Err(BallError::ArgumentTooLarge));
-    assert_eq!(Ball::from_rational(&over, 64).exp(64), Err(BallError::ArgumentTooLarge));
+    assert_eq!(exp_of_rational(&-over, 64), Err(BallError::ArgumentTooLarge));
     let wide = Ball::new(Binary::zero(), Magnitude::power_of_two(41));
     assert_eq!(wide.exp(64), Err(BallError::ArgumentTooLarge));
     assert!(Ball::new(Binary::zero(), Magnitude::power_of_two(39)).exp(64).is_ok());
