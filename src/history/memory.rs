@@ -164,8 +164,8 @@ impl Engine {
             return Ok(());
         }
         let known = (&state.state[..], &state.errors[..]);
-        let (own, cell) = (&self.nodes[node], (&reach.norm, &self.cut));
-        let gone = state.system.cells_until_gone(own, &state.passivity, known, &reach.inputs, cell);
+        let cell = (&reach.norm, &self.cut);
+        let gone = state.system.cells_until_gone(&state.passivity, known, &reach.inputs, cell);
         match gone.is_some_and(|cells| cells <= enough) {
             true => Ok(()),
             false => Err(self.too_many_cells(node)?),

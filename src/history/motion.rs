@@ -282,11 +282,9 @@ impl System<Number> {
         rates.max().unwrap_or(Magnitude::ZERO)
     }
 
-    /// About how many cells, as short as its fastest motions need, the fastest block takes until these have died out;
-    /// none where that is far more than there may be.
+    /// About how many cells, as short as its fastest motions need, the fastest block takes until these have died out.
     pub fn cells_until_gone(
         &self,
-        node: &Node<Number>,
         passivity: &Passivity,
         (state, errors): (&[Number], &[StateError]),
         input: &[Series],
@@ -295,12 +293,11 @@ impl System<Number> {
         let blocks = passivity.blocks.iter().zip(errors);
         let (block, error) = blocks.max_by_key(|(block, _)| block.rate)?;
         let separation = block.separations.last()?;
-        let time = Passivity::halving(node, self, (block, separation))?;
         let own: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
         let columns = self.slow_columns(block, separation, &own, &Given::new(input, norm, cut));
         let free = free_motion(block, &own, &columns, cut).top()?;
-        let halvings = free - told(error, cut).top()?;
-        Some(halvings.max(0) as f64 * block.rate.scale(time - LONGEST_CELL).to_double())
+        let halvings = (free - told(error, cut).top()?).max(0) as f64;
+        Some(halvings * std::f64::consts::LN_2 * separation.lasting / f64::from(1 << LONGEST_CELL))
     }
 
     /// The *slow motion* of a block: the polynomial that solves `s' = A s + B u` for the polynomials of its inputs,

@@ -25,9 +25,6 @@ const TERMS_LEFT_OUT: i64 = -50;
 /// An error that does not halve in `2^8` units of the time of a block is taken to stay.
 const MOST_DOUBLINGS: i64 = 8;
 
-/// The same of the fast motions of a block, which take more cells than there may be to die out if they take longer.
-const MOST_DOUBLINGS_OF_SOME: i64 = 22;
-
 type Matrix = Vec<Vec<Ball>>;
 
 fn product(one: &Matrix, other: &Matrix) -> Matrix {
@@ -145,31 +142,6 @@ impl Passivity {
         Ok(Passivity { blocks })
     }
 
-    /// About how long it takes, as a power of two, until what is not among the slow motions of a block is half as
-    /// large.
-    pub fn halving(
-        node: &Node<Number>,
-        system: &System<Number>,
-        (block, separation): (&Block, &Separation),
-    ) -> Option<i64> {
-        let all = weights(node, system, &[]);
-        let weights: Vec<Ball> = block.members.iter().map(|i| all[*i].ball(BITS)).collect();
-        let inverses = weights.iter().map(|weight| weight.reciprocal(BITS));
-        let inverses: Vec<Ball> = inverses.collect::<Result<_, _>>().ok()?;
-        let size = block.members.len();
-        let filled = |entry: &dyn Fn(usize, usize) -> Ball| -> Matrix {
-            (0..size).map(|i| (0..size).map(|j| entry(i, j)).collect()).collect()
-        };
-        let [own, fast] = [
-            filled(&|i, j| system.change[block.members[i]][block.members[j]].ball(BITS)),
-            filled(&|i, j| {
-                let one = Ball::from_integer(&i32::from(i == j).into());
-                one.add(&separation.slow[i][j].ball(BITS).negate(), BITS)
-            }),
-        ];
-        decay(own, Some(&fast), &block.rate, (&weights, &inverses)).map(|(time, _)| time)
-    }
-
     /// The errors of a state of which enclosures are known.
     pub fn errors(&self, state: &[Number]) -> Vec<StateError> {
         let own = |block: &Block| {
@@ -246,7 +218,7 @@ impl Block {
                 .map(|inverse| inverse.magnitude().square_root())
                 .collect(),
             driven: (states..states + system.inputs()).map(column).collect(),
-            decay: decay(matrix, None, &rate, (&own, &inverses)),
+            decay: decay(matrix, &rate, &own, &inverses),
             rate,
             members,
             separations: Vec::new(),
@@ -338,12 +310,12 @@ impl Block {
     }
 }
 
-/// After which time an error of a state is at most half as large, and how large it is then; of these motions alone.
+/// After which time an error of a state is at most half as large, and how large it is then.
 fn decay(
     mut matrix: Matrix,
-    motions: Option<&Matrix>,
     rate: &Magnitude,
-    (weights, inverses): (&[Ball], &[Ball]),
+    weights: &[Ball],
+    inverses: &[Ball],
 ) -> Option<(i64, Magnitude)> {
     let time = 1 - rate.top()?;
     let scale = Ball::new(Magnitude::power_of_two(time).to_binary(), Magnitude::ZERO);
@@ -362,10 +334,8 @@ fn decay(
             *sum = sum.add(power, BITS);
         }
     }
-    let most = if motions.is_some() { MOST_DOUBLINGS_OF_SOME } else { MOST_DOUBLINGS };
-    sum = motions.map_or(sum.clone(), |motions| product(&sum, motions));
     // e^(2A) = (e^A)², of which twice as much is left out, and a little.
-    for doubled in 0..most {
+    for doubled in 0..MOST_DOUBLINGS {
         let left_out = Magnitude::power_of_two(TERMS_LEFT_OUT + 2 * doubled);
         let after = norm(&sum, weights, inverses).add(&left_out);
         if after <= Magnitude::power_of_two(-1) {

@@ -24,6 +24,9 @@ const MORE_STEPS: u32 = 4;
 pub struct Separation {
     /// The norm of `A P`.
     pub rate: Magnitude,
+    /// How long the fast motions last, in the time `1/‖A‖`: until they are an `e`-th, by the mean of their decrements, the
+    /// trace of `A (P − 1)` over that of `1 − P`.
+    pub lasting: f64,
     /// `P`.
     pub slow: Rows,
     /// `(1 − P) A⁻¹`, where `A⁻¹` is that of the fast motions alone.
@@ -39,11 +42,9 @@ impl Separation {
             _ => 0,
         };
         let bits = bits + spread;
-        let all_fast = inverse(change.clone(), bits).map(|inverse| Separation {
-            rate: Magnitude::ZERO,
-            slow: filled(change.len(), |_, _| Number::zero()),
-            fast_inverse: bare(inverse, bits),
-        });
+        let none = filled(change.len(), |_, _| Number::zero());
+        let all_fast = inverse(change.clone(), bits)
+            .map(|inverse| Separation::new(change, none, inverse, (&norm, bits)));
         let gaps = tops.windows(2).rev().filter(|pair| pair[0] - pair[1] >= APART);
         let between = gaps.filter_map(|pair| {
             let lower = pair[1].max(pair[0] - 2.0 * APART);
@@ -61,13 +62,12 @@ impl Separation {
         bits: u64,
     ) -> Option<Separation> {
         let (size, half) = (change.len(), power_of_two(-1));
-        let one = |i: usize, j: usize| if i == j { Number::one() } else { Number::zero() };
-        let scaled = times(&power_of_two(-top), change, bits);
-        let both = [1, -1].map(|sign| {
-            let part = |i: usize, j: usize| scaled[i][j].multiply(&Number::integer(sign), bits);
-            filled(size, |i, j| one(i, j).add(&part(i, j), bits))
-        });
-        let [above, below] = both;
+        let (rate, time) = (power_of_two(top), power_of_two(-top));
+        let scaled = |i: usize, j: usize| change[i][j].multiply(&time, bits);
+        let [above, below] = [
+            filled(size, |i, j| one(i, j).add(&scaled(i, j), bits)),
+            filled(size, |i, j| one(i, j).subtract(&scaled(i, j), bits)),
+        ];
         let mut sign = bare(product(&above, &inverse(below, bits)?, bits), bits);
         // Each step of Newton's iteration doubles the digits that are known.
         for _ in 0..MORE_STEPS + bits.ilog2() {
@@ -85,15 +85,30 @@ impl Separation {
         let fast = filled(size, |i, j| one(i, j).subtract(&slow[i][j], bits));
         // A on the fast motions, and −r on the slow ones.
         let own = product(change, &fast, bits);
-        let rate = Number::integer(-1).multiply(&power_of_two(top), bits);
-        let added = times(&rate, &slow, bits);
-        let regular = filled(size, |i, j| own[i][j].add(&added[i][j], bits));
+        let regular =
+            filled(size, |i, j| own[i][j].subtract(&slow[i][j].multiply(&rate, bits), bits));
         let fast_inverse = product(&fast, &inverse(regular, bits)?, bits);
-        Some(Separation {
-            rate: norm(&product(change, &slow, bits)),
-            slow: bare(slow, bits),
-            fast_inverse: bare(fast_inverse, bits),
-        })
+        Some(Separation::new(change, slow, fast_inverse, (norm, bits)))
+    }
+
+    fn new(
+        change: &Rows,
+        slow: Rows,
+        fast_inverse: Rows,
+        (norm, bits): (impl Fn(&Rows) -> Magnitude, u64),
+    ) -> Separation {
+        let own = product(change, &slow, bits);
+        let zero = Number::zero;
+        let sum = |entry: &dyn Fn(usize) -> Number| {
+            (0..slow.len()).fold(zero(), |sum, i| sum.add(&entry(i), bits))
+        };
+        let decrement = sum(&|i| own[i][i].subtract(&change[i][i], bits));
+        let count = sum(&|i| one(i, i).subtract(&slow[i][i], bits));
+        let lasting = decrement.reciprocal(bits).map_or(f64::INFINITY, |time| {
+            norm(change).multiply(&count.multiply(&time, bits).magnitude()).to_double()
+        });
+        let (slow, fast_inverse) = (bare(slow, bits), bare(fast_inverse, bits));
+        Separation { rate: norm(&own), lasting, slow, fast_inverse }
     }
 }
 
@@ -133,6 +148,10 @@ fn rates(change: &Rows, bits: u64) -> Vec<f64> {
     slopes
 }
 
+fn one(i: usize, j: usize) -> Number {
+    if i == j { Number::one() } else { Number::zero() }
+}
+
 fn power_of_two(top: i64) -> Number {
     Number::Exact((&Magnitude::power_of_two(top)).into())
 }
@@ -145,10 +164,6 @@ fn product(one: &Rows, other: &Rows, bits: u64) -> Rows {
     let column = |j: usize| other.iter().map(|row| row[j].clone()).collect::<Vec<_>>();
     let columns: Rows = (0..other.len()).map(column).collect();
     filled(one.len(), |i, j| dot(&one[i], &columns[j], bits))
-}
-
-fn times(factor: &Number, rows: &Rows, bits: u64) -> Rows {
-    filled(rows.len(), |i, j| rows[i][j].multiply(factor, bits))
 }
 
 /// Without radii.

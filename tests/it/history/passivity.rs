@@ -49,6 +49,16 @@ pub fn cell(length: &Rational, cut: &Truncation) -> CellNorm {
     CellNorm::new(Magnitude::from_rational(length), cut)
 }
 
+/// The first terms of a polynomial; those that are left out are in its bound.
+fn shortened(own: &Series, kept: usize, norm: &CellNorm) -> Series {
+    let sizes = own.coefficients.iter().enumerate().map(|(k, c)| match k < kept {
+        true => Magnitude::ZERO,
+        false => c.magnitude(),
+    });
+    let left = norm.of_sizes(&sizes.collect::<Vec<_>>());
+    Series::new(own.coefficients.iter().take(kept).cloned().collect(), left)
+}
+
 #[test]
 fn a_damped_node_forgets() {
     with_node(|node, system, _| {
@@ -126,15 +136,7 @@ fn encloses_short_cells(
     let coefficient = |(k, c): (usize, &i64)| Number::Exact(rational(*c, 7 << (3 * k)));
     let exact = [&inputs[..5], &inputs[5..]]
         .map(|own| Series::new(own.iter().enumerate().map(coefficient).collect(), Magnitude::ZERO));
-    // What is left out of an input is in its bound.
-    let known = exact.each_ref().map(|own| {
-        let sizes = own.coefficients.iter().enumerate().map(|(k, c)| match k < kept {
-            true => Magnitude::ZERO,
-            false => c.magnitude(),
-        });
-        let left = norm.of_sizes(&sizes.collect::<Vec<_>>());
-        Series::new(own.coefficients.iter().take(kept).cloned().collect(), left)
-    });
+    let known = exact.each_ref().map(|own| shortened(own, kept, &norm));
     let errors = passivity.errors(&start);
     let told = system.solve(&passivity, (&start, &errors), &known, (&norm, cut));
     let (mut state, mut errors) = (start, errors);
@@ -213,14 +215,7 @@ proptest! {
                     Series::new(all.collect(), Magnitude::ZERO)
                 };
                 let whole = [series(0), series(5)];
-                let short = whole.each_ref().map(|own| {
-                    let left = own.coefficients.iter().enumerate().map(|(k, c)| match k < kept {
-                        true => Magnitude::ZERO,
-                        false => c.magnitude(),
-                    });
-                    let left = norm.of_sizes(&left.collect::<Vec<_>>());
-                    Series::new(own.coefficients.iter().take(kept).cloned().collect(), left)
-                });
+                let short = whole.each_ref().map(|own| shortened(own, kept, &norm));
                 let wide = (&state[..], &errors[..]);
                 let wide = system.solve(&passivity, wide, &short, (&norm, &few));
                 let narrow = (&other[..], &exact[..]);
