@@ -472,7 +472,8 @@ impl Engine {
             }
             // Where nothing has a rate and nothing arrives, a cell is as long as all before it, and a unit of time at least.
             (None, None, None) => {
-                share * Rational::from_float(state.about.max(1.0).floor()).expect("a time is finite")
+                share
+                    * Rational::from_float(state.about.max(1.0).floor()).expect("a time is finite")
             }
             (None, None, Some(first)) => return Ok((first.clone(), false)),
         };

@@ -9,7 +9,7 @@
 //! closed, `reading` for what is taken from it, `crossing` and `positive` for the proof that nothing is passed over,
 //! `story` for how events are told, `observe` and `phased` for what is seen of it, `validity` for how long closed
 //! contacts are true, `closed_form` for instants in closed form, `series` for the arithmetic, `cells` and `memory` for
-//! what is kept of it, `pressing` for local contacts, `resting` for those that press evenly, `passivity` and `passive` for what becomes of errors, at a node
+//! what is kept of it, `pressing` and `power` for local contacts, `resting` for those that press evenly, `passivity` and `passive` for what becomes of errors, at a node
 //! and in the line, `energy` for what a wave holds, `body` for energies and momenta of bodies and for why they never
 //! meet again.
 
@@ -34,6 +34,7 @@ pub mod passive;
 pub mod passivity;
 mod phased;
 pub mod positive;
+mod power;
 pub mod pressing;
 mod reading;
 mod resting;

@@ -62,7 +62,8 @@ impl Pressing<'_> {
         let residual = self.block.size(rates.iter().map(Number::magnitude));
         let residual = residual.add(&self.block.push(&changes));
         let memory = Magnitude::power_of_two(time + 1);
-        let is_at_rest = residual.multiply(&memory) <= told(error, cut);
+        // Rounding the state leaves as much of the equation.
+        let is_at_rest = residual <= told(error, cut).multiply(&self.block.rate);
         is_at_rest.then_some(Rest { start, contacts, forces, at_start, residual, memory })
     }
 

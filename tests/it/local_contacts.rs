@@ -1,7 +1,7 @@
 //! Local contacts followed with proof: against the exact solution of a spring, against collocation, and what of the
 //! law, of the balances and of the bounds has to hold.
 
-use num_traits::ToPrimitive as _;
+use num_traits::{Signed as _, ToPrimitive as _};
 use wavestep::answer::Accuracy;
 use wavestep::ball::{Ball, Magnitude, Number};
 use wavestep::history::series::{CellNorm, Roughness, Series, Truncation};
@@ -41,6 +41,54 @@ fn with_exponent_one_it_is_a_spring() {
             assert_eq!(one, other, "{name} at {time}");
         }
     }
+}
+
+/// Two long bars and the exponent 2: `α' = V − (1/Z₁ + 1/Z₂) k α²` is solved by a hyperbolic tangent. It comes to rest,
+/// and is followed for ten thousand times as long as that takes. Of the constant state nothing is told from the tangent,
+/// whatever the digits.
+#[test]
+fn two_long_bars_come_to_rest_as_a_tangent_does() {
+    let local = problem(
+        "bar a { impedance = 1, velocity = 1 }\nhertz tip { stiffness = 1/2, exponent = 2 }\n\
+         bar b { impedance = 1 }\nline endless - a - tip - b - endless\n\
+         observe alpha = compression(tip)\nobserve force = force(tip)",
+    );
+    let bits = 400;
+    for (time, digits) in [(1, 30), (18, 15), (46, 30), (1_000_000, 30)] {
+        let decayed = Ball::from_integer(&(-2 * time.min(2000)).into()).exp(bits).unwrap();
+        let one = Ball::from_integer(&1.into());
+        let below = one.add(&decayed, bits).reciprocal(bits).unwrap();
+        let alpha = one.subtract(&decayed, bits).multiply(&below, bits);
+        let half = Ball::from_integer(&2.into()).reciprocal(bits).unwrap();
+        let force = alpha.multiply(&alpha, bits).multiply(&half, bits);
+        for (name, exact) in [("alpha", alpha), ("force", force)] {
+            let exact = Value::of(&Number::Enclosed(exact), digits).to_text(digits);
+            assert_eq!(value(&local, name, &time.to_string(), digits), exact, "{name} at {time}");
+        }
+    }
+}
+
+/// A mass that a load presses onto a long bar comes to rest at the force of the load, a light one and
+/// a heavy one; few digits agree with more on the way.
+#[test]
+fn a_mass_comes_to_rest_on_a_long_bar() {
+    for mass in ["1/10", "20"] {
+        let local = problem(&format!(
+            "mass ball {{ mass = {mass} }}\nload push {{ force = 1 }}\nhertz tip {{ stiffness = 3 }}\n\
+             bar b {{ impedance = 1 }}\nline free - push - ball - tip - b - endless\n\
+             observe force = force(tip)\nobserve v = velocity(ball)"
+        ));
+        let [few, more] = [12, 30].map(|digits| rational(&value(&local, "v", "40", digits)));
+        assert!((few - &more).abs() < rational("0.000000000006"), "mass {mass}: {more}");
+        assert_eq!(value(&local, "force", "1000000", 30), format!("1.{}", "0".repeat(29)));
+    }
+}
+
+/// A decimal number.
+fn rational(text: &str) -> Rational {
+    let (whole, after) = text.split_once('.').unwrap_or((text, ""));
+    let digits: Rational = format!("{whole}{after}").parse().unwrap();
+    digits / Rational::from_integer(10.into()).pow(after.len() as i32)
 }
 
 /// Contacts that begin, end and begin again, beside bars, masses and walls, with exponents on both sides of one.
