@@ -439,7 +439,7 @@ fn least(ball: &Ball) -> Rational {
     }
 }
 
-fn first_line(error: &ProblemError) -> String {
+pub(super) fn first_line(error: &ProblemError) -> String {
     match error {
         ProblemError::Text(diagnostics) if !diagnostics.is_empty() => {
             diagnostics[0].message().to_owned()

@@ -3,11 +3,13 @@
 //! At some values of the symbol the largest difference of each simpler answer is proven. Where the first that is enough
 //! for a tolerance differs between two neighbours, what lies between them is halved until both are nearly the same.
 
+use super::between::{Between, Claim};
 use super::comparison::Comparison;
 use super::{Problem, ProblemError, Simpler, number};
 use crate::language::syntax::Declared;
 use crate::language::{self, Beyond, Change, parse_number};
 use num_traits::{One as _, Signed as _, ToPrimitive as _};
+use std::collections::BTreeMap;
 use std::str::FromStr;
 use wavestep_polynomial::Rational;
 
@@ -58,7 +60,7 @@ pub fn geometrically_spaced(from: &Rational, to: &Rational, points: usize) -> Ve
 }
 
 /// A number with so many digits.
-fn short(value: f64, digits: usize) -> Option<Rational> {
+pub(super) fn short(value: f64, digits: usize) -> Option<Rational> {
     parse_number(&format!("{value:.*e}", digits - 1)).ok()
 }
 
@@ -137,6 +139,15 @@ pub struct Column {
     pub off: Vec<Option<[Rational; 2]>>,
 }
 
+/// What is proven of all values from the first to the last of a run.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ProvenRun {
+    /// That its answer is enough; nothing is to be proven of the exact one.
+    pub enough: Option<Between>,
+    /// Of each answer before it that suits at one end at least: that it is not enough.
+    pub cheaper: Vec<(usize, Between)>,
+}
+
 /// Which simpler answer is enough where.
 #[derive(Clone, PartialEq, Debug)]
 pub struct EnoughMap {
@@ -146,6 +157,8 @@ pub struct EnoughMap {
     pub columns: Vec<Column>,
     /// For the tolerance, in the order of the values.
     pub runs: Vec<Run<Option<usize>>>,
+    /// Of each run.
+    pub proven: Vec<ProvenRun>,
 }
 
 impl EnoughMap {
@@ -184,7 +197,7 @@ impl Problem {
             false => asked.simpler.clone(),
         };
         let values = geometrically_spaced(&range.from, &range.to, *points);
-        let mut columns = Vec::new();
+        let (mut columns, mut suiting) = (Vec::new(), BTreeMap::new());
         let runs = runs(values.iter().cloned(), |value| {
             tell(value);
             let off = self.substituted(&range.symbol, value)?.shares(asked, &simpler)?;
@@ -192,12 +205,28 @@ impl Problem {
                 own.as_ref().is_some_and(|[_, most]| most <= tolerance)
             };
             let first = off.iter().position(is_enough);
+            suiting.insert(value.clone(), off.iter().map(Option::is_some).collect::<Vec<_>>());
             if values.contains(value) {
                 columns.push(Column { value: value.clone(), off });
             }
             Ok::<_, ProblemError>(first)
         })?;
-        Ok(EnoughMap { simpler, columns, runs })
+        let prove = |Run { between, state }: &Run<Option<usize>>| {
+            tell(&between[0]);
+            let suits = |place: usize| between.iter().any(|value| suiting[value][place]);
+            let places = (0..state.unwrap_or(simpler.len())).filter(|place| suits(*place));
+            let places: Vec<usize> = places.chain(*state).collect();
+            let claim = |place: &usize| Claim {
+                simpler: &simpler[*place],
+                is_enough: *state == Some(*place),
+            };
+            let claims: Vec<Claim<'_>> = places.iter().map(claim).collect();
+            let mut proven = self.prove_between(asked, between.each_ref(), &claims);
+            let enough = state.and_then(|_| proven.pop());
+            ProvenRun { enough, cheaper: places.into_iter().zip(proven).collect() }
+        };
+        let proven = runs.iter().map(prove).collect();
+        Ok(EnoughMap { simpler, columns, runs, proven })
     }
 
     /// How far simpler answers are off, over the largest value.

@@ -5,6 +5,7 @@
 //! for a title, a quantity, a time, values, and are told where there is no answer.
 
 mod advise;
+mod between;
 mod bounds;
 mod check;
 mod comparison;
@@ -34,9 +35,10 @@ use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
 
 pub use advise::{Advice, Need, Tried, Verdict};
+pub use between::Between;
 pub use check::{Checked, Derivations, General, Periods, Solved};
 pub use derive::{Derived, Form, Functions, GeneralFormulas, Orders, Symbols, ToDerive};
-pub use enough_map::{Column, EnoughMap, MapRequest, Run, SymbolRange, geometrically_spaced, runs};
+pub use enough_map::{Column, EnoughMap, MapRequest, ProvenRun, Run, SymbolRange, geometrically_spaced, runs};
 pub use equal::{Crossing, EqualExtrema};
 pub use error::{EqualError, LockRefusal, Missing, ProblemError};
 pub use evaluate::{Digits, Proven};

@@ -9,7 +9,9 @@ use super::share::{percent, whole};
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
 use wavestep::ball::{Bound, in_decimals};
-use wavestep::problem::{Column, EnoughMap, MapRequest, Problem, Run, SymbolRange};
+use wavestep::problem::{
+    Between, Column, EnoughMap, MapRequest, Problem, ProvenRun, Run, SymbolRange,
+};
 use wavestep_draw::{Axis, Caption, Chart, Curve, Curves};
 
 /// Shares below this one are drawn at the lower edge.
@@ -97,12 +99,35 @@ impl Told<'_> {
         }
         text +=
             &format!("\nWithin {}, the first that is enough:\n\n", whole(&self.asked.tolerance));
-        for Run { between: [from, to], state: first } in &self.map.runs {
-            let what = first
-                .map_or_else(|| "exact".to_owned(), |place| self.map.simpler[place].to_string());
+        let name = |place: usize| self.map.simpler[place].to_string();
+        for (run, proven) in self.map.runs.iter().zip(&self.map.proven) {
+            let Run { between: [from, to], state: first } = run;
+            let what = first.map_or_else(|| "exact".to_owned(), name);
             text += &format!("{} <= {symbol} <= {}  {what}\n", in_decimals(from), in_decimals(to));
+            for line in self.proven(proven, *first) {
+                text += &format!("    {line}\n");
+            }
         }
         text
+    }
+
+    /// What is proven of all values of a run, in lines.
+    fn proven(&self, ProvenRun { enough, cheaper }: &ProvenRun, first: Option<usize>) -> Vec<String> {
+        let name = |place: usize| self.map.simpler[place].to_string();
+        let parts = |parts: &usize| match parts {
+            1 => "at once".to_owned(),
+            parts => format!("in {parts} parts"),
+        };
+        let mut lines = Vec::new();
+        let claims = first.into_iter().zip(enough).map(|(place, own)| (name(place), "enough", own));
+        let cheaper = cheaper.iter().map(|(place, own)| (name(*place), "not enough", own));
+        for (name, what, own) in claims.chain(cheaper) {
+            lines.push(match own {
+                Between::Proven(count) => format!("{name} {what}: proven, {}", parts(count)),
+                Between::Unproven(why) => format!("{name} {what}: not proven between, {why}"),
+            });
+        }
+        lines
     }
 
     /// Marks on the line of the tolerance, where another answer is the first that is enough.

@@ -1,0 +1,202 @@
+//! Proof, for all values of a symbol between two, that a simpler answer is enough, and that others are not.
+//!
+//! The scene and simpler ones are followed for all values at once, as polynomials in the symbol, and so is the difference.
+//! Where that does not decide, the values are cut into two parts.
+
+use super::enough_map::{MapRequest, short};
+use super::{Problem, ProblemError, Simpler};
+use crate::history::envelope::{Envelope, StepsOf};
+use crate::history::family::{NotOverSymbol, OnStep, Over};
+use crate::language::{self, Stated};
+use crate::limits::MAX_PARTS_OVER_SYMBOL;
+use crate::network::ScaledScene;
+use num_traits::{One as _, ToPrimitive as _, Zero as _};
+use wavestep_polynomial::{Rational, Symbol};
+
+/// The ends of a part differ by more than one in so many.
+const FINEST: i64 = 1 << 14;
+
+/// A bound of the largest value is tried that is above one that is reached by these powers of two of it.
+const ABOVE: [i32; 4] = [-14, -10, -6, -1];
+
+/// Whether something is proven of all values between two.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Between {
+    /// Of each of so many parts.
+    Proven(usize),
+    /// Why it is not.
+    Unproven(String),
+}
+
+/// What is to be proven of a simpler answer: that it is enough, or that it is not.
+pub(super) struct Claim<'s> {
+    pub simpler: &'s Simpler,
+    pub is_enough: bool,
+}
+
+/// A claim as far as it is proven.
+struct Open<'c> {
+    place: usize,
+    scene: &'c ScaledScene,
+    is_enough: bool,
+}
+
+struct Prover<'a> {
+    exact: &'a ScaledScene,
+    symbol: Symbol,
+    quantity: &'a str,
+    window: [Rational; 2],
+    tolerance: &'a Rational,
+    proven: Vec<Between>,
+    parts: usize,
+}
+
+impl Problem {
+    /// Which of some claims hold for all values of the symbol from one to another.
+    pub(super) fn prove_between(
+        &self,
+        asked: &MapRequest<'_>,
+        [from, to]: [&Rational; 2],
+        claims: &[Claim<'_>],
+    ) -> Vec<Between> {
+        let scenes: Vec<_> = claims.iter().map(|claim| self.scene_of(claim.simpler)).collect();
+        let prepared = || {
+            let symbol = Symbol::new(&asked.range.symbol).ok_or("no symbol")?;
+            // A window that is known with the symbol in place is one for all values.
+            let window = |problem: &Problem| (asked.window)(problem).ok();
+            let at = |value| window(&self.substituted(&asked.range.symbol, value).ok()?);
+            let all = window(self).filter(|own| [at(from), at(to)].iter().all(|at| at.as_ref() == Some(own)));
+            let window = all.ok_or("the window is another one for each value")?;
+            let exact = self.scaled().map_err(|error| error.to_string())?;
+            Ok::<_, String>((symbol, window, exact))
+        };
+        let (symbol, window, exact) = match prepared() {
+            Ok(prepared) => prepared,
+            Err(why) => return claims.iter().map(|_| Between::Unproven(why.clone())).collect(),
+        };
+        let proven = scenes.iter().map(|scene| match scene {
+            Ok(_) => Between::Proven(0),
+            Err(why) => Between::Unproven(why.clone()),
+        });
+        let mut prover = Prover {
+            exact,
+            symbol,
+            quantity: asked.quantity,
+            window,
+            tolerance: &asked.tolerance,
+            proven: proven.collect(),
+            parts: 0,
+        };
+        let open = claims.iter().zip(&scenes).enumerate().filter_map(|(place, (claim, scene))| {
+            Some(Open { place, scene: scene.as_ref().ok()?, is_enough: claim.is_enough })
+        });
+        let open: Vec<Open<'_>> = open.collect();
+        prover.prove([from, to], &open.iter().collect::<Vec<_>>());
+        prover.proven
+    }
+
+    /// The scene of a simpler answer, with its symbols.
+    fn scene_of(&self, simpler: &Simpler) -> Result<ScaledScene, String> {
+        let Simpler::Scene(changes) = simpler else {
+            return Err("only scenes are followed over a symbol".to_owned());
+        };
+        let read = || {
+            let source = language::changed(&self.source, changes)?;
+            match language::read(&source, &self.values)? {
+                Stated::Scene(scene) => Ok(ScaledScene::of(&scene)?),
+                Stated::Recurrence(_) => Err(ProblemError::Equations(self.title().to_owned())),
+            }
+        };
+        read().map_err(|error| super::advise::first_line(&error))
+    }
+}
+
+impl Prover<'_> {
+    /// Proves what is claimed of all values between two, in parts where it must be.
+    fn prove(&mut self, [from, to]: [&Rational; 2], claims: &[&Open<'_>]) {
+        let is_open = |own: &&&Open<'_>| matches!(self.proven[own.place], Between::Proven(_));
+        let claims: Vec<&Open<'_>> = claims.iter().filter(is_open).copied().collect();
+        if claims.is_empty() {
+            return;
+        }
+        self.parts += 1;
+        let (mut undecided, mut why) = (Vec::new(), None);
+        match self.decided([from, to], &claims) {
+            Ok(decided) => {
+                for (claim, is_proven) in claims.into_iter().zip(decided) {
+                    match &mut self.proven[claim.place] {
+                        Between::Proven(parts) if is_proven => *parts += 1,
+                        _ => undecided.push(claim),
+                    }
+                }
+            }
+            Err(error) => (undecided, why) = (claims, Some(error)),
+        }
+        if undecided.is_empty() {
+            return;
+        }
+        let is_final = why.as_ref().is_some_and(|why| !why.is_of_width());
+        let middle = if is_final { None } else { middle(from, to) };
+        match middle.filter(|_| self.parts < MAX_PARTS_OVER_SYMBOL) {
+            Some(middle) => {
+                self.prove([from, &middle], &undecided);
+                self.prove([&middle, to], &undecided);
+            }
+            None => {
+                let [low, high] = [from, to].map(|end| end.to_f64().unwrap_or(f64::NAN));
+                let symbol = self.symbol.name();
+                let at = format!("undecided for {low:.6} <= {symbol} <= {high:.6}");
+                let told = why.filter(|_| is_final).map_or(at, |why| why.to_string());
+                for claim in undecided {
+                    self.proven[claim.place] = Between::Unproven(told.clone());
+                }
+            }
+        }
+    }
+
+    /// Which claims are proven of all values between two at once.
+    fn decided(
+        &self,
+        between: [&Rational; 2],
+        claims: &[&Open<'_>],
+    ) -> Result<Vec<bool>, NotOverSymbol> {
+        let over = |scene| Over::new(scene, self.quantity, (&self.symbol, between));
+        let scenes = std::iter::once(self.exact).chain(claims.iter().map(|claim| claim.scene));
+        let all = scenes.map(over).collect::<Result<Vec<_>, _>>()?;
+        let step = Over::step(&all)?;
+        let [from, to] = self.window.each_ref().map(|time| all[0].in_steps(time, &step));
+        let window = StepsOf::new([&from?, &to?]);
+        let follow = |own: &Over<'_>| own.follow(&step, window.count());
+        let exact = follow(&all[0])?;
+        let size = Envelope::of(&exact, &window);
+        let reached = size.reached();
+        if reached.is_zero() {
+            return Ok(vec![false; claims.len()]);
+        }
+        let above = ABOVE.map(|power| {
+            let more = Rational::new(1.into(), (1_i64 << -power).into());
+            &reached * (Rational::one() + more)
+        });
+        let most = above.into_iter().find(|most| size.is_within(most));
+        let decide = |(claim, own): (&&Open<'_>, &Over<'_>)| {
+            let other = follow(own)?;
+            let off = |(one, other): (&OnStep, &OnStep)| one.less(other);
+            let off: Vec<OnStep> = exact.iter().zip(&other).map(off).collect();
+            let off = Envelope::of(&off, &window);
+            Ok(match claim.is_enough {
+                true => off.is_within(&(self.tolerance * &reached)),
+                false => most.as_ref().is_some_and(|most| off.reached() > self.tolerance * most),
+            })
+        };
+        claims.iter().zip(&all[1..]).map(decide).collect()
+    }
+}
+
+/// A value between two others, with few digits; none where they are nearly the same.
+fn middle(from: &Rational, to: &Rational) -> Option<Rational> {
+    if (to - from) * Rational::from_integer(FINEST.into()) <= *from {
+        return None;
+    }
+    let [low, high] = [from, to].map(|end| end.to_f64().unwrap_or(f64::NAN));
+    short((low * high).sqrt(), 7).filter(|middle| from < middle && middle < to)
+}
