@@ -35,8 +35,6 @@ pub enum NotOverSymbol {
     NoCommonMeasure,
     #[error("more than {MAX_STEPS_OVER_SYMBOL} steps")]
     TooManySteps,
-    #[error("rigid masses of different velocities meet")]
-    RigidImpact,
     #[error("something without mass moves, and nothing resists it")]
     Unresisted,
     #[error("the scene has no `{0}`")]
@@ -48,7 +46,8 @@ pub enum NotOverSymbol {
 impl NotOverSymbol {
     /// Whether fewer values at once may be followed.
     pub fn is_of_width(&self) -> bool {
-        matches!(self, NotOverSymbol::Value(EnclosureError::Ball(_) | EnclosureError::NotReal))
+        use NotOverSymbol::{Unresisted, Value};
+        matches!(self, Unresisted | Value(EnclosureError::Ball(_) | EnclosureError::NotReal))
     }
 }
 
@@ -260,7 +259,7 @@ impl<'a> Over<'a> {
             let numbers = node.map(|value| Ok::<_, NotOverSymbol>(value.number()))?;
             let passivity = Passivity::of(&numbers, &system.map(Varying::number));
             let passivity = passivity.map_err(EnclosureError::from)?;
-            let (state, errors) = self.start(exact, &system, &passivity)?;
+            let (state, errors) = self.start(&node, &system, &passivity)?;
             let driven = node.elements.iter().filter(|own| own.law.is_driven());
             let driven = driven.map(|own| {
                 let course = self.scaled.model().loads[&own.element].course.as_fraction();
@@ -275,22 +274,26 @@ impl<'a> Over<'a> {
     /// The state of a node at the start, with its errors.
     fn start(
         &self,
-        node: &Node<Fraction>,
+        node: &Node<Varying>,
         system: &System<Varying>,
         passivity: &Passivity,
     ) -> Outcome<(Vec<Varying>, Vec<StateError>)> {
+        let bits = self.symbol.bits;
         let (mut state, mut off) = (Vec::new(), Vec::new());
         for group in &system.heavy {
             let runs = (0..node.runs()).filter(|run| system.group[*run] == *group);
-            let mut velocities = runs.flat_map(|run| node.attached(run)).filter_map(|own| match &own.law {
-                ElementLaw::Mass { velocity, .. } => Some(velocity),
+            let masses = runs.flat_map(|run| node.attached(run)).filter_map(|own| match &own.law {
+                ElementLaw::Mass { mass, velocity } => Some((mass, velocity)),
                 _ => None,
             });
-            let first = velocities.next().ok_or(NotOverSymbol::Unresisted)?;
-            if velocities.any(|other| other != first) {
-                return Err(NotOverSymbol::RigidImpact);
+            // What strikes each other goes on with its momentum.
+            let (mut mass, mut momentum) = (Varying::zero(), Varying::zero());
+            for (own, velocity) in masses {
+                mass = mass.add(own, bits);
+                momentum = momentum.add(&own.multiply(velocity, bits), bits);
             }
-            let (velocity, error) = self.symbol.fraction(first)?.split();
+            let inverse = mass.reciprocal(bits).map_err(EnclosureError::from)?;
+            let (velocity, error) = momentum.multiply(&inverse, bits).split();
             state.push(velocity);
             off.push(error);
         }
