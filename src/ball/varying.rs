@@ -89,7 +89,8 @@ impl Varying {
     /// The square root; none where it may not be positive.
     pub fn sqrt(&self, bits: u64) -> Option<Varying> {
         let at_middle = self.coefficient(0).sqrt(bits)?;
-        let next = |factor: &Rational, k: i64| factor * Rational::new((3 - 2 * k).into(), (2 * k).into());
+        let next =
+            |factor: &Rational, k: i64| factor * Rational::new((3 - 2 * k).into(), (2 * k).into());
         self.composed(&at_middle, next, bits).ok()
     }
 

@@ -59,7 +59,8 @@ impl Envelope {
         let one = |(number, own): (usize, &OnStep)| {
             let start = Rational::from_integer(number.into());
             let part = |[from, to]: [&Rational; 2]| {
-                let part = [(from - &start).max(Rational::zero()), (to - &start).min(Rational::one())];
+                let part =
+                    [(from - &start).max(Rational::zero()), (to - &start).min(Rational::one())];
                 (part[0] <= part[1]).then_some(part)
             };
             let reach = part([&window.from[0], &window.to[1]])?;
@@ -99,7 +100,11 @@ impl Envelope {
         for _ in 0..HALVINGS {
             by /= Rational::from_integer(2.into());
             for beside in [&at - &by, &at + &by] {
-                let size = if *from <= beside && beside <= *to { step.at_least(&beside) } else { Rational::zero() };
+                let size = if *from <= beside && beside <= *to {
+                    step.at_least(&beside)
+                } else {
+                    Rational::zero()
+                };
                 if size > most {
                     (most, at) = (size, beside);
                 }

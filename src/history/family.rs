@@ -17,6 +17,7 @@ use crate::network::{
 use crate::scene::Drive;
 use num_integer::Integer as _;
 use num_traits::{One as _, Signed as _, ToPrimitive as _};
+use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// So many powers of time are kept on a step, which is no longer than the rates of the nodes allow.
@@ -129,7 +130,10 @@ impl<'a> Over<'a> {
         for (element, load) in &scaled.model().loads {
             let is_force = scaled.model().lumps[element] == ElementLaw::Load(Drive::Force);
             let always = load.from.is_zero() && load.until.is_none();
-            if !is_force || !always || load.course.as_fraction().is_none_or(|own| own.contains(&scene.time)) {
+            if !is_force
+                || !always
+                || load.course.as_fraction().is_none_or(|own| own.contains(&scene.time))
+            {
                 return Err(NotOverSymbol::Load(scene.elements[*element].name.clone()));
             }
         }
@@ -148,7 +152,11 @@ impl<'a> Over<'a> {
         let unit = &self.scaled.model().scale.time;
         let travels = self.scaled.model().bars.values().filter_map(|bar| bar.travel.as_ref());
         let delays = self.terms.iter().flat_map(|term| term.of.delays());
-        travels.chain(delays).filter(|time| !time.is_zero()).map(|time| Root::from(time).times(unit)).collect()
+        travels
+            .chain(delays)
+            .filter(|time| !time.is_zero())
+            .map(|time| Root::from(time).times(unit))
+            .collect()
     }
 
     /// A step that suits these scenes: the largest common measure of their times, halved until no node moves much on it.
@@ -157,13 +165,19 @@ impl<'a> Over<'a> {
     /// [`NotOverSymbol::NoCommonMeasure`]; else as [`Over::follow`].
     pub fn step(all: &[Over<'_>]) -> Outcome<Root> {
         let times: Vec<Root> = all.iter().flat_map(Over::times).collect();
-        let scale = || all.first().map_or_else(|| Root::from(Fraction::one()), |own| own.scaled.model().scale.time.clone());
+        let scale = || {
+            all.first().map_or_else(
+                || Root::from(Fraction::one()),
+                |own| own.scaled.model().scale.time.clone(),
+            )
+        };
         let first = times.first().cloned().unwrap_or_else(scale);
         let mut measure = Rational::one();
         for time in &times {
             let ratio = constant(&time.over(&first)?)?;
             let denominator = measure.denom().lcm(ratio.denom());
-            let counts = [&measure, &ratio].map(|own| own * Rational::from_integer(denominator.clone()));
+            let counts =
+                [&measure, &ratio].map(|own| own * Rational::from_integer(denominator.clone()));
             let [one, other] = counts.map(|count| count.to_integer());
             measure = Rational::new(one.gcd(&other), denominator);
         }
@@ -186,28 +200,45 @@ impl<'a> Over<'a> {
         Ok(self.symbol.root(&Root::from(Fraction::constant(time)).over(step)?)?)
     }
 
-    /// What is observed on the first steps, in the user's unit.
+    /// How many whole steps a time is, where the symbol has but one value.
+    ///
+    /// # Errors
+    /// [`NotOverSymbol::NoCommonMeasure`] where it is not known to be a whole number; else as [`OverSymbol::root`].
+    pub fn steps_until(&self, time: &Rational, step: &Root) -> Outcome<usize> {
+        let steps = self.in_steps(time, step)?.range();
+        let whole = Rational::from(steps.midpoint()).round();
+        let whole = whole.to_usize().filter(|_| steps.contains(&whole));
+        whole.ok_or(NotOverSymbol::NoCommonMeasure)
+    }
+
+    /// What is observed on the first steps, in the user's unit; from one of them on as if nothing more arrived, where that is
+    /// asked for.
     ///
     /// # Errors
     /// [`NotOverSymbol`].
-    pub fn follow(&self, step: &Root, count: usize) -> Outcome<Vec<OnStep>> {
+    pub fn follow(&self, step: &Root, count: usize, last: Option<usize>) -> Outcome<Vec<OnStep>> {
         if count > MAX_STEPS_OVER_SYMBOL {
             return Err(NotOverSymbol::TooManySteps);
         }
         let seen = self.seen(step)?;
-        let mut motion = Motion { waves: self.waves(step)?, places: self.places(step)? };
-        let mut observed = Vec::with_capacity(count);
-        for now in 0..count {
-            let solved: Vec<Solved> =
-                motion.places.iter().map(|place| place.solve(&motion.arriving(&place.node, now))).collect();
-            for (place, solved) in motion.places.iter_mut().zip(solved) {
-                place.take(solved);
+        let (waves, places) = (self.waves(step)?, self.places(step)?);
+        let mut motion = Motion { waves, places, known: BTreeMap::new() };
+        motion.follow(Course::Whole, count);
+        if let Some(last) = last {
+            let delays = seen.iter().filter_map(|(_, seen)| seen.delay());
+            for first in delays.chain([0]).filter_map(|delay| last.checked_sub(delay)) {
+                motion.follow(Course::From(first), count);
             }
-            let (factors, parts): (Vec<_>, Vec<_>) =
-                seen.iter().map(|(factor, seen)| (factor.clone(), motion.part(seen, now))).unzip();
-            observed.push(OnStep::sum(&factors, parts.iter()));
         }
-        Ok(observed)
+        let observed = |now: usize| {
+            let course = last.filter(|last| now >= *last).map_or(Course::Whole, Course::From);
+            let (factors, parts): (Vec<_>, Vec<_>) = seen
+                .iter()
+                .map(|(factor, seen)| (factor.clone(), motion.part(seen, course, now)))
+                .unzip();
+            OnStep::sum(&factors, parts.iter())
+        };
+        Ok((0..count).map(observed).collect())
     }
 
     /// The step in the scale of the scene.
@@ -229,7 +260,8 @@ impl<'a> Over<'a> {
                 [&bar.velocity, &bar.force, &bar.impedance].map(|own| self.symbol.fraction(own));
             let (velocity, force, impedance) = (velocity?, force?, impedance?);
             let bits = self.symbol.bits;
-            let pressed = force.multiply(&impedance.reciprocal(bits).map_err(EnclosureError::from)?, bits);
+            let pressed =
+                force.multiply(&impedance.reciprocal(bits).map_err(EnclosureError::from)?, bits);
             let before = [velocity.add(&pressed, bits), velocity.subtract(&pressed, bits)];
             let before = before.map(|own| OnStep::constant(&own.over(2, bits)));
             let lag = bar.travel.as_ref().map(|travel| self.lag(travel, step)).transpose()?;
@@ -249,24 +281,26 @@ impl<'a> Over<'a> {
             for own in &mut node.elements {
                 match &mut own.law {
                     ElementLaw::Mass { mass, .. } => *mass = mass.multiply(&inverse, bits),
-                    ElementLaw::Spring { stiffness, .. } | ElementLaw::Support { stiffness, .. } => {
+                    ElementLaw::Spring { stiffness, .. }
+                    | ElementLaw::Support { stiffness, .. } => {
                         *stiffness = stiffness.multiply(&step, bits);
                     }
                     _ => {}
                 }
             }
-            let system = System::of(&node, |_| true, bits).map_err(|_| NotOverSymbol::Unresisted)?;
+            let system =
+                System::of(&node, |_| true, bits).map_err(|_| NotOverSymbol::Unresisted)?;
             let numbers = node.map(|value| Ok::<_, NotOverSymbol>(value.number()))?;
             let passivity = Passivity::of(&numbers, &system.map(Varying::number));
             let passivity = passivity.map_err(EnclosureError::from)?;
-            let (state, errors) = self.start(&node, &system, &passivity)?;
+            let start = self.start(&node, &system, &passivity)?;
             let driven = node.elements.iter().filter(|own| own.law.is_driven());
             let driven = driven.map(|own| {
                 let course = self.scaled.model().loads[&own.element].course.as_fraction();
                 Ok(OnStep::constant(&self.symbol.fraction(&course.unwrap_or_else(Fraction::zero))?))
             });
             let driven = driven.collect::<Outcome<_>>()?;
-            places.push(Place { node, system, passivity, state, errors, driven, solved: Vec::new() });
+            places.push(Place { node, system, passivity, start, driven });
         }
         Ok(places)
     }
@@ -277,9 +311,9 @@ impl<'a> Over<'a> {
         node: &Node<Varying>,
         system: &System<Varying>,
         passivity: &Passivity,
-    ) -> Outcome<(Vec<Varying>, Vec<StateError>)> {
+    ) -> Outcome<NodeState> {
         let bits = self.symbol.bits;
-        let (mut state, mut off) = (Vec::new(), Vec::new());
+        let (mut values, mut off) = (Vec::new(), Vec::new());
         for group in &system.heavy {
             let runs = (0..node.runs()).filter(|run| system.group[*run] == *group);
             let masses = runs.flat_map(|run| node.attached(run)).filter_map(|own| match &own.law {
@@ -294,13 +328,16 @@ impl<'a> Over<'a> {
             }
             let inverse = mass.reciprocal(bits).map_err(EnclosureError::from)?;
             let (velocity, error) = momentum.multiply(&inverse, bits).split();
-            state.push(velocity);
+            values.push(velocity);
             off.push(error);
         }
-        state.resize(system.states(), Varying::zero());
+        values.resize(system.states(), Varying::zero());
         off.resize(system.states(), Magnitude::ZERO);
-        let errors = passivity.blocks.iter().map(|block| StateError::new(block.size(block.members.iter().map(|i| off[*i]))));
-        Ok((state, errors.collect()))
+        let errors = passivity
+            .blocks
+            .iter()
+            .map(|block| StateError::new(block.size(block.members.iter().map(|i| off[*i]))));
+        Ok(NodeState { values, errors: errors.collect() })
     }
 
     /// What is observed as parts of a motion, with factors.
@@ -323,21 +360,37 @@ impl<'a> Over<'a> {
                     // A length in steps, in the scale of the scene.
                     let step = self.symbol.root(&self.scaled_step(step)?)?;
                     let place = lump.place;
-                    seen.push((factor.multiply(&step, bits), Seen::Compression { node: lump.node, place }));
+                    seen.push((
+                        factor.multiply(&step, bits),
+                        Seen::Compression { node: lump.node, place },
+                    ));
                 }
                 Reading::Force(lump) => {
-                    let terms = Elements { model, layout }.force(lump).ok_or(NotOverSymbol::Contacts)?;
-                    left.extend(terms.into_iter().map(|term| (&coefficient * &term.coefficient, term.of)));
+                    let terms =
+                        Elements { model, layout }.force(lump).ok_or(NotOverSymbol::Contacts)?;
+                    left.extend(
+                        terms.into_iter().map(|term| (&coefficient * &term.coefficient, term.of)),
+                    );
                 }
-                Reading::InBar(field @ (Field::Velocity | Field::Force), Section { bar, delays }) => {
+                Reading::InBar(
+                    field @ (Field::Velocity | Field::Force),
+                    Section { bar, delays },
+                ) => {
                     let sign = if field == Field::Force { factor.negate() } else { factor.clone() };
                     let impedance = match field {
-                        Field::Force => self.symbol.fraction(&model.bars[&layout.bars[bar]].impedance)?,
+                        Field::Force => {
+                            self.symbol.fraction(&model.bars[&layout.bars[bar]].impedance)?
+                        }
                         _ => Varying::one(),
                     };
-                    for (direction, (factor, delay)) in [factor, sign].into_iter().zip(delays).enumerate() {
+                    for (direction, (factor, delay)) in
+                        [factor, sign].into_iter().zip(delays).enumerate()
+                    {
                         let delay = delay.map(|delay| self.lag(&delay, step)).transpose()?;
-                        seen.push((factor.multiply(&impedance, bits), Seen::Wave { bar, direction, delay }));
+                        seen.push((
+                            factor.multiply(&impedance, bits),
+                            Seen::Wave { bar, direction, delay },
+                        ));
                     }
                 }
                 _ => return Err(NotOverSymbol::Integral),
@@ -355,10 +408,29 @@ fn constant(value: &Root) -> Outcome<Rational> {
 
 /// Something that is observed of a motion.
 enum Seen {
-    Velocity { node: usize, run: usize },
-    Compression { node: usize, place: usize },
+    Velocity {
+        node: usize,
+        run: usize,
+    },
+    Compression {
+        node: usize,
+        place: usize,
+    },
     /// So many steps after it entered the bar.
-    Wave { bar: usize, direction: usize, delay: Option<usize> },
+    Wave {
+        bar: usize,
+        direction: usize,
+        delay: Option<usize>,
+    },
+}
+
+impl Seen {
+    fn delay(&self) -> Option<usize> {
+        match self {
+            Seen::Wave { delay, .. } => *delay,
+            _ => None,
+        }
+    }
 }
 
 struct Bar {
@@ -377,79 +449,152 @@ struct Solved {
     velocities: Vec<OnStep>,
     /// What leaves at its left and at its right.
     leaving: [OnStep; 2],
-    /// The state at the end.
-    state: Vec<Varying>,
+    end: NodeState,
+}
+
+/// The state of a node at an instant, and the error of each of its blocks.
+struct NodeState {
+    values: Vec<Varying>,
     errors: Vec<StateError>,
 }
 
-/// A node, as far as it is followed.
+/// A node, and its state at the start.
 struct Place {
     node: Node<Varying>,
     system: System<Varying>,
     passivity: Passivity,
-    state: Vec<Varying>,
-    errors: Vec<StateError>,
+    start: NodeState,
     driven: Vec<OnStep>,
-    solved: Vec<Solved>,
+}
+
+/// What is followed: the motion itself, or how it would go on if from a step on nothing more arrived.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Course {
+    Whole,
+    From(usize),
+}
+
+impl Course {
+    /// The course on which a wave is that left so long before; none where it was there before the start.
+    fn before(self, delay: usize) -> Option<Course> {
+        match self {
+            Course::Whole => Some(Course::Whole),
+            Course::From(step) => step.checked_sub(delay).map(Course::From),
+        }
+    }
+
+    /// Its first step.
+    fn first(self) -> usize {
+        match self {
+            Course::Whole => 0,
+            Course::From(step) => step,
+        }
+    }
 }
 
 struct Motion {
     waves: Vec<Bar>,
     places: Vec<Place>,
+    /// What each node does, step by step.
+    known: BTreeMap<Course, Vec<Vec<Solved>>>,
 }
 
 impl Motion {
-    /// A wave on the step on which it entered its bar: one before the first was there before the start.
-    fn entered(&self, bar: usize, direction: usize, step: Option<usize>) -> OnStep {
+    /// Follows a course until so many steps have passed since the start.
+    fn follow(&mut self, course: Course, count: usize) {
+        if self.known.contains_key(&course) {
+            return;
+        }
+        let first = course.first();
+        let lags: Vec<usize> = self.waves.iter().filter_map(|bar| bar.lag).collect();
+        for earlier in
+            lags.into_iter().filter_map(|lag| course.before(lag)).filter(|own| *own != course)
+        {
+            self.follow(earlier, count);
+        }
+        self.known.insert(course, Vec::new());
+        for now in first..count {
+            let solve = |(number, place): (usize, &Place)| {
+                let state = match now.checked_sub(1) {
+                    None => &place.start,
+                    Some(ended) if now == first => &self.solved(Course::Whole, ended)[number].end,
+                    Some(ended) => &self.solved(course, ended)[number].end,
+                };
+                place.solve(state, &self.arriving(&place.node, course, now))
+            };
+            let solved = self.places.iter().enumerate().map(solve).collect();
+            self.known.get_mut(&course).expect("it is followed").push(solved);
+        }
+    }
+
+    /// What the nodes do on a step.
+    fn solved(&self, course: Course, step: usize) -> &[Solved] {
+        &self.known[&course][step - course.first()]
+    }
+
+    /// A wave that entered its bar so many steps before: before the first it was what it was at the start.
+    fn entered(
+        &self,
+        (bar, direction): (usize, usize),
+        delay: Option<usize>,
+        course: Course,
+        now: usize,
+    ) -> OnStep {
         let own = &self.waves[bar];
-        match (own.ends[direction], step) {
-            (Some(node), Some(step)) => self.places[node].solved[step].leaving[1 - direction].clone(),
+        let entered =
+            delay.and_then(|delay| Some((course.before(delay)?, now.checked_sub(delay)?)));
+        match (own.ends[direction], entered) {
+            (Some(node), Some((course, step))) => {
+                self.solved(course, step)[node].leaving[1 - direction].clone()
+            }
             _ => own.before[direction].clone(),
         }
     }
 
     /// The waves that arrive at the left and at the right of a node.
-    fn arriving(&self, node: &Node<Varying>, now: usize) -> [OnStep; 2] {
-        let sides = [(node.left, 0), (node.right, 1)];
-        sides.map(|(side, direction)| match side {
-            Side::Bar(bar) => {
-                let step = self.waves[bar].lag.and_then(|lag| now.checked_sub(lag));
-                self.entered(bar, direction, step)
-            }
+    fn arriving(&self, node: &Node<Varying>, course: Course, now: usize) -> [OnStep; 2] {
+        [(node.left, 0), (node.right, 1)].map(|(side, direction)| match side {
+            Side::Bar(bar) => self.entered((bar, direction), self.waves[bar].lag, course, now),
             _ => OnStep::constant(&Varying::zero()),
         })
     }
 
-    fn part(&self, seen: &Seen, now: usize) -> OnStep {
+    fn part(&self, seen: &Seen, course: Course, now: usize) -> OnStep {
         match seen {
-            Seen::Velocity { node, run } => self.places[*node].solved[now].velocities[*run].clone(),
+            Seen::Velocity { node, run } => {
+                self.solved(course, now)[*node].velocities[*run].clone()
+            }
             Seen::Compression { node, place } => {
-                let own = &self.places[*node];
-                let kept = own.system.kept[*place];
-                kept.map_or_else(|| OnStep::constant(&Varying::zero()), |kept| own.solved[now].both[kept].clone())
+                let kept = self.places[*node].system.kept[*place];
+                let own = kept.map(|kept| self.solved(course, now)[*node].both[kept].clone());
+                own.unwrap_or_else(|| OnStep::constant(&Varying::zero()))
             }
             Seen::Wave { bar, direction, delay } => {
-                self.entered(*bar, *direction, delay.and_then(|delay| now.checked_sub(delay)))
+                self.entered((*bar, *direction), *delay, course, now)
             }
         }
     }
 }
 
 impl Place {
-    /// What the node does on its next step.
+    /// What the node does on a step that begins with this state.
     ///
     /// `P` solves `y' = A y + B u` up to a residual `ρ`, what is rounded and what the last term leaves. So the error
     /// `e = y − P` obeys `e' = A e + B e_u + ρ`: where it begins with `|e| ≤ ε`, it is `ε + ∫|ρ| + |B e_u| ∫|e^(Ax)|` at most.
-    fn solve(&self, arriving: &[OnStep; 2]) -> Solved {
+    fn solve(&self, start: &NodeState, arriving: &[OnStep; 2]) -> Solved {
         let (system, bits) = (&self.system, MAX_SYMBOL_BITS);
         let blocks = &self.passivity.blocks;
         let acting: Vec<&OnStep> = arriving.iter().chain(&self.driven).collect();
         let mut off = vec![Magnitude::ZERO; blocks.len()];
-        let mut columns = vec![self.state.clone()];
+        let mut columns = vec![start.values.clone()];
         for k in 0..TERMS {
-            let both: Vec<Varying> =
-                columns[k].iter().cloned().chain(acting.iter().map(|own| own.coefficient(k))).collect();
-            let next = system.change.iter().map(|row| dot(row, &both, bits).over(k as u64 + 1, bits));
+            let both: Vec<Varying> = columns[k]
+                .iter()
+                .cloned()
+                .chain(acting.iter().map(|own| own.coefficient(k)))
+                .collect();
+            let next =
+                system.change.iter().map(|row| dot(row, &both, bits).over(k as u64 + 1, bits));
             let (next, left): (Vec<Varying>, Vec<Magnitude>) = match k + 1 < TERMS {
                 true => next.map(|own| own.split()).unzip(),
                 false => next.map(|own| (Varying::zero(), own.magnitude())).unzip(),
@@ -463,12 +608,12 @@ impl Place {
         let sums = (0..system.states()).map(|i| {
             columns.iter().fold(Varying::zero(), |sum, column| sum.add(&column[i], bits)).split()
         });
-        let (state, rounded): (Vec<Varying>, Vec<Magnitude>) = sums.unzip();
+        let (values, rounded): (Vec<Varying>, Vec<Magnitude>) = sums.unzip();
         let mut on_step = vec![Magnitude::ZERO; system.states()];
         let mut errors = Vec::with_capacity(blocks.len());
         let one = Number::one();
         let arrived: Vec<Magnitude> = acting.iter().map(|own| own.error).collect();
-        for ((block, error), off) in blocks.iter().zip(&self.errors).zip(off) {
+        for ((block, error), off) in blocks.iter().zip(&start.errors).zip(off) {
             let added = off.add(&block.push(&arrived).multiply(&block.memory(&one.magnitude())));
             let most = error.size().add(&added);
             for (place, member) in block.members.iter().enumerate() {
@@ -483,19 +628,14 @@ impl Place {
         });
         let both: Vec<OnStep> = own.chain(acting.into_iter().cloned()).collect();
         let runs = system.group.len();
-        let velocities = system.output[..runs].iter().map(|row| OnStep::sum(row, both.iter())).collect();
+        let velocities =
+            system.output[..runs].iter().map(|row| OnStep::sum(row, both.iter())).collect();
         let leaving = [(0, 0), (1, runs - 1)].map(|(side, run)| {
             let mut row = system.output[run].clone();
             let own = &mut row[system.states() + side];
             *own = own.subtract(&Varying::one(), bits);
             OnStep::sum(&row, both.iter())
         });
-        Solved { both, velocities, leaving, state, errors }
-    }
-
-    fn take(&mut self, solved: Solved) {
-        self.state.clone_from(&solved.state);
-        self.errors.clone_from(&solved.errors);
-        self.solved.push(solved);
+        Solved { both, velocities, leaving, end: NodeState { values, errors } }
     }
 }

@@ -196,12 +196,7 @@ struct Motion<'a, V> {
 }
 
 impl<V: Arithmetic> Law<'_, V> {
-    fn of<'a>(
-        node: &'a Node<V>,
-        group: Vec<usize>,
-        idle: &[bool],
-        bits: u64,
-    ) -> Law<'a, V> {
+    fn of<'a>(node: &'a Node<V>, group: Vec<usize>, idle: &[bool], bits: u64) -> Law<'a, V> {
         let groups = group.last().expect("one run at least") + 1;
         let (mut mass, mut held) = (vec![V::zero(); groups], vec![false; groups]);
         for (run, group) in group.iter().enumerate() {
@@ -320,8 +315,7 @@ impl<V: Arithmetic> Law<'_, V> {
             let (state, input) = unit.split_at(states);
             let mut motion = Motion { state, input, velocities: self.given(state, input) };
             let forces = self.forces(&motion);
-            let rest: Vec<V> =
-                massless.iter().map(|group| self.sum(&forces, *group)).collect();
+            let rest: Vec<V> = massless.iter().map(|group| self.sum(&forces, *group)).collect();
             for (group, row) in massless.iter().zip(&inverse) {
                 motion.velocities[*group] = dot(row, &rest, bits);
             }

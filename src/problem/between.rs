@@ -7,9 +7,11 @@ use super::enough_map::{MapRequest, short};
 use super::{Problem, ProblemError, Simpler};
 use crate::history::envelope::{Envelope, StepsOf};
 use crate::history::family::{NotOverSymbol, OnStep, Over};
-use crate::language::{self, Stated};
+use crate::language::{self, Change, Stated};
 use crate::limits::MAX_PARTS_OVER_SYMBOL;
 use crate::network::ScaledScene;
+use crate::planner::Purpose;
+use crate::signal::Limit;
 use num_traits::{One as _, ToPrimitive as _, Zero as _};
 use wavestep_polynomial::{Rational, Symbol};
 
@@ -37,8 +39,15 @@ pub(super) struct Claim<'s> {
 /// A claim as far as it is proven.
 struct Open<'c> {
     place: usize,
-    scene: &'c ScaledScene,
+    answer: &'c Followed,
     is_enough: bool,
+}
+
+/// A simpler answer for all values of the symbol.
+enum Followed {
+    Scene(Box<ScaledScene>),
+    /// When the last arrival that counts comes, at values of the symbol.
+    Until(Vec<(Rational, Rational)>),
 }
 
 struct Prover<'a> {
@@ -59,13 +68,13 @@ impl Problem {
         [from, to]: [&Rational; 2],
         claims: &[Claim<'_>],
     ) -> Vec<Between> {
-        let scenes: Vec<_> = claims.iter().map(|claim| self.scene_of(claim.simpler)).collect();
         let prepared = || {
             let symbol = Symbol::new(&asked.range.symbol).ok_or("no symbol")?;
             // A window that is known with the symbol in place is one for all values.
             let window = |problem: &Problem| (asked.window)(problem).ok();
             let at = |value| window(&self.substituted(&asked.range.symbol, value).ok()?);
-            let all = window(self).filter(|own| [at(from), at(to)].iter().all(|at| at.as_ref() == Some(own)));
+            let all = window(self)
+                .filter(|own| [at(from), at(to)].iter().all(|at| at.as_ref() == Some(own)));
             let window = all.ok_or("the window is another one for each value")?;
             let exact = self.scaled().map_err(|error| error.to_string())?;
             Ok::<_, String>((symbol, window, exact))
@@ -74,7 +83,9 @@ impl Problem {
             Ok(prepared) => prepared,
             Err(why) => return claims.iter().map(|_| Between::Unproven(why.clone())).collect(),
         };
-        let proven = scenes.iter().map(|scene| match scene {
+        let answers = claims.iter().map(|claim| self.followed(asked, claim.simpler, [from, to]));
+        let answers: Vec<_> = answers.collect();
+        let proven = answers.iter().map(|answer| match answer {
             Ok(_) => Between::Proven(0),
             Err(why) => Between::Unproven(why.clone()),
         });
@@ -87,27 +98,58 @@ impl Problem {
             proven: proven.collect(),
             parts: 0,
         };
-        let open = claims.iter().zip(&scenes).enumerate().filter_map(|(place, (claim, scene))| {
-            Some(Open { place, scene: scene.as_ref().ok()?, is_enough: claim.is_enough })
-        });
+        let open =
+            claims.iter().zip(&answers).enumerate().filter_map(|(place, (claim, answer))| {
+                Some(Open { place, answer: answer.as_ref().ok()?, is_enough: claim.is_enough })
+            });
         let open: Vec<Open<'_>> = open.collect();
         prover.prove([from, to], &open.iter().collect::<Vec<_>>());
         prover.proven
     }
 
-    /// The scene of a simpler answer, with its symbols.
-    fn scene_of(&self, simpler: &Simpler) -> Result<ScaledScene, String> {
-        let Simpler::Scene(changes) = simpler else {
-            return Err("only scenes are followed over a symbol".to_owned());
-        };
-        let read = || {
+    /// A simpler answer for all values of the symbol.
+    fn followed(
+        &self,
+        asked: &MapRequest<'_>,
+        simpler: &Simpler,
+        ends: [&Rational; 2],
+    ) -> Result<Followed, String> {
+        let scene = |changes: &[Change]| {
             let source = language::changed(&self.source, changes)?;
             match language::read(&source, &self.values)? {
-                Stated::Scene(scene) => Ok(ScaledScene::of(&scene)?),
+                Stated::Scene(scene) => Ok(Followed::Scene(Box::new(ScaledScene::of(&scene)?))),
                 Stated::Recurrence(_) => Err(ProblemError::Equations(self.title().to_owned())),
             }
         };
-        read().map_err(|error| super::advise::first_line(&error))
+        let told = |error: ProblemError| super::advise::first_line(&error);
+        match simpler {
+            Simpler::Scene(changes) => scene(changes).map_err(told),
+            Simpler::Modes(_) => Err("modes are not followed over a symbol".to_owned()),
+            Simpler::Arrivals(count) => {
+                let arrival = |value: &Rational| {
+                    let time = self.arrival(asked, value, *count).map_err(told)?;
+                    Ok::<_, String>(time.map(|time| (value.clone(), time)))
+                };
+                let known = ends.map(arrival).into_iter().collect::<Result<Vec<_>, _>>()?;
+                let known: Vec<_> = known.into_iter().flatten().collect();
+                let none = || Err("so many arrivals come at neither end".to_owned());
+                if known.is_empty() { none() } else { Ok(Followed::Until(known)) }
+            }
+        }
+    }
+
+    /// When an arrival comes at a value of the symbol, where there are so many in a window from the start on.
+    fn arrival(
+        &self,
+        asked: &MapRequest<'_>,
+        value: &Rational,
+        number: usize,
+    ) -> Result<Option<Rational>, ProblemError> {
+        let problem = self.substituted(&asked.range.symbol, value)?;
+        let (window, wanted) = ((asked.window)(&problem)?, problem.wanted(asked.quantity)?);
+        let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Stretches)?;
+        let is_there = window[0].is_zero() && number < signal.count()?;
+        Ok(is_there.then(|| signal.exact_time(number, Limit::Right)).flatten())
     }
 }
 
@@ -154,20 +196,30 @@ impl Prover<'_> {
         }
     }
 
+    fn over<'s>(
+        &'s self,
+        scene: &'s ScaledScene,
+        between: [&'s Rational; 2],
+    ) -> Result<Over<'s>, NotOverSymbol> {
+        Over::new(scene, self.quantity, (&self.symbol, between))
+    }
+
     /// Which claims are proven of all values between two at once.
     fn decided(
         &self,
         between: [&Rational; 2],
         claims: &[&Open<'_>],
     ) -> Result<Vec<bool>, NotOverSymbol> {
-        let over = |scene| Over::new(scene, self.quantity, (&self.symbol, between));
-        let scenes = std::iter::once(self.exact).chain(claims.iter().map(|claim| claim.scene));
-        let all = scenes.map(over).collect::<Result<Vec<_>, _>>()?;
+        let scenes = claims.iter().map(|claim| match claim.answer {
+            Followed::Scene(scene) => &**scene,
+            Followed::Until(_) => self.exact,
+        });
+        let all = std::iter::once(self.exact).chain(scenes).map(|scene| self.over(scene, between));
+        let all = all.collect::<Result<Vec<_>, _>>()?;
         let step = Over::step(&all)?;
         let [from, to] = self.window.each_ref().map(|time| all[0].in_steps(time, &step));
         let window = StepsOf::new([&from?, &to?]);
-        let follow = |own: &Over<'_>| own.follow(&step, window.count());
-        let exact = follow(&all[0])?;
+        let exact = all[0].follow(&step, window.count(), None)?;
         let size = Envelope::of(&exact, &window);
         let reached = size.reached();
         if reached.is_zero() {
@@ -179,7 +231,18 @@ impl Prover<'_> {
         });
         let most = above.into_iter().find(|most| size.is_within(most));
         let decide = |(claim, own): (&&Open<'_>, &Over<'_>)| {
-            let other = follow(own)?;
+            let last = match claim.answer {
+                Followed::Scene(_) => None,
+                Followed::Until(known) => {
+                    let steps = |(value, time): &(Rational, Rational)| {
+                        self.over(self.exact, [value; 2])?.steps_until(time, &step)
+                    };
+                    let steps = known.iter().map(steps).collect::<Result<Vec<_>, _>>()?;
+                    let is_one = steps.windows(2).all(|pair| pair[0] == pair[1]);
+                    Some(is_one.then_some(steps[0]).ok_or(NotOverSymbol::NoCommonMeasure)?)
+                }
+            };
+            let other = own.follow(&step, window.count(), last)?;
             let off = |(one, other): (&OnStep, &OnStep)| one.less(other);
             let off: Vec<OnStep> = exact.iter().zip(&other).map(off).collect();
             let off = Envelope::of(&off, &window);

@@ -112,7 +112,11 @@ impl Told<'_> {
     }
 
     /// What is proven of all values of a run, in lines.
-    fn proven(&self, ProvenRun { enough, cheaper }: &ProvenRun, first: Option<usize>) -> Vec<String> {
+    fn proven(
+        &self,
+        ProvenRun { enough, cheaper }: &ProvenRun,
+        first: Option<usize>,
+    ) -> Vec<String> {
         let name = |place: usize| self.map.simpler[place].to_string();
         let parts = |parts: &usize| match parts {
             1 => "at once".to_owned(),
