@@ -13,10 +13,10 @@ use wavestep_polynomial::Rational;
 
 /// In so many parts a step is cut for values that are taken, and how often these are halved about the largest.
 const PARTS: i64 = 8;
-const HALVINGS: usize = 6;
+const HALVINGS: usize = 12;
 
 /// How often a step is halved for a bound.
-const DEPTH: usize = 10;
+const DEPTH: usize = 14;
 
 /// A function on a step.
 struct OneStep {

@@ -16,7 +16,7 @@ use crate::network::{
 };
 use crate::scene::Drive;
 use num_integer::Integer as _;
-use num_traits::{One as _, Signed as _, ToPrimitive as _};
+use num_traits::{One as _, ToPrimitive as _};
 use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
 
@@ -403,7 +403,7 @@ impl<'a> Over<'a> {
 /// A value that is one number, whatever the symbol is.
 fn constant(value: &Root) -> Outcome<Rational> {
     let value = value.exact().and_then(|value| value.as_constant());
-    value.filter(Rational::is_positive).ok_or(NotOverSymbol::NoCommonMeasure)
+    value.ok_or(NotOverSymbol::NoCommonMeasure)
 }
 
 /// Something that is observed of a motion.

@@ -19,15 +19,17 @@ use wavestep_polynomial::{Rational, Symbol};
 const FINEST: i64 = 1 << 14;
 
 /// A bound of the largest value is tried that is above one that is reached by these powers of two of it.
-const ABOVE: [i32; 4] = [-14, -10, -6, -1];
+const ABOVE: [i32; 4] = [-20, -14, -8, -1];
 
-/// Whether something is proven of all values between two.
+/// In a window so many times as long an arrival is looked for.
+const LONGER: [i64; 3] = [1, 2, 4];
+
+/// Why something is not proven of all values between two.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Between {
-    /// Of each of so many parts.
-    Proven(usize),
-    /// Why it is not.
-    Unproven(String),
+pub struct Unproven {
+    pub why: String,
+    /// Nearly the same values between which it is not decided, where it is not for another reason.
+    pub undecided: Option<[Rational; 2]>,
 }
 
 /// What is to be proven of a simpler answer: that it is enough, or that it is not.
@@ -56,18 +58,22 @@ struct Prover<'a> {
     quantity: &'a str,
     window: [Rational; 2],
     tolerance: &'a Rational,
-    proven: Vec<Between>,
+    /// Of each claim, once it is not.
+    unproven: Vec<Option<Unproven>>,
+    /// How many parts were looked at, and how many of them were not cut.
     parts: usize,
+    kept: usize,
 }
 
 impl Problem {
-    /// Which of some claims hold for all values of the symbol from one to another.
+    /// Which of some claims are not proven for all values of the symbol from one to another, and in how many parts the others
+    /// are.
     pub(super) fn prove_between(
         &self,
         asked: &MapRequest<'_>,
         [from, to]: [&Rational; 2],
         claims: &[Claim<'_>],
-    ) -> Vec<Between> {
+    ) -> (Vec<Option<Unproven>>, usize) {
         let prepared = || {
             let symbol = Symbol::new(&asked.range.symbol).ok_or("no symbol")?;
             // A window that is known with the symbol in place is one for all values.
@@ -81,22 +87,21 @@ impl Problem {
         };
         let (symbol, window, exact) = match prepared() {
             Ok(prepared) => prepared,
-            Err(why) => return claims.iter().map(|_| Between::Unproven(why.clone())).collect(),
+            Err(why) => return (vec![Some(Unproven::because(why)); claims.len()], 0),
         };
         let answers = claims.iter().map(|claim| self.followed(asked, claim.simpler, [from, to]));
         let answers: Vec<_> = answers.collect();
-        let proven = answers.iter().map(|answer| match answer {
-            Ok(_) => Between::Proven(0),
-            Err(why) => Between::Unproven(why.clone()),
-        });
+        let refused = answers.iter().map(|answer| answer.as_ref().err());
+        let unproven = refused.map(|why| why.cloned().map(Unproven::because)).collect();
         let mut prover = Prover {
             exact,
             symbol,
             quantity: asked.quantity,
             window,
             tolerance: &asked.tolerance,
-            proven: proven.collect(),
+            unproven,
             parts: 0,
+            kept: 0,
         };
         let open =
             claims.iter().zip(&answers).enumerate().filter_map(|(place, (claim, answer))| {
@@ -104,7 +109,7 @@ impl Problem {
             });
         let open: Vec<Open<'_>> = open.collect();
         prover.prove([from, to], &open.iter().collect::<Vec<_>>());
-        prover.proven
+        (prover.unproven, prover.kept)
     }
 
     /// A simpler answer for all values of the symbol.
@@ -132,13 +137,14 @@ impl Problem {
                 };
                 let known = ends.map(arrival).into_iter().collect::<Result<Vec<_>, _>>()?;
                 let known: Vec<_> = known.into_iter().flatten().collect();
-                let none = || Err("so many arrivals come at neither end".to_owned());
+                let none = || Err("so many arrivals are not found".to_owned());
                 if known.is_empty() { none() } else { Ok(Followed::Until(known)) }
             }
         }
     }
 
-    /// When an arrival comes at a value of the symbol, where there are so many in a window from the start on.
+    /// When an arrival comes at a value of the symbol, in a window from the start on or a longer one; none where no such
+    /// arrival is found.
     fn arrival(
         &self,
         asked: &MapRequest<'_>,
@@ -146,51 +152,57 @@ impl Problem {
         number: usize,
     ) -> Result<Option<Rational>, ProblemError> {
         let problem = self.substituted(&asked.range.symbol, value)?;
-        let (window, wanted) = ((asked.window)(&problem)?, problem.wanted(asked.quantity)?);
-        let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Stretches)?;
-        let is_there = window[0].is_zero() && number < signal.count()?;
-        Ok(is_there.then(|| signal.exact_time(number, Limit::Right)).flatten())
+        let ([from, to], wanted) = ((asked.window)(&problem)?, problem.wanted(asked.quantity)?);
+        for longer in LONGER.into_iter().filter(|_| from.is_zero()) {
+            let to = &to * Rational::from_integer(longer.into());
+            let signal = problem.signal_on(&wanted, [&from, &to], Purpose::Stretches)?;
+            if number < signal.count()? && !signal.is_instant(number) {
+                return Ok(signal.exact_time(number, Limit::Right));
+            }
+        }
+        Ok(None)
+    }
+}
+
+impl Unproven {
+    fn because(why: impl Into<String>) -> Unproven {
+        Unproven { why: why.into(), undecided: None }
     }
 }
 
 impl Prover<'_> {
     /// Proves what is claimed of all values between two, in parts where it must be.
     fn prove(&mut self, [from, to]: [&Rational; 2], claims: &[&Open<'_>]) {
-        let is_open = |own: &&&Open<'_>| matches!(self.proven[own.place], Between::Proven(_));
+        let is_open = |own: &&&Open<'_>| self.unproven[own.place].is_none();
         let claims: Vec<&Open<'_>> = claims.iter().filter(is_open).copied().collect();
         if claims.is_empty() {
             return;
         }
         self.parts += 1;
-        let (mut undecided, mut why) = (Vec::new(), None);
-        match self.decided([from, to], &claims) {
+        let (undecided, refused) = match self.decided([from, to], &claims) {
             Ok(decided) => {
-                for (claim, is_proven) in claims.into_iter().zip(decided) {
-                    match &mut self.proven[claim.place] {
-                        Between::Proven(parts) if is_proven => *parts += 1,
-                        _ => undecided.push(claim),
-                    }
-                }
+                let both = claims.into_iter().zip(decided);
+                (both.filter(|(_, is_proven)| !is_proven).map(|(claim, _)| claim).collect(), None)
             }
-            Err(error) => (undecided, why) = (claims, Some(error)),
-        }
-        if undecided.is_empty() {
-            return;
-        }
-        let is_final = why.as_ref().is_some_and(|why| !why.is_of_width());
-        let middle = if is_final { None } else { middle(from, to) };
-        match middle.filter(|_| self.parts < MAX_PARTS_OVER_SYMBOL) {
+            Err(error) => (claims, (!error.is_of_width()).then_some(error)),
+        };
+        let middle =
+            middle(from, to).filter(|_| refused.is_none() && self.parts < MAX_PARTS_OVER_SYMBOL);
+        match middle.filter(|_| !undecided.is_empty()) {
             Some(middle) => {
                 self.prove([from, &middle], &undecided);
                 self.prove([&middle, to], &undecided);
             }
             None => {
-                let [low, high] = [from, to].map(|end| end.to_f64().unwrap_or(f64::NAN));
-                let symbol = self.symbol.name();
-                let at = format!("undecided for {low:.6} <= {symbol} <= {high:.6}");
-                let told = why.filter(|_| is_final).map_or(at, |why| why.to_string());
+                self.kept += 1;
                 for claim in undecided {
-                    self.proven[claim.place] = Between::Unproven(told.clone());
+                    self.unproven[claim.place] = Some(match &refused {
+                        Some(error) => Unproven::because(error.to_string()),
+                        None => Unproven {
+                            undecided: Some([from, to].map(Rational::clone)),
+                            ..Unproven::because("undecided")
+                        },
+                    });
                 }
             }
         }

@@ -3,7 +3,7 @@
 //! At some values of the symbol the largest difference of each simpler answer is proven. Where the first that is enough
 //! for a tolerance differs between two neighbours, what lies between them is halved until both are nearly the same.
 
-use super::between::{Between, Claim};
+use super::between::{Claim, Unproven};
 use super::comparison::Comparison;
 use super::{Problem, ProblemError, Simpler, number};
 use crate::language::syntax::Declared;
@@ -15,6 +15,9 @@ use wavestep_polynomial::Rational;
 
 /// Neighbours of a border differ by one in so many.
 const FINE: i64 = 1000;
+
+/// So many values are looked at besides, where a proof leaves something open.
+const MOST_MISSED: usize = 24;
 
 /// The numbers of arrivals, and of modes, that are tried where nothing else is said.
 const COUNTS: [usize; 5] = [1, 2, 4, 8, 16];
@@ -116,6 +119,11 @@ pub fn runs<S: PartialEq, E>(
     Ok(runs)
 }
 
+/// The first answer that is enough.
+fn first_enough(off: &[Option<[Rational; 2]>], tolerance: &Rational) -> Option<usize> {
+    off.iter().position(|own| own.as_ref().is_some_and(|[_, most]| most <= tolerance))
+}
+
 /// What is asked.
 pub struct MapRequest<'a> {
     pub range: &'a SymbolRange,
@@ -139,13 +147,14 @@ pub struct Column {
     pub off: Vec<Option<[Rational; 2]>>,
 }
 
-/// What is proven of all values from the first to the last of a run.
+/// What is proven of all values from the first to the last of a run: that its answer is enough, and that none of those
+/// before it is that suit at one end at least.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ProvenRun {
-    /// That its answer is enough; nothing is to be proven of the exact one.
-    pub enough: Option<Between>,
-    /// Of each answer before it that suits at one end at least: that it is not enough.
-    pub cheaper: Vec<(usize, Between)>,
+    /// In how many parts.
+    pub parts: usize,
+    /// The answers of which it is not proven.
+    pub but: Vec<(usize, Unproven)>,
 }
 
 /// Which simpler answer is enough where.
@@ -197,36 +206,74 @@ impl Problem {
             false => asked.simpler.clone(),
         };
         let values = geometrically_spaced(&range.from, &range.to, *points);
-        let (mut columns, mut suiting) = (Vec::new(), BTreeMap::new());
-        let runs = runs(values.iter().cloned(), |value| {
-            tell(value);
-            let off = self.substituted(&range.symbol, value)?.shares(asked, &simpler)?;
-            let is_enough = |own: &Option<[Rational; 2]>| {
-                own.as_ref().is_some_and(|[_, most]| most <= tolerance)
-            };
-            let first = off.iter().position(is_enough);
-            suiting.insert(value.clone(), off.iter().map(Option::is_some).collect::<Vec<_>>());
-            if values.contains(value) {
-                columns.push(Column { value: value.clone(), off });
+        let mut known = BTreeMap::new();
+        let mut off_at = |value: &Rational| {
+            if !known.contains_key(value) {
+                tell(value);
+                let off = self.substituted(&range.symbol, value)?.shares(asked, &simpler)?;
+                known.insert(value.clone(), off);
             }
-            Ok::<_, ProblemError>(first)
-        })?;
-        let prove = |Run { between, state }: &Run<Option<usize>>| {
-            tell(&between[0]);
-            let suits = |place: usize| between.iter().any(|value| suiting[value][place]);
-            let places = (0..state.unwrap_or(simpler.len())).filter(|place| suits(*place));
-            let places: Vec<usize> = places.chain(*state).collect();
-            let claim = |place: &usize| Claim {
-                simpler: &simpler[*place],
-                is_enough: *state == Some(*place),
-            };
-            let claims: Vec<Claim<'_>> = places.iter().map(claim).collect();
-            let mut proven = self.prove_between(asked, between.each_ref(), &claims);
-            let enough = state.and_then(|_| proven.pop());
-            ProvenRun { enough, cheaper: places.into_iter().zip(proven).collect() }
+            Ok::<_, ProblemError>(known[value].clone())
         };
-        let proven = runs.iter().map(prove).collect();
+        let (mut looked, mut proven) = (values.clone(), Vec::new());
+        let runs = loop {
+            let runs = runs(looked.iter().cloned(), |value| {
+                Ok::<_, ProblemError>(first_enough(&off_at(value)?, tolerance))
+            })?;
+            let mut before = std::mem::take(&mut proven);
+            let mut missed = Vec::new();
+            for run in &runs {
+                let place = before.iter().position(|(own, _)| own == run);
+                let own = match place {
+                    Some(place) => before.swap_remove(place).1,
+                    None => {
+                        tell(&run.between[0]);
+                        let [from, to] = &run.between;
+                        let suits = [off_at(from)?, off_at(to)?];
+                        self.proven_run(asked, &simpler, run, |place| {
+                            suits.iter().any(|off| off[place].is_some())
+                        })
+                    }
+                };
+                // Where it is not decided there may be a border that no value has shown.
+                missed.extend(
+                    own.but.iter().filter_map(|(_, unproven)| unproven.undecided.clone()).flatten(),
+                );
+                proven.push((run.clone(), own));
+            }
+            missed.retain(|value| !looked.contains(value));
+            if missed.is_empty() || looked.len() > values.len() + MOST_MISSED {
+                break runs;
+            }
+            looked.extend(missed);
+            looked.sort();
+            looked.dedup();
+        };
+        let columns = values.into_iter().map(|value| Ok(Column { off: off_at(&value)?, value }));
+        let columns = columns.collect::<Result<_, ProblemError>>()?;
+        let proven = proven.into_iter().map(|(_, own)| own).collect();
         Ok(EnoughMap { simpler, columns, runs, proven })
+    }
+
+    /// What is proven of all values of a run.
+    fn proven_run(
+        &self,
+        asked: &MapRequest<'_>,
+        simpler: &[Simpler],
+        Run { between: [from, to], state }: &Run<Option<usize>>,
+        suits: impl Fn(usize) -> bool,
+    ) -> ProvenRun {
+        let before = (0..state.unwrap_or(simpler.len())).filter(|place| suits(*place));
+        let places: Vec<usize> = before.chain(*state).collect();
+        if from == to {
+            return ProvenRun { parts: 1, but: Vec::new() };
+        }
+        let claim =
+            |place: &usize| Claim { simpler: &simpler[*place], is_enough: *state == Some(*place) };
+        let claims: Vec<Claim<'_>> = places.iter().map(claim).collect();
+        let (unproven, parts) = self.prove_between(asked, [from, to], &claims);
+        let but = places.into_iter().zip(unproven);
+        ProvenRun { parts, but: but.filter_map(|(place, own)| Some((place, own?))).collect() }
     }
 
     /// How far simpler answers are off, over the largest value.

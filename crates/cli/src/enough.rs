@@ -10,7 +10,7 @@ use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
 use wavestep::ball::{Bound, in_decimals};
 use wavestep::problem::{
-    Between, Column, EnoughMap, MapRequest, Problem, ProvenRun, Run, SymbolRange,
+    Column, EnoughMap, MapRequest, Problem, ProvenRun, Run, SymbolRange, Unproven,
 };
 use wavestep_draw::{Axis, Caption, Chart, Curve, Curves};
 
@@ -111,27 +111,24 @@ impl Told<'_> {
         text
     }
 
-    /// What is proven of all values of a run, in lines.
-    fn proven(
-        &self,
-        ProvenRun { enough, cheaper }: &ProvenRun,
-        first: Option<usize>,
-    ) -> Vec<String> {
-        let name = |place: usize| self.map.simpler[place].to_string();
-        let parts = |parts: &usize| match parts {
-            1 => "at once".to_owned(),
-            parts => format!("in {parts} parts"),
-        };
-        let mut lines = Vec::new();
-        let claims = first.into_iter().zip(enough).map(|(place, own)| (name(place), "enough", own));
-        let cheaper = cheaper.iter().map(|(place, own)| (name(*place), "not enough", own));
-        for (name, what, own) in claims.chain(cheaper) {
-            lines.push(match own {
-                Between::Proven(count) => format!("{name} {what}: proven, {}", parts(count)),
-                Between::Unproven(why) => format!("{name} {what}: not proven between, {why}"),
-            });
+    /// What is proven of all values of a run, and what is not, in lines.
+    fn proven(&self, ProvenRun { parts, but }: &ProvenRun, first: Option<usize>) -> Vec<String> {
+        if but.is_empty() {
+            let parts =
+                if *parts == 1 { "at once".to_owned() } else { format!("in {parts} parts") };
+            return vec![format!("proven for all values, {parts}")];
         }
-        lines
+        let line = |(place, Unproven { why, undecided }): &(usize, Unproven)| {
+            let enough = if first == Some(*place) { "enough" } else { "not enough" };
+            let between = undecided.as_ref().map_or(String::new(), |[from, to]| {
+                format!(" for {} to {}", in_decimals(from), in_decimals(to))
+            });
+            format!(
+                "not proven for all values that {} is {enough}: {why}{between}",
+                self.map.simpler[*place]
+            )
+        };
+        but.iter().map(line).collect()
     }
 
     /// Marks on the line of the tolerance, where another answer is the first that is enough.
