@@ -1,13 +1,14 @@
 //! How large a function of time is at most and at least, for all values of a symbol.
 //!
 //! On a step `f(x, ν) = p₀(x) + p₁(x) ν + r` with `|r| ≤ R`, where the parameter `ν` of the symbol lies between −1 and 1. A
-//! linear function of `ν` is largest at an end: `|f| ≤ max |p₀ ± p₁| + R`. So bounds are as near as the curvature over the symbol
-//! is small.
+//! linear function of `ν` lies between its ends, so sizes are told of both, `|p₀ ± p₁|` more or less `R`: in between they are no larger
+//! than the same mean of two bounds, and no smaller than that of two sizes that are reached. So sizes that change alike are
+//! compared as nearly as the curvature over the symbol allows.
 
 use crate::ball::{Ball, Magnitude, Varying};
 use crate::history::family::OnStep;
 use crate::limits::MAX_SYMBOL_BITS as BITS;
-use num_traits::{One as _, Signed as _, ToPrimitive as _, Zero as _};
+use num_traits::{One as _, ToPrimitive as _, Zero as _};
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
@@ -28,25 +29,19 @@ struct OneStep {
     rest: Magnitude,
 }
 
+/// What a size is at both ends of the symbol.
+pub type Ends = [Rational; 2];
+
 /// A function on a window.
 pub struct Envelope(Vec<OneStep>);
 
-/// The steps that a window has, in steps since the start.
+/// A window in steps since the start: between which numbers its first time and its last lie.
 pub struct StepsOf {
-    from: [Rational; 2],
-    to: [Rational; 2],
+    pub from: [Rational; 2],
+    pub to: [Rational; 2],
 }
 
 impl StepsOf {
-    /// By the first time and the last, for each value of the symbol.
-    pub fn new([from, to]: [&Varying; 2]) -> StepsOf {
-        let ends = |time: &Varying| {
-            let (low, high) = time.range().endpoints();
-            [Rational::from(&low).max(Rational::zero()), Rational::from(&high)]
-        };
-        StepsOf { from: ends(from), to: ends(to) }
-    }
-
     /// How many there are at most.
     pub fn count(&self) -> usize {
         self.to[1].floor().to_usize().map_or(usize::MAX, |last| last.saturating_add(1))
@@ -61,10 +56,11 @@ impl Envelope {
             let part = |[from, to]: [&Rational; 2]| {
                 let part =
                     [(from - &start).max(Rational::zero()), (to - &start).min(Rational::one())];
-                (part[0] <= part[1]).then_some(part)
+                // The end of a step is the beginning of the next.
+                (part[0] <= part[1] && !part[0].is_one()).then_some(part)
             };
             let reach = part([&window.from[0], &window.to[1]])?;
-            let within = part([&window.from[1], &window.to[0]]).filter(|[from, to]| from < to);
+            let within = part([&window.from[1], &window.to[0]]);
             let end = |sign: i64| {
                 let sum = |own: &Varying| {
                     let slope = own.coefficient(1);
@@ -80,74 +76,71 @@ impl Envelope {
         Envelope(steps.iter().enumerate().filter_map(one).collect())
     }
 
-    /// A size that is reached at one instant for every value of the symbol, as near to the largest as is found.
-    pub fn reached(&self) -> Rational {
-        let mut best = (Rational::zero(), None);
+    /// Sizes at both ends of the symbol that are reached at one instant, as near to the largest as is found.
+    pub fn reached(&self) -> Ends {
+        let least = |ends: &Ends| ends[0].clone().min(ends[1].clone());
+        let mut best = (Ends::default(), None);
         for (place, step) in self.0.iter().enumerate() {
             let Some([from, to]) = &step.within else { continue };
             for part in 0..=PARTS {
                 let at = from + (to - from) * Rational::new(part.into(), PARTS.into());
                 let size = step.at_least(&at);
-                if size > best.0 {
+                if least(&size) > least(&best.0) {
                     best = (size, Some((place, at)));
                 }
             }
         }
-        let (mut most, Some((place, mut at))) = best else { return Rational::zero() };
+        let (mut most, Some((place, mut at))) = best else { return Ends::default() };
         let step = &self.0[place];
         let [from, to] = step.within.as_ref().expect("a value was taken there");
         let mut by = (to - from) / Rational::from_integer(PARTS.into());
         for _ in 0..HALVINGS {
             by /= Rational::from_integer(2.into());
             for beside in [&at - &by, &at + &by] {
-                let size = if *from <= beside && beside <= *to {
-                    step.at_least(&beside)
-                } else {
-                    Rational::zero()
-                };
-                if size > most {
-                    (most, at) = (size, beside);
+                if *from <= beside && beside <= *to {
+                    let size = step.at_least(&beside);
+                    if least(&size) > least(&most) {
+                        (most, at) = (size, beside);
+                    }
                 }
             }
         }
         most
     }
 
-    /// Whether all values on the window are proven to be no larger than this, for every value of the symbol.
-    pub fn is_within(&self, most: &Rational) -> bool {
+    /// Whether all values on the window are proven to be no larger than these at both ends of the symbol, and between them than
+    /// their mean.
+    pub fn is_within(&self, most: &Ends) -> bool {
         self.0.iter().all(|step| step.is_within(most, &step.reach, DEPTH))
     }
 }
 
 impl OneStep {
-    /// A lower bound of the size at a time, for every value of the symbol.
-    fn at_least(&self, at: &Rational) -> Rational {
+    /// Lower bounds of the size at a time.
+    fn at_least(&self, at: &Rational) -> Ends {
         let at = Ball::from_rational(at, BITS);
         let value = |end: &Vec<Ball>| {
             let terms = end.iter().rev();
             terms.fold(Ball::zero(), |sum, own| sum.multiply(&at, BITS).add(own, BITS))
         };
         let values = self.ends.each_ref().map(value);
-        if values[0].sign() != values[1].sign() || values[0].contains_zero() {
-            return Rational::zero();
+        if values[0].sign() != values[1].sign() {
+            return Ends::default();
         }
-        let sizes = values.map(|value| {
-            let (low, high) = value.endpoints();
-            Rational::from(&low).abs().min(Rational::from(&high).abs())
-        });
-        let [one, other] = sizes;
-        (one.min(other) - Rational::from(&self.rest)).max(Rational::zero())
+        let rest = Rational::from(&self.rest);
+        values.map(|value| (least(&value) - &rest).max(Rational::zero()))
     }
 
-    fn is_within(&self, most: &Rational, [from, to]: &[Rational; 2], depth: usize) -> bool {
+    fn is_within(&self, most: &Ends, [from, to]: &[Rational; 2], depth: usize) -> bool {
         let two = Rational::from_integer(2.into());
         let (middle, half) = ((from + to) / &two, (to - from) / &two);
         let bounds = self.ends.each_ref().map(|end| about(end, &middle, &half));
         let rest = Rational::from(&self.rest);
-        if bounds.iter().all(|[_, bound]| bound + &rest <= *most) {
+        let mut both = bounds.iter().zip(most);
+        if both.clone().all(|([_, bound], most)| bound + &rest <= *most) {
             return true;
         }
-        if depth == 0 || bounds.iter().any(|[least, _]| least - &rest > *most) {
+        if depth == 0 || both.any(|([least, _], most)| least - &rest > *most) {
             return false;
         }
         let halves = [[from.clone(), middle.clone()], [middle, to.clone()]];
@@ -175,11 +168,15 @@ fn about(polynomial: &[Ball], middle: &Rational, half: &Rational) -> [Rational; 
     let ends = [value.add(&slope, BITS), value.subtract(&slope, BITS)];
     let linear = ends.iter().map(Ball::magnitude).max().unwrap_or(Magnitude::ZERO);
     let most = own.iter().skip(2).fold(linear, |sum, own| sum.add(&own.magnitude()));
-    let (low, high) = value.endpoints();
-    let least = match value.sign() {
+    [least(&value), Rational::from(&most)]
+}
+
+/// The smallest size in a ball.
+fn least(ball: &Ball) -> Rational {
+    let (low, high) = ball.endpoints();
+    match ball.sign() {
         Some(Ordering::Greater) => Rational::from(&low),
         Some(Ordering::Less) => -Rational::from(&high),
         _ => Rational::zero(),
-    };
-    [least, Rational::from(&most)]
+    }
 }

@@ -16,9 +16,9 @@ use crate::network::{
 };
 use crate::scene::Drive;
 use num_integer::Integer as _;
-use num_traits::{One as _, ToPrimitive as _};
+use num_traits::{One as _, ToPrimitive as _, Zero as _};
 use std::collections::BTreeMap;
-use wavestep_polynomial::{Rational, Symbol};
+use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
 /// So many powers of time are kept on a step, which is no longer than the rates of the nodes allow.
 const TERMS: usize = 18;
@@ -192,12 +192,26 @@ impl<'a> Over<'a> {
         Ok(step(&(measure / Rational::from_integer((1_i64 << halvings).into()))))
     }
 
-    /// A time of the user's in steps, for each value of the symbol.
+    /// A time of the user's in steps: between which numbers it lies. The ends are exact for a power of the symbol.
     ///
     /// # Errors
     /// As [`OverSymbol::root`].
-    pub fn in_steps(&self, time: &Rational, step: &Root) -> Outcome<Varying> {
-        Ok(self.symbol.root(&Root::from(Fraction::constant(time)).over(step)?)?)
+    pub fn in_steps(&self, time: &Rational, step: &Root) -> Outcome<[Rational; 2]> {
+        let steps = Root::from(Fraction::constant(time)).over(step)?;
+        let is_power = |value: &Fraction| {
+            let only = |p: &Polynomial| {
+                p.term_count() == 1 && p.symbols().iter().all(|own| own == self.symbol.symbol)
+            };
+            only(value.numerator()) && value.factors().all(|(factor, _)| only(factor))
+        };
+        if let Some(power) = steps.exact().filter(is_power) {
+            let at = |value: &Rational| power.evaluate(&|_: &Symbol| Some(value.clone()));
+            if let [Ok(one), Ok(other)] = self.symbol.between.map(at) {
+                return Ok(if one < other { [one, other] } else { [other, one] });
+            }
+        }
+        let (low, high) = self.symbol.root(&steps)?.range().endpoints();
+        Ok([Rational::from(&low).max(Rational::zero()), Rational::from(&high)])
     }
 
     /// How many whole steps a time is, where the symbol has but one value.
@@ -205,10 +219,10 @@ impl<'a> Over<'a> {
     /// # Errors
     /// [`NotOverSymbol::NoCommonMeasure`] where it is not known to be a whole number; else as [`OverSymbol::root`].
     pub fn steps_until(&self, time: &Rational, step: &Root) -> Outcome<usize> {
-        let steps = self.in_steps(time, step)?.range();
-        let whole = Rational::from(steps.midpoint()).round();
-        let whole = whole.to_usize().filter(|_| steps.contains(&whole));
-        whole.ok_or(NotOverSymbol::NoCommonMeasure)
+        let [low, high] = self.in_steps(time, step)?;
+        let whole = high.floor();
+        let count = whole.to_usize().filter(|_| low <= whole && high < low + Rational::one());
+        count.ok_or(NotOverSymbol::NoCommonMeasure)
     }
 
     /// What is observed on the first steps, in the user's unit; from one of them on as if nothing more arrived, where that is

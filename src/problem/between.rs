@@ -5,7 +5,7 @@
 
 use super::enough_map::{MapRequest, short};
 use super::{Problem, ProblemError, Simpler};
-use crate::history::envelope::{Envelope, StepsOf};
+use crate::history::envelope::{Ends, Envelope, StepsOf};
 use crate::history::family::{NotOverSymbol, OnStep, Over};
 use crate::language::{self, Change, Stated};
 use crate::limits::MAX_PARTS_OVER_SYMBOL;
@@ -16,7 +16,7 @@ use num_traits::{One as _, ToPrimitive as _, Zero as _};
 use wavestep_polynomial::{Rational, Symbol};
 
 /// The ends of a part differ by more than one in so many.
-const FINEST: i64 = 1 << 14;
+const FINEST: i64 = 1 << 18;
 
 /// A bound of the largest value is tried that is above one that is reached by these powers of two of it.
 const ABOVE: [i32; 4] = [-20, -14, -8, -1];
@@ -230,16 +230,16 @@ impl Prover<'_> {
         let all = all.collect::<Result<Vec<_>, _>>()?;
         let step = Over::step(&all)?;
         let [from, to] = self.window.each_ref().map(|time| all[0].in_steps(time, &step));
-        let window = StepsOf::new([&from?, &to?]);
+        let window = StepsOf { from: from?, to: to? };
         let exact = all[0].follow(&step, window.count(), None)?;
         let size = Envelope::of(&exact, &window);
         let reached = size.reached();
-        if reached.is_zero() {
+        if reached.iter().any(Rational::is_zero) {
             return Ok(vec![false; claims.len()]);
         }
         let above = ABOVE.map(|power| {
             let more = Rational::new(1.into(), (1_i64 << -power).into());
-            &reached * (Rational::one() + more)
+            scaled(&reached, &(Rational::one() + more))
         });
         let most = above.into_iter().find(|most| size.is_within(most));
         let decide = |(claim, own): (&&Open<'_>, &Over<'_>)| {
@@ -259,12 +259,19 @@ impl Prover<'_> {
             let off: Vec<OnStep> = exact.iter().zip(&other).map(off).collect();
             let off = Envelope::of(&off, &window);
             Ok(match claim.is_enough {
-                true => off.is_within(&(self.tolerance * &reached)),
-                false => most.as_ref().is_some_and(|most| off.reached() > self.tolerance * most),
+                true => off.is_within(&scaled(&reached, self.tolerance)),
+                false => most.as_ref().is_some_and(|most| {
+                    let most = scaled(most, self.tolerance);
+                    off.reached().iter().zip(&most).all(|(off, most)| off > most)
+                }),
             })
         };
         claims.iter().zip(&all[1..]).map(decide).collect()
     }
+}
+
+fn scaled(sizes: &Ends, by: &Rational) -> Ends {
+    sizes.each_ref().map(|size| size * by)
 }
 
 /// A value between two others, with few digits; none where they are nearly the same.
@@ -273,5 +280,5 @@ fn middle(from: &Rational, to: &Rational) -> Option<Rational> {
         return None;
     }
     let [low, high] = [from, to].map(|end| end.to_f64().unwrap_or(f64::NAN));
-    short((low * high).sqrt(), 7).filter(|middle| from < middle && middle < to)
+    short((low * high).sqrt(), 9).filter(|middle| from < middle && middle < to)
 }

@@ -236,9 +236,12 @@ impl Problem {
                     }
                 };
                 // Where it is not decided there may be a border that no value has shown.
-                missed.extend(
-                    own.but.iter().filter_map(|(_, unproven)| unproven.undecided.clone()).flatten(),
-                );
+                let open = own.but.iter().filter_map(|(_, unproven)| unproven.undecided.as_ref());
+                for value in open.flatten() {
+                    if first_enough(&off_at(value)?, tolerance) != run.state {
+                        missed.push(value.clone());
+                    }
+                }
                 proven.push((run.clone(), own));
             }
             missed.retain(|value| !looked.contains(value));
