@@ -76,6 +76,15 @@ fn between(one: &Rational, other: &Rational) -> Option<Rational> {
     short((low * high).sqrt(), 5).filter(|middle| one < middle && middle < other)
 }
 
+/// Values with few digits near two others, and then these; all of them within a run.
+fn beside([from, to]: &[Rational; 2], run: &[Rational; 2]) -> impl Iterator<Item = Rational> {
+    let apart = Rational::new(1.into(), (4 * FINE).into());
+    let near = [from - from * &apart, to + to * apart];
+    let near = near.into_iter().filter_map(|value| short(value.to_f64()?, 5));
+    let within = |value: &Rational| run[0] < *value && *value < run[1];
+    near.chain([from.clone(), to.clone()]).filter(within)
+}
+
 /// Values that were looked at one after the other, and are in one state.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Run<S> {
@@ -151,6 +160,8 @@ pub struct Column {
 /// before it is that suit at one end at least.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ProvenRun {
+    /// The first that is enough.
+    pub first: Option<usize>,
     /// In how many parts.
     pub parts: usize,
     /// The answers of which it is not proven.
@@ -237,9 +248,10 @@ impl Problem {
                 };
                 // Where it is not decided there may be a border that no value has shown.
                 let open = own.but.iter().filter_map(|(_, unproven)| unproven.undecided.as_ref());
-                for value in open.flatten() {
-                    if first_enough(&off_at(value)?, tolerance) != run.state {
-                        missed.push(value.clone());
+                for value in open.flat_map(|open| beside(open, &run.between)) {
+                    if first_enough(&off_at(&value)?, tolerance) != run.state {
+                        missed.push(value);
+                        break;
                     }
                 }
                 proven.push((run.clone(), own));
@@ -269,14 +281,18 @@ impl Problem {
         let before = (0..state.unwrap_or(simpler.len())).filter(|place| suits(*place));
         let places: Vec<usize> = before.chain(*state).collect();
         if from == to {
-            return ProvenRun { parts: 1, but: Vec::new() };
+            return ProvenRun { first: *state, parts: 1, but: Vec::new() };
         }
         let claim =
             |place: &usize| Claim { simpler: &simpler[*place], is_enough: *state == Some(*place) };
         let claims: Vec<Claim<'_>> = places.iter().map(claim).collect();
         let (unproven, parts) = self.prove_between(asked, [from, to], &claims);
         let but = places.into_iter().zip(unproven);
-        ProvenRun { parts, but: but.filter_map(|(place, own)| Some((place, own?))).collect() }
+        ProvenRun {
+            first: *state,
+            parts,
+            but: but.filter_map(|(place, own)| Some((place, own?))).collect(),
+        }
     }
 
     /// How far simpler answers are off, over the largest value.

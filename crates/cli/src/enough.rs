@@ -58,6 +58,10 @@ pub fn run(
     Ok(text + "\n" + &written)
 }
 
+fn parts(count: usize) -> String {
+    if count == 1 { "at once".to_owned() } else { format!("in {count} parts") }
+}
+
 struct Told<'a> {
     options: &'a Advise,
     asked: &'a MapRequest<'a>,
@@ -99,36 +103,62 @@ impl Told<'_> {
         }
         text +=
             &format!("\nWithin {}, the first that is enough:\n\n", whole(&self.asked.tolerance));
-        let name = |place: usize| self.map.simpler[place].to_string();
-        for (run, proven) in self.map.runs.iter().zip(&self.map.proven) {
-            let Run { between: [from, to], state: first } = run;
-            let what = first.map_or_else(|| "exact".to_owned(), name);
-            text += &format!("{} <= {symbol} <= {}  {what}\n", in_decimals(from), in_decimals(to));
-            for line in self.proven(proven, *first) {
-                text += &format!("    {line}\n");
+        let rows = self.map.runs.iter().map(|Run { between: [from, to], state }| {
+            let range = format!("{} <= {symbol} <= {}", in_decimals(from), in_decimals(to));
+            [range, state.map_or_else(|| "exact".to_owned(), |place| self.name(place))]
+        });
+        let rows: Vec<[String; 2]> = rows.collect();
+        let width = |column: usize| rows.iter().map(|row| row[column].len()).max().unwrap_or(0);
+        let [ranges, answers] = [0, 1].map(width);
+        for ([range, answer], proven) in rows.iter().zip(&self.map.proven) {
+            let told = match proven.but.is_empty() {
+                true => format!("proven for all of these, {}", parts(proven.parts)),
+                false => "proven at both ends".to_owned(),
+            };
+            text += &format!("{range:<ranges$}  {answer:<answers$}  {told}\n");
+            for line in self.unproven(proven) {
+                text += &format!("  {line}\n");
             }
         }
         text
     }
 
-    /// What is proven of all values of a run, and what is not, in lines.
-    fn proven(&self, ProvenRun { parts, but }: &ProvenRun, first: Option<usize>) -> Vec<String> {
-        if but.is_empty() {
-            let parts =
-                if *parts == 1 { "at once".to_owned() } else { format!("in {parts} parts") };
-            return vec![format!("proven for all values, {parts}")];
-        }
-        let line = |(place, Unproven { why, undecided }): &(usize, Unproven)| {
-            let enough = if first == Some(*place) { "enough" } else { "not enough" };
+    fn name(&self, place: usize) -> String {
+        self.map.simpler[place].to_string()
+    }
+
+    /// Between which values the borders at the tolerance are proven.
+    fn proven_at(&self) -> String {
+        let run = |(run, proven): (&Run<Option<usize>>, &ProvenRun)| {
+            let [from, to] = run.between.each_ref().map(in_decimals);
+            let what = run.state.map_or_else(|| "exact".to_owned(), |place| self.name(place));
+            let how = if proven.but.is_empty() { "proven for all" } else { "proven at both ends" };
+            format!("{what} from {from} to {to}, {how}")
+        };
+        let runs = self.map.runs.iter().zip(&self.map.proven).map(run);
+        runs.collect::<Vec<_>>().join("; ")
+    }
+
+    /// What is not proven of all values of a run, a line for each reason.
+    fn unproven(&self, ProvenRun { but, first, .. }: &ProvenRun) -> Vec<String> {
+        let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
+        for (place, Unproven { why, undecided }) in but {
+            let is_enough = *first == Some(*place);
+            let claim =
+                format!("{} is {}enough", self.name(*place), if is_enough { "" } else { "not " });
             let between = undecided.as_ref().map_or(String::new(), |[from, to]| {
                 format!(" for {} to {}", in_decimals(from), in_decimals(to))
             });
-            format!(
-                "not proven for all values that {} is {enough}: {why}{between}",
-                self.map.simpler[*place]
-            )
+            let why = format!("{why}{between}");
+            match reasons.iter_mut().find(|(own, _)| *own == why) {
+                Some((_, claims)) => claims.push(claim),
+                None => reasons.push((why, vec![claim])),
+            }
+        }
+        let line = |(why, claims): (String, Vec<String>)| {
+            format!("not proven between that {}: {why}", claims.join(", "))
         };
-        but.iter().map(line).collect()
+        reasons.into_iter().map(line).collect()
     }
 
     /// Marks on the line of the tolerance, where another answer is the first that is enough.
@@ -173,6 +203,7 @@ impl Told<'_> {
                 "Above its line an answer is enough, proven at the marks and drawn between; a region has the colour of the \
                  first that is enough."
                     .to_owned(),
+                format!("At {}: {}.", whole(&self.asked.tolerance), self.proven_at()),
             ],
             command: format!(
                 "wavestep advise {}{set} --quantity {} --tol {tol} --from {from}{}{}{models} --points {points}",
