@@ -154,7 +154,7 @@ pub const MAX_HISTORY_BITS: u64 = 1 << 11;
 // ---- Values of a symbol that are followed at once ---------------------------------------------------
 
 /// Steps of time, of all travel times a common measure.
-pub const MAX_STEPS_OVER_SYMBOL: usize = 512;
+pub const MAX_STEPS_OVER_SYMBOL: usize = 2048;
 
 /// The precision of coefficients: bounds of differences need few digits more than tolerances have.
 pub const MAX_SYMBOL_BITS: u64 = 96;

@@ -20,8 +20,8 @@ use num_traits::{One as _, ToPrimitive as _, Zero as _};
 use std::collections::BTreeMap;
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
-/// So many powers of time are kept on a step, which is no longer than the rates of the nodes allow.
-const TERMS: usize = 18;
+/// So many powers of time are kept on a step, on which no rate of a node is above two.
+const TERMS: usize = 20;
 
 /// Why motions are not followed over a symbol.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
@@ -38,7 +38,7 @@ pub enum NotOverSymbol {
     TooManySteps,
     #[error("something without mass moves, and nothing resists it")]
     Unresisted,
-    #[error("the scene has no `{0}`")]
+    #[error("`{0}` is no observable of the scene")]
     Unknown(String),
     #[error(transparent)]
     Value(#[from] EnclosureError),
@@ -159,7 +159,7 @@ impl<'a> Over<'a> {
             .collect()
     }
 
-    /// A step that suits these scenes: the largest common measure of their times, halved until no node moves much on it.
+    /// A step that suits these scenes: the largest common measure of their times, halved until no node is too fast for it.
     ///
     /// # Errors
     /// [`NotOverSymbol::NoCommonMeasure`]; else as [`Over::follow`].
@@ -186,7 +186,7 @@ impl<'a> Over<'a> {
         for own in all {
             let places = own.places(&step(&measure))?;
             let rates = places.iter().filter_map(|place| place.passivity.rate().top());
-            fastest = rates.fold(fastest, i64::max);
+            fastest = rates.map(|top| top - 1).fold(fastest, i64::max);
         }
         let halvings = fastest.min(i64::from(MAX_STEPS_OVER_SYMBOL.ilog2()) + 1);
         Ok(step(&(measure / Rational::from_integer((1_i64 << halvings).into()))))
@@ -597,6 +597,7 @@ impl Place {
     /// `e = y − P` obeys `e' = A e + B e_u + ρ`: where it begins with `|e| ≤ ε`, it is `ε + ∫|ρ| + |B e_u| ∫|e^(Ax)|` at most.
     fn solve(&self, start: &NodeState, arriving: &[OnStep; 2]) -> Solved {
         let (system, bits) = (&self.system, MAX_SYMBOL_BITS);
+        debug_assert!(arriving.iter().all(|own| own.coefficients.len() <= TERMS));
         let blocks = &self.passivity.blocks;
         let acting: Vec<&OnStep> = arriving.iter().chain(&self.driven).collect();
         let mut off = vec![Magnitude::ZERO; blocks.len()];

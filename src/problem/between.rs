@@ -33,7 +33,7 @@ pub struct Unproven {
 }
 
 /// What is to be proven of a simpler answer: that it is enough, or that it is not.
-pub(super) struct Claim<'s> {
+pub struct Claim<'s> {
     pub simpler: &'s Simpler,
     pub is_enough: bool,
 }
@@ -55,7 +55,7 @@ enum Followed {
 struct Prover<'a> {
     exact: &'a ScaledScene,
     symbol: Symbol,
-    quantity: &'a str,
+    quantity: String,
     window: [Rational; 2],
     tolerance: &'a Rational,
     /// Of each claim, once it is not.
@@ -65,17 +65,19 @@ struct Prover<'a> {
     kept: usize,
 }
 
+#[doc(hidden)]
 impl Problem {
     /// Which of some claims are not proven for all values of the symbol from one to another, and in how many parts the others
     /// are.
-    pub(super) fn prove_between(
+    pub fn prove_between(
         &self,
         asked: &MapRequest<'_>,
         [from, to]: [&Rational; 2],
         claims: &[Claim<'_>],
     ) -> (Vec<Option<Unproven>>, usize) {
         let prepared = || {
-            let symbol = Symbol::new(&asked.range.symbol).ok_or("no symbol")?;
+            let symbol =
+                Symbol::new(&language::normalise_name(&asked.range.symbol)).ok_or("no symbol")?;
             // A window that is known with the symbol in place is one for all values.
             let window = |problem: &Problem| (asked.window)(problem).ok();
             let at = |value| window(&self.substituted(&asked.range.symbol, value).ok()?);
@@ -96,7 +98,7 @@ impl Problem {
         let mut prover = Prover {
             exact,
             symbol,
-            quantity: asked.quantity,
+            quantity: language::normalise_name(asked.quantity),
             window,
             tolerance: &asked.tolerance,
             unproven,
@@ -213,7 +215,7 @@ impl Prover<'_> {
         scene: &'s ScaledScene,
         between: [&'s Rational; 2],
     ) -> Result<Over<'s>, NotOverSymbol> {
-        Over::new(scene, self.quantity, (&self.symbol, between))
+        Over::new(scene, &self.quantity, (&self.symbol, between))
     }
 
     /// Which claims are proven of all values between two at once.

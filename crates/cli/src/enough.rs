@@ -116,7 +116,7 @@ impl Told<'_> {
                 false => "proven at both ends".to_owned(),
             };
             text += &format!("{range:<ranges$}  {answer:<answers$}  {told}\n");
-            for line in self.unproven(proven) {
+            for line in self.open(proven) {
                 text += &format!("  {line}\n");
             }
         }
@@ -140,23 +140,21 @@ impl Told<'_> {
     }
 
     /// What is not proven of all values of a run, a line for each reason.
-    fn unproven(&self, ProvenRun { but, first, .. }: &ProvenRun) -> Vec<String> {
+    fn open(&self, proven: &ProvenRun) -> Vec<String> {
         let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
-        for (place, Unproven { why, undecided }) in but {
-            let is_enough = *first == Some(*place);
-            let claim =
-                format!("{} is {}enough", self.name(*place), if is_enough { "" } else { "not " });
+        for (place, Unproven { why, undecided }) in &proven.but {
             let between = undecided.as_ref().map_or(String::new(), |[from, to]| {
-                format!(" for {} to {}", in_decimals(from), in_decimals(to))
+                format!(" from {} to {}", in_decimals(from), in_decimals(to))
             });
-            let why = format!("{why}{between}");
+            let (why, name) = (format!("{why}{between}"), self.name(*place));
             match reasons.iter_mut().find(|(own, _)| *own == why) {
-                Some((_, claims)) => claims.push(claim),
-                None => reasons.push((why, vec![claim])),
+                Some((_, names)) => names.push(name),
+                None => reasons.push((why, vec![name])),
             }
         }
-        let line = |(why, claims): (String, Vec<String>)| {
-            format!("not proven between that {}: {why}", claims.join(", "))
+        let line = |(why, names): (String, Vec<String>)| {
+            let verb = if names.len() == 1 { "is" } else { "are" };
+            format!("open between whether {} {verb} enough: {why}", names.join(", "))
         };
         reasons.into_iter().map(line).collect()
     }
