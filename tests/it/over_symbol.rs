@@ -85,6 +85,47 @@ fn numbers_that_vary_hold_their_values() {
     assert!(around.reciprocal(BITS).is_err() && around.sqrt(BITS).is_none());
 }
 
+/// What is never passed and what is reached hold between the ends of a symbol, too, for functions that bend either way.
+#[test]
+fn sizes_hold_between_the_ends_of_a_symbol() {
+    let ends = [rational(1, 1), rational(2, 1)];
+    let x = Varying::between(ends.each_ref(), BITS);
+    let square = |x: &Rational| x * x;
+    // x² lies above its tangents, 4 − (x − 3)² below.
+    let away = x.subtract(&Varying::constant(&rational(3, 1), BITS), BITS);
+    let four = Varying::constant(&rational(4, 1), BITS);
+    let below = four.subtract(&away.multiply(&away, BITS), BITS);
+    let window = StepsOf { from: Default::default(), to: [rational(1, 2), rational(1, 2)] };
+    let functions: [(Varying, &dyn Fn(&Rational) -> Rational); 2] = [
+        (x.multiply(&x, BITS), &square),
+        (below, &|x| rational(4, 1) - square(&(x - rational(3, 1)))),
+    ];
+    for (varying, exact) in functions {
+        let step = OnStep { coefficients: vec![varying], error: Magnitude::ZERO };
+        let envelope = Envelope::of(&[step], &window);
+        let reached = envelope.reached();
+        let mean =
+            |ends: &[Rational; 2], place: &Rational| &ends[1] + (&ends[0] - &ends[1]) * place;
+        let places = || (0..=8).map(|i| rational(i, 8));
+        let mut within = 0;
+        for (high, low) in (0..40).flat_map(|i| (0..40).map(move |j| (i, j))) {
+            let most = [rational(high, 8), rational(low, 8)];
+            if envelope.is_within(&most) {
+                within += 1;
+                for place in places() {
+                    assert!(exact(&at(ends.each_ref(), &place)) <= mean(&most, &place), "{most:?}");
+                }
+            }
+        }
+        assert!(within > 100, "{within}");
+        for place in places() {
+            let exact = exact(&at(ends.each_ref(), &place));
+            assert!(mean(&reached, &place) <= exact && exact > rational(0, 1));
+        }
+        assert!(reached[0] > rational(2, 1), "{reached:?}");
+    }
+}
+
 /// At sampled values of the symbol and sampled instants the values that are proven one by one lie in the enclosure that
 /// holds for all of them: of every observable of several scenes, and of what simpler scenes say of it.
 #[test]
@@ -108,6 +149,14 @@ fn enclosures_over_a_symbol_hold_single_values() {
         observe velocity = velocity(block)
         observe middle = force(next.at(1/2))
         observe sunk = force(ground)";
+    let relayed = "scene \"Relayed\"
+        symbol a > 0
+        mass hammer { mass = a, velocity = 1 }
+        bar rod { impedance = 1, travel = 1 }
+        mass block { mass = 1 }
+        bar far { impedance = 1 }
+        line free - hammer - rod - block - far - endless
+        observe velocity = velocity(block)";
     let builtin = |name| Problem::builtin(name).unwrap();
     let (mut steps, mut observed) = (0, 0);
     for (problem, symbol, ends, to) in [
@@ -117,6 +166,7 @@ fn enclosures_over_a_symbol_hold_single_values() {
         (builtin("striker-on-long-bar"), "r", [rational(1, 2), rational(5, 8)], rational(6, 1)),
         (builtin("struck-free-bar"), "mu", [rational(2, 1), rational(9, 4)], rational(8, 1)),
         (scene(pushed), "d", [rational(2, 1), rational(9, 4)], rational(9, 1)),
+        (scene(relayed), "a", [rational(1, 1), rational(7, 5)], rational(4, 1)),
         (scene(units), "k", [rational(1, 1), rational(11, 10)], rational(1, 1000)),
     ] {
         let change = |text: &str| {
