@@ -399,8 +399,9 @@ fn remedy_of_evaluate(error: &EvaluateError) -> &'static str {
 fn remedy_of_history(error: &HistoryError) -> &'static str {
     match error {
         HistoryError::Undecided { .. } => "change a value a little, or ask for an earlier end",
-        HistoryError::TooManyEvents { .. } | HistoryError::TooManyCells { .. } => {
-            "ask for an earlier end"
+        HistoryError::TooManyEvents { .. } => "ask for an earlier end",
+        HistoryError::TooManyCells { .. } => {
+            "ask for an earlier end, or leave out a light mass or a stiff spring that rings"
         }
         HistoryError::TooMuchMemory { .. } => "ask for an earlier end, or allow more with --memory",
         HistoryError::Refused(_) => "docs/scene-language.md says under `Contacts` what is followed",

@@ -380,7 +380,7 @@ impl Engine {
             own.rests =
                 !own.closed && !loosened && !is_local && (inert || cause == Cause::Crossing);
         }
-        let passivity = Passivity::at(&self.nodes[node], &system, &next)?;
+        let passivity = Passivity::at(&self.nodes[node], &system, (&next, self.cut.bits))?;
         let state = &mut self.states[node];
         state.errors = passivity.errors(&next);
         (state.system, state.passivity, state.state) = (system, passivity, next);
@@ -394,7 +394,8 @@ impl Engine {
         if state.passivity.is_near(&state.state) {
             return Ok(());
         }
-        let passivity = Passivity::at(&self.nodes[node], &state.system, &state.state)?;
+        let passivity =
+            Passivity::at(&self.nodes[node], &state.system, (&state.state, self.cut.bits))?;
         let errors = passivity.carried(&state.passivity, &state.errors);
         let state = &mut self.states[node];
         (state.passivity, state.errors) = (passivity, errors);

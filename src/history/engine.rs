@@ -40,6 +40,9 @@ const LEAST_BITS: u64 = 96;
 /// Memory is foreseen each time that so many times as much of a window has passed.
 const OFTEN: f64 = 1.125;
 
+/// After each so many cells it is asked how long they will be as short as fast motions need.
+const SHORT_CELLS: usize = 64;
+
 /// What a node did on one cell.
 pub(crate) struct Cell {
     /// Velocities of its runs.
@@ -72,13 +75,13 @@ pub(crate) struct Load {
 }
 
 /// How far a cell reaches, and what acts on the node there.
-struct Reach {
+pub(crate) struct Reach {
     end: Moment,
     /// Whether nothing changes at its end: it is as long as the rates allow.
     is_step: bool,
     length: Number,
-    norm: CellNorm,
-    inputs: Vec<Series>,
+    pub norm: CellNorm,
+    pub inputs: Vec<Series>,
 }
 
 /// How long a cell may be.
@@ -153,7 +156,7 @@ pub(crate) struct Engine {
     /// What is asked for; without it all.
     pub asked_sources: Option<Vec<Source>>,
     /// How far it is followed in all, as far as that is known.
-    whole: f64,
+    pub whole: f64,
     /// The size of the largest wave so far, at the start of its cell, and of the terms that its values are the sum of.
     pub loudest: Magnitude,
     pub steepest: Magnitude,
@@ -314,7 +317,7 @@ impl Engine {
             let still = vec![Number::zero(); node.elements.len()];
             let velocity = |run: usize| self.starting_velocity(node, run);
             let state = system.state(node, velocity, &still, &self.places[number], bits)?;
-            let passivity = Passivity::at(node, &system, &state)?;
+            let passivity = Passivity::at(node, &system, (&state, bits))?;
             let errors = passivity.errors(&state);
             if let Some(all) = &mut self.errors {
                 errors.iter().for_each(|own| all.add_state(&own.size()));
@@ -403,12 +406,13 @@ impl Engine {
 
     fn follow_all(&mut self, until: &Moment) -> Outcome<()> {
         let (mut looked, end) = (0.0, self.clock.about(until));
+        self.whole = self.whole.max(end);
         while let Some((node, now)) = self.behind() {
             if self.clock.compare(now, until)? == Ordering::Greater {
                 break;
             }
             let passed = self.states[node].about / end;
-            tell_followed(self.states[node].about / self.whole.max(end));
+            tell_followed(self.states[node].about / self.whole);
             if passed > OFTEN * looked {
                 looked = passed;
                 self.foresee_memory(node, until)?;
@@ -589,10 +593,13 @@ impl Engine {
         let known = (&state.state[..], &state.errors[..]);
         let cell = (&reach.norm, &self.cut);
         let free = state.system.free_rate(&state.passivity, known, &reach.inputs, cell);
-        match free.scale(1) < fastest {
-            true => self.reach(node, Longest { rate: free, share, most: None }),
-            false => Ok(reach),
+        if free.scale(1) < fastest {
+            return self.reach(node, Longest { rate: free, share, most: None });
         }
+        if self.count.is_multiple_of(SHORT_CELLS) {
+            self.foresee_short_cells(node, &reach)?;
+        }
+        Ok(reach)
     }
 
     /// How far a cell reaches that is no longer than it may be.

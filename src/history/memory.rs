@@ -3,10 +3,11 @@
 use crate::ball::Number;
 use crate::expression::Fraction;
 use crate::history::cells::Cells;
-use crate::history::engine::{Engine, TOLD_APART};
+use crate::history::engine::{Engine, Reach, TOLD_APART};
 use crate::history::error::{HistoryError, When};
 use crate::history::moment::Moment;
 use crate::history::part::Source;
+use crate::history::series::LONGEST_CELL;
 use crate::history::track::{Arriving, Track};
 use crate::limits::{MAX_HISTORY_CELLS, memory};
 use crate::network::{Network, Observed, Reading, Side};
@@ -14,6 +15,9 @@ use wavestep_polynomial::Rational;
 
 /// Memory is foreseen from this share of it on.
 const TELLING: f64 = 1.0 / 16.0;
+
+/// What short cells take is known to this factor at best.
+const MUCH_MORE: usize = 4;
 
 type Outcome<T> = Result<T, HistoryError>;
 
@@ -147,6 +151,24 @@ impl Engine {
         match (cells > MAX_HISTORY_CELLS as f64, self.behind()) {
             (true, Some((node, _))) => Err(self.too_many_cells(node)?),
             _ => Ok(()),
+        }
+    }
+
+    /// Refuses what will take too many cells because a fast motion goes on for long, a light mass that rings on a spring:
+    /// as many as it takes to die out, or to come to the end.
+    pub fn foresee_short_cells(&self, node: usize, reach: &Reach) -> Outcome<()> {
+        let state = &self.states[node];
+        let rate = state.passivity.rate().scale(-LONGEST_CELL).to_double();
+        let enough = (MUCH_MORE * MAX_HISTORY_CELLS) as f64;
+        if (self.whole - state.about) * rate <= enough {
+            return Ok(());
+        }
+        let known = (&state.state[..], &state.errors[..]);
+        let cell = (&reach.norm, &self.cut);
+        let gone = state.system.cells_until_gone(&state.passivity, known, &reach.inputs, cell);
+        match gone.is_some_and(|cells| cells <= enough) {
+            true => Ok(()),
+            false => Err(self.too_many_cells(node)?),
         }
     }
 

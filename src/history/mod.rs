@@ -38,6 +38,7 @@ mod phased;
 pub mod positive;
 pub mod pressing;
 mod reading;
+mod separation;
 pub mod series;
 mod story;
 pub mod track;

@@ -4,8 +4,9 @@ use crate::ball::{Magnitude, Number};
 use crate::history::error::{HistoryError, NotFollowed};
 use crate::history::passive::ErrorEnergy;
 use crate::history::passivity::{Block, Passivity, StateError};
-use crate::history::series::{CellNorm, Roughness, Series, Truncation};
-use crate::network::{Node, System, dot, inverse};
+use crate::history::separation::{Rows, Separation};
+use crate::history::series::{CellNorm, LONGEST_CELL, Roughness, Series, Truncation};
+use crate::network::{Node, System, dot};
 
 /// So many derivatives at the start of a cell are enclosed one by one.
 const STARTS: usize = 16;
@@ -14,28 +15,38 @@ const STARTS: usize = 16;
 /// often bend ever more.
 const MOST_FURTHER: usize = 8;
 
+/// Blocks are faster than a cell by this power of two at most, as far as the precision makes up for it.
+const MOST_FASTER: i64 = 4096;
+
 /// Polynomials of a higher degree do not act on a state that is kept exact.
 const MAX_EXACT_DEGREE: usize = 4;
 
 /// A state whose rounding is a few units in the last place is as exact as it can be, as a power of two.
 const ROUNDING: i64 = 4;
 
-/// How far a block is from its forced motion at the start of a cell, by what is known of it.
-fn free_motion(
-    block: &Block,
-    own: &[Number],
-    forced: &[Vec<Number>],
-    cut: &Truncation,
-) -> Magnitude {
+/// How far a block is from its slow motion at the start of a cell, by what is known of it.
+fn free_motion(block: &Block, own: &[Number], slow: &[Vec<Number>], cut: &Truncation) -> Magnitude {
     let middle = |value: &Number| match value.exact() {
         Some(_) => value.clone(),
         None => value.split(cut.bits).0,
     };
-    let free = own.iter().enumerate().map(|(place, value)| match forced.first() {
-        Some(forced) => middle(value).subtract(&forced[place], cut.bits).magnitude(),
+    let free = own.iter().enumerate().map(|(place, value)| match slow.first() {
+        Some(slow) => middle(value).subtract(&slow[place], cut.bits).magnitude(),
         None => middle(value).magnitude(),
     });
     block.size(free)
+}
+
+/// What is as small as this cannot be told from nothing.
+fn told(error: &StateError, cut: &Truncation) -> Magnitude {
+    error.size().max(cut.largest.scale(ROUNDING - cut.bits as i64))
+}
+
+/// The precision of a slow motion: what is left of the equation is as much larger than a rounding as the block is faster
+/// than the cell.
+fn slow_bits(block: &Block, length: &Magnitude, cut: &Truncation) -> u64 {
+    let faster = block.rate.multiply(&block.memory(length)).top().unwrap_or(0);
+    cut.bits + faster.clamp(0, MOST_FASTER) as u64
 }
 
 /// What a node does on a cell.
@@ -240,16 +251,16 @@ impl System<Number> {
         if let Some(columns) = self.exact_columns(block, &own, given) {
             return Course::exact(columns);
         }
-        if block.is_stiff(&given.norm.length)
-            && let Some(columns) = self.forced_columns(block, given)
-        {
-            return self.forced_course(block, &own, error, columns, given);
+        match block.separation_on(&given.norm.length) {
+            Some(separation) => {
+                let columns = self.slow_columns(block, separation, &own, given);
+                self.slow_course(block, &own, error, columns, given)
+            }
+            None => self.enclosed_course(block, own, error, given),
         }
-        self.enclosed_course(block, own, error, given)
     }
 
-    /// The largest rate of the blocks that move freely; the others are at their forced motion, as far as the precision
-    /// tells.
+    /// The largest rate of the motions that have not died out, as far as the precision tells.
     pub fn free_rate(
         &self,
         passivity: &Passivity,
@@ -258,43 +269,85 @@ impl System<Number> {
         (norm, cut): (&CellNorm, &Truncation),
     ) -> Magnitude {
         let given = Given::new(input, norm, cut);
-        passivity.rate_of(|place, block| {
-            if !block.forgets() {
-                return true;
-            }
+        let rates = passivity.blocks.iter().zip(errors).map(|(block, error)| {
             let own: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
-            self.forced_columns(block, &given).is_none_or(|columns| {
-                let free = free_motion(block, &own, &columns, cut);
-                free > errors[place].size().max(cut.largest.scale(ROUNDING - cut.bits as i64))
-            })
-        })
+            let told = told(error, cut);
+            let has_died_out = |separation: &&Separation| {
+                let columns = self.slow_columns(block, separation, &own, &given);
+                free_motion(block, &own, &columns, cut) <= told
+            };
+            let slow = block.separations.iter().find(has_died_out);
+            slow.map_or(block.rate, |separation| separation.rate)
+        });
+        rates.max().unwrap_or(Magnitude::ZERO)
     }
 
-    /// The *forced motion* of a block: the polynomial that solves `s' = A s + B u` for the polynomials of its inputs,
-    /// from `A s_k = (k+1) s_(k+1) − B u_k`, the highest coefficient first. All other motions come to it as the free
-    /// motion `e^(Ax)` dies out.
-    fn forced_columns(&self, block: &Block, given: &Given<'_>) -> Option<Vec<Vec<Number>>> {
-        let bits = given.cut.bits;
-        let entry = |i: &usize, j: &usize| self.change[*i][*j].clone();
-        let matrix: Vec<Vec<Number>> = (block.members.iter())
-            .map(|i| block.members.iter().map(|j| entry(i, j)).collect())
-            .collect();
-        let inverse = inverse(matrix, bits)?;
+    /// About how many cells, as short as its fastest motions need, the fastest block takes until these have died out.
+    pub fn cells_until_gone(
+        &self,
+        passivity: &Passivity,
+        (state, errors): (&[Number], &[StateError]),
+        input: &[Series],
+        (norm, cut): (&CellNorm, &Truncation),
+    ) -> Option<f64> {
+        let blocks = passivity.blocks.iter().zip(errors);
+        let (block, error) = blocks.max_by_key(|(block, _)| block.rate)?;
+        let separation = block.separations.last()?;
+        let own: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
+        let columns = self.slow_columns(block, separation, &own, &Given::new(input, norm, cut));
+        let free = free_motion(block, &own, &columns, cut).top()?;
+        let halvings = (free - told(error, cut).top()?).max(0) as f64;
+        Some(halvings * std::f64::consts::LN_2 * separation.lasting / f64::from(1 << LONGEST_CELL))
+    }
+
+    /// The *slow motion* of a block: the polynomial that solves `s' = A s + B u` for the polynomials of its inputs,
+    /// `(k+1) s_(k+1) = A s_k + B u_k`. Its slow part `P s` begins with that of the state, the lowest coefficient
+    /// first; its fast part is forced by the inputs, the highest first. All other motions come to it as the fast part
+    /// of their free motion `e^(Ax)` dies out.
+    fn slow_columns(
+        &self,
+        block: &Block,
+        separation: &Separation,
+        own: &[Number],
+        given: &Given<'_>,
+    ) -> Vec<Vec<Number>> {
+        let (cut, length) = (given.cut, &given.norm.length);
+        let bits = slow_bits(block, length, cut);
+        let times = |rows: &Rows, column: &[Number]| -> Vec<Number> {
+            rows.iter().map(|row| dot(row, column, bits).split(bits).0).collect()
+        };
         let acting = given.settled.iter().enumerate().filter(|(j, _)| block.is_driven_by(*j));
         let degree = acting.map(|(_, series)| series.coefficients.len()).max().unwrap_or(0);
-        let mut columns = vec![vec![Number::zero(); block.members.len()]];
-        for k in (0..degree).rev() {
+        let middles: Vec<Number> = own.iter().map(|value| value.split(bits).0).collect();
+        let mut slow = times(&separation.slow, &middles);
+        let mut columns = Vec::with_capacity(degree);
+        let mut power = Magnitude::power_of_two(0);
+        let mut largest = Magnitude::ZERO;
+        loop {
+            let k = columns.len();
+            let size = block.size(slow.iter().map(Number::magnitude)).multiply(&power);
+            largest = largest.max(size);
+            let is_enough = size <= largest.scale(-(cut.bits as i64));
+            if k >= degree && (is_enough || k >= cut.order.max(degree + MOST_FURTHER)) {
+                break;
+            }
+            power = power.multiply(length);
+            let next = self.next(block, &slow, (k, given.coefficients(k)), bits);
+            columns.push(std::mem::replace(&mut slow, times(&separation.slow, &next)));
+        }
+        let mut fast = vec![Number::zero(); block.members.len()];
+        for (k, column) in columns.iter_mut().enumerate().rev() {
             let pushed = self.pushed(block, k, given);
-            let above = columns.last()?.iter().zip(pushed);
+            let above = fast.iter().zip(pushed);
             let above: Vec<Number> = above
                 .map(|(s, u)| s.multiply(&Number::integer(k as i64 + 1), bits).subtract(&u, bits))
                 .collect();
-            let own = inverse.iter().map(|row| dot(row, &above, bits).split(bits).0);
-            columns.push(own.collect());
+            fast = times(&separation.fast_inverse, &above);
+            for (entry, fast) in column.iter_mut().zip(&fast) {
+                *entry = entry.add(fast, bits);
+            }
         }
-        columns.reverse();
-        columns.pop();
-        Some(columns)
+        columns
     }
 
     /// `B u_k` for the members of a block.
@@ -304,11 +357,11 @@ impl System<Number> {
         rows.map(|row| dot(row, &both, given.cut.bits)).collect()
     }
 
-    /// A block on a cell many times longer than its free motion lasts: its forced motion `s`.
+    /// A block on a cell many times longer than its fast motions last: its slow motion `s`.
     ///
-    /// The error `e = y − s` obeys `e' = A e + B e_u + ρ` with `ρ = A s + B u − s'`, what roundings leave, and begins
-    /// with the free motion.
-    fn forced_course(
+    /// The error `e = y − s` obeys `e' = A e + B e_u + ρ` with `ρ = A s + B u − s'`, what roundings leave and what is
+    /// not quite slow or fast, and begins with the rest of the free motion.
+    fn slow_course(
         &self,
         block: &Block,
         own: &[Number],
@@ -317,12 +370,13 @@ impl System<Number> {
         given: &Given<'_>,
     ) -> Course {
         let (norm, cut) = (given.norm, given.cut);
+        let bits = slow_bits(block, &norm.length, cut);
         let mut residuals = Vec::with_capacity(columns.len());
         for (k, column) in columns.iter().enumerate() {
-            let next = self.next(block, column, (k, given.coefficients(k)), cut.bits);
+            let next = self.next(block, column, (k, given.coefficients(k)), bits);
             let above = columns.get(k + 1);
             let left = next.iter().enumerate().map(|(place, next)| match above {
-                Some(above) => next.subtract(&above[place], cut.bits).magnitude(),
+                Some(above) => next.subtract(&above[place], bits).magnitude(),
                 None => next.magnitude(),
             });
             residuals.push(block.size(left).multiply(&Magnitude::from_u64(k as u64 + 1)));

@@ -11,6 +11,7 @@
 
 use crate::ball::{Ball, BallError, Magnitude, Number};
 use crate::history::pressing::Pressed;
+use crate::history::separation::{Rows, Separation};
 use crate::history::series::{LONGEST_CELL, Truncation};
 use crate::network::{Node, System};
 
@@ -64,6 +65,8 @@ pub struct Block {
     driven: Vec<Magnitude>,
     /// A time, as a power of two, and what is left of an error after it, where it dies out.
     pub decay: Option<(i64, Magnitude)>,
+    /// Its slow motions apart from its fast ones, the slowest first; none where a local contact is pressed.
+    pub separations: Vec<Separation>,
     /// The local contacts that are pressed, whose compressions are members.
     pub pressed: Vec<Pressed>,
 }
@@ -83,16 +86,25 @@ impl Passivity {
         Passivity::with_springs(Pressed::all(node, system, None)?, node, system)
     }
 
-    /// With springs about as stiff as the local contacts are at this state.
+    /// With springs about as stiff as the local contacts are at this state, and what is slow apart from what is fast,
+    /// with so many bits.
     ///
     /// # Errors
     /// As [`Passivity::of`].
     pub fn at(
         node: &Node<Number>,
         system: &System<Number>,
-        now: &[Number],
+        (now, bits): (&[Number], u64),
     ) -> Result<Passivity, BallError> {
-        Passivity::with_springs(Pressed::all(node, system, Some(now))?, node, system)
+        let pressed = Pressed::all(node, system, Some(now))?;
+        let mut own = Passivity::with_springs(pressed, node, system)?;
+        for block in own.blocks.iter_mut().filter(|block| block.pressed.is_empty()) {
+            let entry = |i: &usize, j: &usize| system.change[*i][*j].clone();
+            let row = |i: &usize| block.members.iter().map(|j| entry(i, j)).collect();
+            let change: Rows = block.members.iter().map(row).collect();
+            block.separations = Separation::all_of(&change, |rows| block.norm_of(rows), bits);
+        }
+        Ok(own)
     }
 
     fn with_springs(
@@ -157,13 +169,7 @@ impl Passivity {
 
     /// The largest norm of a block.
     pub fn rate(&self) -> Magnitude {
-        self.rate_of(|_, _| true)
-    }
-
-    /// The largest norm of these blocks.
-    pub fn rate_of(&self, is_meant: impl Fn(usize, &Block) -> bool) -> Magnitude {
-        let meant = self.blocks.iter().enumerate().filter(|(place, block)| is_meant(*place, block));
-        meant.map(|(_, block)| block.rate).max().unwrap_or(Magnitude::ZERO)
+        self.blocks.iter().map(|block| block.rate).max().unwrap_or(Magnitude::ZERO)
     }
 }
 
@@ -215,6 +221,7 @@ impl Block {
             decay: decay(matrix, &rate, &own, &inverses),
             rate,
             members,
+            separations: Vec::new(),
             pressed: Vec::new(),
         })
     }
@@ -251,11 +258,6 @@ impl Block {
         !self.driven[input].is_zero()
     }
 
-    /// Whether a state dies out by itself.
-    pub fn forgets(&self) -> bool {
-        self.decay.is_some()
-    }
-
     /// How long what drives it during this time is felt at the end, `∫ |e^(Ax)| dx` at most: with a time `τ` after
     /// which half is left, `2τ`.
     pub fn memory(&self, length: &Magnitude) -> Magnitude {
@@ -265,11 +267,26 @@ impl Block {
         }
     }
 
-    /// Whether a cell of this length is too long for a Taylor polynomial of its free motion.
-    pub fn is_stiff(&self, length: &Magnitude) -> bool {
+    /// The slow motions for a cell that is too long for a Taylor polynomial of all: as many as it is not too long for.
+    pub fn separation_on(&self, length: &Magnitude) -> Option<&Separation> {
         // A little above the longest cell, whose length is rounded.
         let longest = Magnitude::from_u64((1 << LONGEST_CELL) + 1);
-        self.rate.multiply(length) > longest
+        let is_stiff = |rate: &Magnitude| rate.multiply(length) > longest;
+        let slow = || self.separations.iter().rev().find(|own| !is_stiff(&own.rate));
+        if is_stiff(&self.rate) { slow() } else { None }
+    }
+
+    /// The size of a small matrix, `√Σ (√wᵢ Mᵢⱼ/√wⱼ)²`.
+    fn norm_of(&self, rows: &Rows) -> Magnitude {
+        let row = |row: &Vec<Number>| {
+            let entries = row.iter().zip(&self.inverse_roots);
+            let squares = entries.map(|(entry, root)| {
+                let own = entry.magnitude().multiply(root);
+                own.multiply(&own)
+            });
+            squares.fold(Magnitude::ZERO, |sum, square| sum.add(&square)).square_root()
+        };
+        self.size(rows.iter().map(row))
     }
 
     /// `|B u|` for inputs of these sizes.

@@ -262,7 +262,7 @@ fn cells_hold_the_motion_of_a_mass_or_are_too_long() {
 fn at_compressions(contact: &Contact, compressions: [&Rational; 2]) -> [Passivity; 2] {
     compressions.map(|own| {
         let state = [Number::zero(), exact(own)];
-        Passivity::at(&contact.node, &contact.system, &state).unwrap()
+        Passivity::at(&contact.node, &contact.system, (&state, 128)).unwrap()
     })
 }
 

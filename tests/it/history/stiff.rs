@@ -56,6 +56,27 @@ fn a_stiff_specimen_between_long_bars() {
     follows_the_closed_form(text, &["v"], &times);
 }
 
+/// Motions that are gone at once and motions that last act on each other in one place.
+#[test]
+fn a_light_mass_among_heavy_ones() {
+    let text = "scene \"A light mass among heavy ones\"\nbar a { impedance = 1, travel = 1, velocity = 1 }\n\
+        mass m { mass = 1000 }\nspring d { damping = 1000 }\nmass q { mass = 1e-6 }\n\
+        spring s { stiffness = 3 }\nmass o { mass = 2 }\nline free - a - m - d - q - s - o - free\n\
+        observe v = velocity(o)\nobserve w = velocity(q)\nobserve F = force(s)";
+    let times: Vec<Rational> = [1, 15, 77].map(|k| rational(k, 7)).into();
+    follows_the_closed_form(text, &["v", "w", "F"], &times);
+}
+
+/// The same behind a soft face of a specimen between bars; each arrival wakes the fast motion anew.
+#[test]
+fn a_light_specimen_with_a_soft_face() {
+    let text = "scene \"A specimen with a face\"\nbar a { impedance = 1, travel = 1, velocity = 1 }\n\
+        spring face { stiffness = 5 }\nmass m { mass = 1e-7 }\nbar b { impedance = 2, travel = 3/2 }\n\
+        line free - a - face - m - b - free\nobserve v = velocity(m)\nobserve F = force(face)";
+    let times: Vec<Rational> = [1, 5, 17, 41].map(|k| rational(k, 9)).into();
+    follows_the_closed_form(text, &["v", "F"], &times);
+}
+
 /// A mass of 1e-9 under a force of 1e9: the rates of the scene differ by as much.
 #[test]
 fn a_light_mass_is_pressed_on_a_bar() {

@@ -338,6 +338,11 @@ fn what_cannot_be_computed_is_explained() {
                 spring cushion { stiffness = 1/2 }\nbar long { impedance = 1e-300 }\n\
                 line free - striker | cushion - long - endless\nobserve energy = energy(line)\n";
     fs::write(folder.join("thin.wave"), thin).unwrap();
+    let rings = "scene \"A mass that rings\"\nbar a { impedance = 1, travel = 1, velocity = 1 }\n\
+                 spring s { stiffness = 3 }\nmass m { mass = 1e-18 }\nspring d { stiffness = 1e6 }\n\
+                 bar b { impedance = 2, travel = pi }\nline free - a | s - m - d - b - free\n\
+                 contacts open\nobserve v = velocity(m)\n";
+    fs::write(folder.join("rings.wave"), rings).unwrap();
     let eval = "eval rigid-mass --set mu=1 --quantity f";
     for (name, code, line) in [
         ("time-late", 1, format!("{eval} --at 100000")),
@@ -359,6 +364,7 @@ fn what_cannot_be_computed_is_explained() {
             1,
             "find mass-that-bounces --zero velocity --to 60 --memory 1MB".into(),
         ),
+        ("cells-short", 1, "eval rings.wave --quantity v --at 3".into()),
         ("cells-many", 1, "eval hopkinson-with-release --quantity force --at 1000s".into()),
     ] {
         assert_fails(&folder, name, &words(&line), code);
