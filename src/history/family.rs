@@ -629,7 +629,7 @@ impl Place {
         let one = Number::one();
         let arrived: Vec<Magnitude> = acting.iter().map(|own| own.error).collect();
         for ((block, error), off) in blocks.iter().zip(&start.errors).zip(off) {
-            let added = off;
+            let added = off.add(&block.push(&arrived).multiply(&block.memory(&one.magnitude())));
             let most = error.size().add(&added);
             for (place, member) in block.members.iter().enumerate() {
                 on_step[*member] = block.entry(place, &most);
