@@ -4,7 +4,7 @@
 //! A [`Ball`] is a midpoint and a radius; every operation returns a ball that contains each result
 //! its operands allow. A `ComplexBall` is a pair of balls, a `Number` an exact rational or a ball.
 //! A [`Decimal`] has a definite count of digits, a [`DecimalEnclosure`] is a ball as a person reads it,
-//! and a [`Value`] is a number with proven digits. A [`Varying`] is a number for each value of a parameter. [`Precisions`] is the one loop that raises precision.
+//! and a [`Value`] is a number with proven digits. [`Precisions`] is the one loop that raises precision.
 
 mod arithmetic;
 #[expect(clippy::module_inception, reason = "the module is named after the type it is built on")]
@@ -25,7 +25,6 @@ mod products;
 mod root;
 mod trigonometry;
 mod value;
-mod varying;
 
 pub use arithmetic::Arithmetic;
 pub use ball::Ball;
@@ -42,4 +41,3 @@ pub use magnitude::Magnitude;
 pub use number::Number;
 pub use precision::{Attempt, Precisions};
 pub use value::Value;
-pub use varying::Varying;

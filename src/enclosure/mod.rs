@@ -6,12 +6,10 @@
 mod error;
 mod expression;
 mod numbers;
-mod over;
 pub mod zero;
 
 pub use error::EnclosureError;
 pub use expression::enclose_expression;
 pub(crate) use expression::real_part;
 pub use numbers::Numbers;
-pub use over::OverSymbol;
 pub use zero::enclose_zero;

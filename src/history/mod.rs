@@ -31,6 +31,7 @@ mod memory;
 pub mod moment;
 pub mod motion;
 mod observe;
+mod over;
 mod part;
 pub mod passive;
 pub mod passivity;

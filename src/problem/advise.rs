@@ -10,7 +10,6 @@ use crate::language::syntax::Declared;
 use crate::language::{self, Beyond, Change};
 use crate::planner::Purpose;
 use crate::signal::{Limit, Signal};
-use num_traits::Signed as _;
 use std::time::{Duration, Instant};
 use wavestep_polynomial::Rational;
 
@@ -218,7 +217,7 @@ impl Adviser<'_> {
             let value = (signal.point(time, Limit::Right)?.enclose)(SAMPLE_BITS)?;
             let off = if is_difference { value } else { exact.subtract(&value, SAMPLE_BITS) };
             // What is certain of it.
-            let off = least(&off);
+            let off = off.smallest_size();
             if off > worst.0 {
                 worst = (off, time.clone());
             }
@@ -425,17 +424,6 @@ impl Adviser<'_> {
         while !self.attempt(of(high)) && high < most && tries < MORE {
             (high, tries) = ((high + high.div_ceil(4)).min(most), tries + 1);
         }
-    }
-}
-
-/// The smallest absolute value in a ball.
-fn least(ball: &Ball) -> Rational {
-    let (low, high) = ball.endpoints();
-    let (low, high): (Rational, Rational) = ((&low).into(), (&high).into());
-    match (low.is_positive(), high.is_negative()) {
-        (true, _) => low,
-        (_, true) => -high,
-        _ => Rational::default(),
     }
 }
 

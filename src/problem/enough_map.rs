@@ -3,7 +3,7 @@
 //! At some values of the symbol the largest difference of each simpler answer is proven. Where the first that is enough
 //! for a tolerance differs between two neighbours, what lies between them is halved until both are nearly the same.
 
-use super::between::{Claim, Unproven};
+use super::between::Unproven;
 use super::comparison::Comparison;
 use super::{Problem, ProblemError, Simpler, number};
 use crate::language::syntax::Declared;
@@ -76,13 +76,12 @@ fn between(one: &Rational, other: &Rational) -> Option<Rational> {
     short((low * high).sqrt(), 5).filter(|middle| one < middle && middle < other)
 }
 
-/// Values with few digits near two others, and then these; all of them within a run.
-fn beside([from, to]: &[Rational; 2], run: &[Rational; 2]) -> impl Iterator<Item = Rational> {
+/// Values with few digits near both ends of what is undecided, within a run.
+fn beside([low, high]: &[Rational; 2], run: &[Rational; 2]) -> impl Iterator<Item = Rational> {
     let apart = Rational::new(1.into(), (4 * FINE).into());
-    let near = [from - from * &apart, to + to * apart];
-    let near = near.into_iter().filter_map(|value| short(value.to_f64()?, 5));
-    let within = |value: &Rational| run[0] < *value && *value < run[1];
-    near.chain([from.clone(), to.clone()]).filter(within)
+    let near = [low - low * &apart, high + high * apart].into_iter();
+    let near = near.filter_map(|value| short(value.to_f64()?, 5));
+    near.filter(|value| run[0] < *value && *value < run[1])
 }
 
 /// Values that were looked at one after the other, and are in one state.
@@ -156,18 +155,6 @@ pub struct Column {
     pub off: Vec<Option<[Rational; 2]>>,
 }
 
-/// What is proven of all values from the first to the last of a run: that its answer is enough, and that none of those
-/// before it is that suit at one end at least.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct ProvenRun {
-    /// The first that is enough.
-    pub first: Option<usize>,
-    /// In how many parts.
-    pub parts: usize,
-    /// The answers of which it is not proven.
-    pub but: Vec<(usize, Unproven)>,
-}
-
 /// Which simpler answer is enough where.
 #[derive(Clone, PartialEq, Debug)]
 pub struct EnoughMap {
@@ -177,8 +164,9 @@ pub struct EnoughMap {
     pub columns: Vec<Column>,
     /// For the tolerance, in the order of the values.
     pub runs: Vec<Run<Option<usize>>>,
-    /// Of each run.
-    pub proven: Vec<ProvenRun>,
+    /// Of each run the answers of which it is not proven, for all values from its first to its last, that they are enough, or
+    /// not where another one is the first; without those that suit nowhere.
+    pub open: Vec<Vec<(usize, Unproven)>>,
 }
 
 impl EnoughMap {
@@ -226,73 +214,63 @@ impl Problem {
             }
             Ok::<_, ProblemError>(known[value].clone())
         };
-        let (mut looked, mut proven) = (values.clone(), Vec::new());
-        let runs = loop {
+        let (mut looked, mut known_open) = (values.clone(), BTreeMap::new());
+        let (runs, open) = loop {
             let runs = runs(looked.iter().cloned(), |value| {
                 Ok::<_, ProblemError>(first_enough(&off_at(value)?, tolerance))
             })?;
-            let mut before = std::mem::take(&mut proven);
-            let mut missed = Vec::new();
-            for run in &runs {
-                let place = before.iter().position(|(own, _)| own == run);
-                let own = match place {
-                    Some(place) => before.swap_remove(place).1,
-                    None => {
-                        tell(&run.between[0]);
-                        let [from, to] = &run.between;
-                        let suits = [off_at(from)?, off_at(to)?];
-                        self.proven_run(asked, &simpler, run, |place| {
-                            suits.iter().any(|off| off[place].is_some())
-                        })
-                    }
-                };
+            let (mut open, mut missed) = (Vec::new(), Vec::new());
+            for Run { between, state } in &runs {
+                let key = (between.clone(), *state);
+                if !known_open.contains_key(&key) {
+                    let suits = [off_at(&between[0])?, off_at(&between[1])?];
+                    let suits = |place: usize| suits.iter().any(|off| off[place].is_some());
+                    known_open.insert(key.clone(), self.open(asked, &simpler, &key, suits));
+                }
+                let own = &known_open[&key];
                 // Where it is not decided there may be a border that no value has shown.
-                let open = own.but.iter().filter_map(|(_, unproven)| unproven.undecided.as_ref());
-                for value in open.flat_map(|open| beside(open, &run.between)) {
-                    if first_enough(&off_at(&value)?, tolerance) != run.state {
+                let undecided = own.iter().filter_map(|(_, unproven)| unproven.undecided.as_ref());
+                for value in undecided.flat_map(|undecided| beside(undecided, between)) {
+                    if first_enough(&off_at(&value)?, tolerance) != *state {
                         missed.push(value);
                         break;
                     }
                 }
-                proven.push((run.clone(), own));
+                open.push(own.clone());
             }
-            missed.retain(|value| !looked.contains(value));
             if missed.is_empty() || looked.len() > values.len() + MOST_MISSED {
-                break runs;
+                break (runs, open);
             }
             looked.extend(missed);
             looked.sort();
-            looked.dedup();
         };
         let columns = values.into_iter().map(|value| Ok(Column { off: off_at(&value)?, value }));
         let columns = columns.collect::<Result<_, ProblemError>>()?;
-        let proven = proven.into_iter().map(|(_, own)| own).collect();
-        Ok(EnoughMap { simpler, columns, runs, proven })
+        Ok(EnoughMap { simpler, columns, runs, open })
     }
 
-    /// What is proven of all values of a run.
-    fn proven_run(
+    /// What is not proven of all values between two, where this answer is the first that is enough at both.
+    fn open(
         &self,
         asked: &MapRequest<'_>,
         simpler: &[Simpler],
-        Run { between: [from, to], state }: &Run<Option<usize>>,
+        ([from, to], first): &([Rational; 2], Option<usize>),
         suits: impl Fn(usize) -> bool,
-    ) -> ProvenRun {
-        let before = (0..state.unwrap_or(simpler.len())).filter(|place| suits(*place));
-        let places: Vec<usize> = before.chain(*state).collect();
+    ) -> Vec<(usize, Unproven)> {
         if from == to {
-            return ProvenRun { first: *state, parts: 1, but: Vec::new() };
+            return Vec::new();
         }
-        let claim =
-            |place: &usize| Claim { simpler: &simpler[*place], is_enough: *state == Some(*place) };
-        let claims: Vec<Claim<'_>> = places.iter().map(claim).collect();
-        let (unproven, parts) = self.prove_between(asked, [from, to], &claims);
-        let but = places.into_iter().zip(unproven);
-        ProvenRun {
-            first: *state,
-            parts,
-            but: but.filter_map(|(place, own)| Some((place, own?))).collect(),
-        }
+        let unproven = |place: usize| {
+            let claim = (&simpler[place], *first == Some(place));
+            Some((place, self.prove_between(asked, [from, to], claim).err()?))
+        };
+        let is_scene = |simpler: &Simpler| match simpler {
+            Simpler::Scene(changes) => self.changed(changes).is_ok(),
+            _ => false,
+        };
+        let before = 0..first.unwrap_or(simpler.len());
+        let before = before.filter(|place| suits(*place) || is_scene(&simpler[*place]));
+        before.chain(*first).filter_map(unproven).collect()
     }
 
     /// How far simpler answers are off, over the largest value.

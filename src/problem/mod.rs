@@ -35,12 +35,10 @@ use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
 
 pub use advise::{Advice, Need, Tried, Verdict};
-pub use between::{Claim, Unproven};
+pub use between::Unproven;
 pub use check::{Checked, Derivations, General, Periods, Solved};
 pub use derive::{Derived, Form, Functions, GeneralFormulas, Orders, Symbols, ToDerive};
-pub use enough_map::{
-    Column, EnoughMap, MapRequest, ProvenRun, Run, SymbolRange, geometrically_spaced, runs,
-};
+pub use enough_map::{Column, EnoughMap, MapRequest, Run, SymbolRange, geometrically_spaced, runs};
 pub use equal::{Crossing, EqualExtrema};
 pub use error::{EqualError, LockRefusal, Missing, ProblemError};
 pub use evaluate::{Digits, Proven};

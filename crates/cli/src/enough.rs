@@ -9,9 +9,7 @@ use super::share::{percent, whole};
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
 use wavestep::ball::{Bound, in_decimals};
-use wavestep::problem::{
-    Column, EnoughMap, MapRequest, Problem, ProvenRun, Run, SymbolRange, Unproven,
-};
+use wavestep::problem::{Column, EnoughMap, MapRequest, Problem, Run, SymbolRange, Unproven};
 use wavestep_draw::{Axis, Caption, Chart, Curve, Curves};
 
 /// Shares below this one are drawn at the lower edge.
@@ -58,10 +56,6 @@ pub fn run(
     Ok(text + "\n" + &written)
 }
 
-fn parts(count: usize) -> String {
-    if count == 1 { "at once".to_owned() } else { format!("in {count} parts") }
-}
-
 struct Told<'a> {
     options: &'a Advise,
     asked: &'a MapRequest<'a>,
@@ -103,21 +97,18 @@ impl Told<'_> {
         }
         text +=
             &format!("\nWithin {}, the first that is enough:\n\n", whole(&self.asked.tolerance));
-        let rows = self.map.runs.iter().map(|Run { between: [from, to], state }| {
+        for (Run { between: [from, to], state: first }, open) in
+            self.map.runs.iter().zip(&self.map.open)
+        {
+            let what = first.map_or_else(|| "exact".to_owned(), |place| self.name(place));
+            let how = if open.is_empty() { "for all of these" } else { "at both ends" };
             let range = format!("{} <= {symbol} <= {}", in_decimals(from), in_decimals(to));
-            [range, state.map_or_else(|| "exact".to_owned(), |place| self.name(place))]
-        });
-        let rows: Vec<[String; 2]> = rows.collect();
-        let width = |column: usize| rows.iter().map(|row| row[column].len()).max().unwrap_or(0);
-        let [ranges, answers] = [0, 1].map(width);
-        for ([range, answer], proven) in rows.iter().zip(&self.map.proven) {
-            let told = match proven.but.is_empty() {
-                true => format!("proven for all of these, {}", parts(proven.parts)),
-                false => "proven at both ends".to_owned(),
-            };
-            text += &format!("{range:<ranges$}  {answer:<answers$}  {told}\n");
-            for line in self.open(proven) {
-                text += &format!("  {line}\n");
+            text += &format!("{range}  {what}, proven {how}\n");
+            for (place, Unproven { why, undecided }) in open {
+                let between = undecided.as_ref().map_or(String::new(), |[from, to]| {
+                    format!(" from {} to {}", in_decimals(from), in_decimals(to))
+                });
+                text += &format!("  open between, of {}: {why}{between}\n", self.name(*place));
             }
         }
         text
@@ -125,38 +116,6 @@ impl Told<'_> {
 
     fn name(&self, place: usize) -> String {
         self.map.simpler[place].to_string()
-    }
-
-    /// Between which values the borders at the tolerance are proven.
-    fn proven_at(&self) -> String {
-        let run = |(run, proven): (&Run<Option<usize>>, &ProvenRun)| {
-            let [from, to] = run.between.each_ref().map(in_decimals);
-            let what = run.state.map_or_else(|| "exact".to_owned(), |place| self.name(place));
-            let how = if proven.but.is_empty() { "proven for all" } else { "proven at both ends" };
-            format!("{what} from {from} to {to}, {how}")
-        };
-        let runs = self.map.runs.iter().zip(&self.map.proven).map(run);
-        runs.collect::<Vec<_>>().join("; ")
-    }
-
-    /// What is not proven of all values of a run, a line for each reason.
-    fn open(&self, proven: &ProvenRun) -> Vec<String> {
-        let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
-        for (place, Unproven { why, undecided }) in &proven.but {
-            let between = undecided.as_ref().map_or(String::new(), |[from, to]| {
-                format!(" from {} to {}", in_decimals(from), in_decimals(to))
-            });
-            let (why, name) = (format!("{why}{between}"), self.name(*place));
-            match reasons.iter_mut().find(|(own, _)| *own == why) {
-                Some((_, names)) => names.push(name),
-                None => reasons.push((why, vec![name])),
-            }
-        }
-        let line = |(why, names): (String, Vec<String>)| {
-            let verb = if names.len() == 1 { "is" } else { "are" };
-            format!("open between whether {} {verb} enough: {why}", names.join(", "))
-        };
-        reasons.into_iter().map(line).collect()
     }
 
     /// Marks on the line of the tolerance, where another answer is the first that is enough.
@@ -201,7 +160,6 @@ impl Told<'_> {
                 "Above its line an answer is enough, proven at the marks and drawn between; a region has the colour of the \
                  first that is enough."
                     .to_owned(),
-                format!("At {}: {}.", whole(&self.asked.tolerance), self.proven_at()),
             ],
             command: format!(
                 "wavestep advise {}{set} --quantity {} --tol {tol} --from {from}{}{}{models} --points {points}",

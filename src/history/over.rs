@@ -1,17 +1,17 @@
 //! Exact values in which a symbol takes all values from one to another.
 
-use crate::ball::{Arithmetic, Ball, Varying};
-use crate::enclosure::error::EnclosureError;
+use crate::ball::Arithmetic as _;
+use crate::enclosure::{EnclosureError, Numbers};
 use crate::expression::{Constant, Definition, Fraction, Root};
+use crate::limits::MAX_SYMBOL_BITS as BITS;
+use crate::signal::Varying;
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
 /// A symbol and the values that it takes, and constants that have names.
-#[derive(Clone)]
 pub struct OverSymbol<'a> {
     pub symbol: &'a Symbol,
     pub between: [&'a Rational; 2],
     pub constants: &'a [Constant],
-    pub bits: u64,
 }
 
 impl OverSymbol<'_> {
@@ -25,8 +25,8 @@ impl OverSymbol<'_> {
         if value.radicand().is_one() {
             return Ok(factor);
         }
-        let root = self.fraction(value.radicand())?.sqrt(self.bits);
-        Ok(factor.multiply(&root.ok_or(EnclosureError::NotReal)?, self.bits))
+        let root = self.fraction(value.radicand())?.sqrt(BITS);
+        Ok(factor.multiply(&root.ok_or(EnclosureError::NotReal)?, BITS))
     }
 
     /// The same of a fraction.
@@ -36,10 +36,8 @@ impl OverSymbol<'_> {
     pub fn fraction(&self, value: &Fraction) -> Result<Varying, EnclosureError> {
         let mut result = self.polynomial(value.numerator())?;
         for (factor, power) in value.factors() {
-            let inverse = self.polynomial(factor)?.reciprocal(self.bits)?;
-            for _ in 0..power {
-                result = result.multiply(&inverse, self.bits);
-            }
+            let inverse = self.polynomial(factor)?.reciprocal(BITS)?;
+            result = (0..power).fold(result, |result, _| result.multiply(&inverse, BITS));
         }
         Ok(result)
     }
@@ -47,32 +45,23 @@ impl OverSymbol<'_> {
     fn polynomial(&self, p: &Polynomial) -> Result<Varying, EnclosureError> {
         let values: Vec<Varying> =
             p.symbols().iter().map(|symbol| self.value(symbol)).collect::<Result<_, _>>()?;
-        let mut sum = Varying::zero();
-        for (exponents, coefficient) in p.terms() {
-            let mut term = Varying::constant(&coefficient, self.bits);
-            for (value, exponent) in values.iter().zip(exponents) {
-                for _ in 0..*exponent {
-                    term = term.multiply(value, self.bits);
-                }
-            }
-            sum = sum.add(&term, self.bits);
-        }
-        Ok(sum)
+        let terms = p.terms().map(|(exponents, coefficient)| {
+            let factors = values.iter().zip(exponents);
+            let factors = factors.flat_map(|(value, exponent)| (0..*exponent).map(move |_| value));
+            let constant = Varying::constant(&coefficient, BITS);
+            factors.fold(constant, |product, factor| product.multiply(factor, BITS))
+        });
+        Ok(terms.fold(Varying::zero(), |sum, term| sum.add(&term, BITS)))
     }
 
     fn value(&self, symbol: &Symbol) -> Result<Varying, EnclosureError> {
         if symbol == self.symbol {
-            return Ok(Varying::between(self.between, self.bits));
-        }
-        let missing = || EnclosureError::MissingValue(symbol.clone());
-        if let Some(square) = symbol.square() {
-            let root = Ball::square_root(&Rational::from_integer(square.into()), self.bits);
-            return root.map(Varying::from).ok_or(EnclosureError::NotReal);
+            return Ok(Varying::between(self.between, BITS));
         }
         match self.constants.iter().find(|constant| constant.symbol == *symbol) {
+            // It may hold the symbol.
             Some(Constant { value: Definition::Root(root), .. }) => self.root(root),
-            None if symbol.name() == "pi" => Ok(Ball::pi(self.bits).into()),
-            _ => Err(missing()),
+            _ => Ok(Numbers::new(self.constants).enclose(&Fraction::symbol(symbol), BITS)?.into()),
         }
     }
 }
