@@ -12,8 +12,8 @@ use crate::expression::{Fraction, NotAUnit, Root};
 use crate::history::passivity::{Block, Passivity, StateError};
 use crate::limits::{MAX_STEPS_OVER_SYMBOL, MAX_SYMBOL_BITS as BITS};
 use crate::network::{
-    ElementLaw, Elements, Field, Measured, MeasuredValue, Node, Reading, ScaledScene, Section,
-    Side, System, Term, common_measure, dot,
+    ElementLaw, Elements, Field, Lump, Measured, MeasuredValue, Node, Reading, ScaledScene,
+    Section, Side, System, Term, common_measure, dot,
 };
 use crate::scene::Drive;
 use crate::signal::Varying;
@@ -191,12 +191,12 @@ impl<'a> Over<'a> {
         if count > MAX_STEPS_OVER_SYMBOL {
             return Err(NotOverSymbol::TooManySteps);
         }
-        let (factors, seen): (Vec<Varying>, Vec<Seen>) = self.seen(step)?.into_iter().unzip();
+        let (factors, readings): (Vec<_>, Vec<_>) = self.readings(step)?.into_iter().unzip();
         let mut motion =
             Motion { bars: self.bars(step)?, places: self.places(step)?, known: Vec::new() };
         motion.follow(count);
         let observed = |now| {
-            let parts: Vec<OnStep> = seen.iter().map(|seen| motion.part(seen, now)).collect();
+            let parts: Vec<OnStep> = readings.iter().map(|own| motion.reading(own, now)).collect();
             OnStep::sum(&factors, parts.iter())
         };
         Ok((0..count).map(observed).collect())
@@ -267,59 +267,44 @@ impl<'a> Over<'a> {
         self.scaled.layout.nodes.iter().map(place).collect()
     }
 
-    /// What is observed as parts of a motion, with factors.
-    fn seen(&self, step: &Root) -> Outcome<Vec<(Varying, Seen)>> {
+    /// What is observed as readings with factors, their delays in steps.
+    fn readings(&self, step: &Root) -> Outcome<Vec<(Varying, Reading<usize>)>> {
         let unit = self.symbol.root(&self.measured.unit)?;
         let (model, layout) = (self.scaled.model(), &self.scaled.layout);
-        let mut seen = Vec::new();
-        let mut left: Vec<Term> = self.terms.to_vec();
+        let (mut readings, mut left) = (Vec::new(), self.terms.to_vec());
         while let Some(Term { coefficient, of }) = left.pop() {
-            let factor = self.symbol.fraction(&coefficient)?.multiply(&unit, BITS);
-            match of {
-                Reading::Velocity(face) => {
-                    let node = face.lump().node;
-                    let run = layout.nodes[node].run_beside(face);
-                    seen.push((factor, Seen::Velocity { node, run }));
-                }
-                Reading::Compression(lump) => {
-                    let step = self.symbol.root(&self.scaled_step(step)?)?;
-                    let seen_there = Seen::Compression { node: lump.node, place: lump.place };
-                    seen.push((factor.multiply(&step, BITS), seen_there));
-                }
+            let mut factor = self.symbol.fraction(&coefficient)?.multiply(&unit, BITS);
+            let of = match of {
                 Reading::Force(lump) => {
                     let terms = Elements { model, layout }.force(lump);
                     left.extend(terms.ok_or(NotOverSymbol::Contacts)?.into_iter().map(|term| {
                         Term { coefficient: &coefficient * &term.coefficient, of: term.of }
                     }));
+                    continue;
                 }
-                Reading::InBar(Field::Force, section) => {
-                    let impedance = &model.bars[&layout.bars[section.bar]].impedance;
-                    let factor = factor.multiply(&self.symbol.fraction(impedance)?, BITS);
-                    let left = factor.negate();
-                    seen.extend(self.waves([factor, left], &section, step)?);
+                Reading::Velocity(face) => Reading::Velocity(face),
+                Reading::Compression(lump) => {
+                    let step = self.symbol.root(&self.scaled_step(step)?)?;
+                    factor = factor.multiply(&step, BITS);
+                    Reading::Compression(lump)
                 }
-                Reading::InBar(Field::Velocity, section) => {
-                    seen.extend(self.waves([factor.clone(), factor], &section, step)?);
+                Reading::InBar(Field::Displacement, _)
+                | Reading::Displacement(_)
+                | Reading::Momentum(_) => return Err(NotOverSymbol::Integral),
+                Reading::InBar(field, Section { bar, delays: [right, left] }) => {
+                    if field == Field::Force {
+                        let impedance = &model.bars[&layout.bars[bar]].impedance;
+                        factor = factor.multiply(&self.symbol.fraction(impedance)?, BITS);
+                    }
+                    let lag = |delay: Option<Fraction>| {
+                        delay.map(|delay| self.lag(&delay, step)).transpose()
+                    };
+                    Reading::InBar(field, Section { bar, delays: [lag(right)?, lag(left)?] })
                 }
-                _ => return Err(NotOverSymbol::Integral),
-            }
+            };
+            readings.push((factor, of));
         }
-        Ok(seen)
-    }
-
-    /// The waves to the right and to the left in a section of a bar.
-    fn waves(
-        &self,
-        factors: [Varying; 2],
-        Section { bar, delays }: &Section,
-        step: &Root,
-    ) -> Outcome<Vec<(Varying, Seen)>> {
-        let waves = factors.into_iter().zip(delays).enumerate();
-        let wave = |(direction, (factor, delay)): (usize, (Varying, &Option<Fraction>))| {
-            let delay = delay.as_ref().map(|delay| self.lag(delay, step)).transpose()?;
-            Ok((factor, Seen::Wave { bar: *bar, direction, delay }))
-        };
-        waves.map(wave).collect()
+        Ok(readings)
     }
 }
 
@@ -327,24 +312,6 @@ impl<'a> Over<'a> {
 fn constant(value: &Root) -> Outcome<Rational> {
     let value = value.exact().and_then(|value| value.as_constant());
     value.ok_or(NotOverSymbol::NoCommonMeasure)
-}
-
-/// Something that is observed of a motion.
-enum Seen {
-    Velocity {
-        node: usize,
-        run: usize,
-    },
-    Compression {
-        node: usize,
-        place: usize,
-    },
-    /// So many steps after it entered the bar; none for a wave from the far side of an endless bar.
-    Wave {
-        bar: usize,
-        direction: usize,
-        delay: Option<usize>,
-    },
 }
 
 struct Bar {
@@ -448,14 +415,30 @@ impl Motion {
         }
     }
 
-    fn part(&self, seen: &Seen, now: usize) -> OnStep {
-        match seen {
-            Seen::Velocity { node, run } => self.known[now][*node].velocities[*run].clone(),
-            Seen::Compression { node, place } => match self.places[*node].system.kept[*place] {
-                Some(kept) => self.known[now][*node].both[kept].clone(),
-                None => OnStep::constant(&Varying::zero()),
-            },
-            Seen::Wave { bar, direction, delay } => self.entered((*bar, *direction), *delay, now),
+    /// What is read on a step, of a bar in units of its impedance.
+    fn reading(&self, of: &Reading<usize>, now: usize) -> OnStep {
+        match of {
+            Reading::Velocity(face) => {
+                let node = face.lump().node;
+                let run = self.places[node].node.run_beside(*face);
+                self.known[now][node].velocities[run].clone()
+            }
+            Reading::Compression(Lump { node, place }) => {
+                match self.places[*node].system.kept[*place] {
+                    Some(kept) => self.known[now][*node].both[kept].clone(),
+                    None => OnStep::constant(&Varying::zero()),
+                }
+            }
+            Reading::InBar(field, Section { bar, delays: [right, left] }) => {
+                let waves = [(0, right), (1, left)]
+                    .map(|(side, delay)| self.entered((*bar, side), *delay, now));
+                let left = match field {
+                    Field::Force => Varying::one().negate(),
+                    _ => Varying::one(),
+                };
+                OnStep::sum(&[Varying::one(), left], waves.iter())
+            }
+            _ => unreachable!("other readings are refused before"),
         }
     }
 }

@@ -24,7 +24,7 @@ const ABOVE: [i64; 4] = [20, 14, 8, 1];
 pub struct Unproven {
     pub why: String,
     /// Nearly the same values between which it is not decided, where it is not for another reason.
-    pub undecided: Option<[Rational; 2]>,
+    pub undecided: Option<Box<[Rational; 2]>>,
 }
 
 /// A claim that a simpler scene is enough, or that it is not.
@@ -95,7 +95,7 @@ impl Claim<'_> {
                 Some(middle) => left.extend([[middle.clone(), to], [from, middle]]),
                 None => {
                     let why = "undecided".to_owned();
-                    return Err(Unproven { why, undecided: Some([from, to]) });
+                    return Err(Unproven { why, undecided: Some(Box::new([from, to])) });
                 }
             }
         }

@@ -229,7 +229,8 @@ impl Problem {
                 }
                 let own = &known_open[&key];
                 // Where it is not decided there may be a border that no value has shown.
-                let undecided = own.iter().filter_map(|(_, unproven)| unproven.undecided.as_ref());
+                let undecided =
+                    own.iter().filter_map(|(_, unproven)| unproven.undecided.as_deref());
                 for value in undecided.flat_map(|undecided| beside(undecided, between)) {
                     if first_enough(&off_at(&value)?, tolerance) != *state {
                         missed.push(value);

@@ -11,6 +11,9 @@ use wavestep_polynomial::{Rational, Symbol};
 
 const BITS: u64 = 96;
 
+/// Told values are evaluated with more bits than they have.
+const FINE: u64 = 256;
+
 fn rational(numerator: i64, denominator: i64) -> Rational {
     Rational::new(numerator.into(), denominator.into())
 }
@@ -28,14 +31,14 @@ fn at([low, high]: [&Rational; 2], place: &Rational) -> Rational {
 
 /// The value at a parameter, which goes from −1 to 1 between two values.
 fn of_varying(own: &Varying, parameter: &Rational) -> Ball {
-    own.value(&Ball::from_rational(parameter, BITS), BITS)
+    own.value(&Ball::from_rational(parameter, FINE), FINE)
 }
 
 fn of_step(own: &OnStep, x: &Rational, parameter: &Rational) -> Ball {
-    let x = Ball::from_rational(x, BITS);
+    let x = Ball::from_rational(x, FINE);
     let terms = own.coefficients.iter().rev();
     let sum = terms
-        .fold(Ball::zero(), |sum, c| sum.multiply(&x, BITS).add(&of_varying(c, parameter), BITS));
+        .fold(Ball::zero(), |sum, c| sum.multiply(&x, FINE).add(&of_varying(c, parameter), FINE));
     sum.widened(&own.error)
 }
 
@@ -92,7 +95,8 @@ fn sizes_hold_between_the_ends_of_a_symbol() {
     let five = Varying::constant(&rational(5, 1), BITS);
     let below = five.subtract(&away.multiply(&away, BITS), BITS);
     let window = StepsOf { from: Default::default(), to: [rational(1, 2), rational(1, 2)] };
-    let functions: [(Varying, &dyn Fn(&Rational) -> Rational); 2] = [
+    type Exact<'a> = &'a dyn Fn(&Rational) -> Rational;
+    let functions: [(Varying, Exact<'_>); 2] = [
         (x.multiply(&x, BITS), &square),
         (below, &|x| rational(5, 1) - square(&(x - rational(3, 1)))),
     ];
@@ -120,6 +124,10 @@ fn sizes_hold_between_the_ends_of_a_symbol() {
         }
         assert!(reached[0] > rational(2, 1), "{reached:?}");
     }
+    // Of both signs it is zero between.
+    let across = x.subtract(&Varying::constant(&rational(3, 2), BITS), BITS);
+    let step = OnStep { coefficients: vec![across], error: Magnitude::ZERO };
+    assert_eq!(Envelope::of(&[step], &window).reached(), None);
 }
 
 /// At sampled values of the symbol and sampled instants the values that are proven one by one lie in the enclosure that
@@ -247,6 +255,32 @@ fn enclosures_over_a_symbol_hold_single_values() {
     assert!(observed >= 25 && steps >= 1000, "{observed} {steps}");
 }
 
+/// Roundings add up where nothing else is left out: the velocity of a heavy mass on a bar is `e^(−t/m)`.
+#[test]
+fn roundings_over_a_symbol_are_counted() {
+    let problem = scene(
+        "scene \"Heavy\"
+        symbol m > 0
+        mass block { mass = m, velocity = 1 }
+        bar rod { impedance = 1, travel = 1 }
+        bar far { impedance = 1 }
+        line free - block - rod - far - endless
+        observe velocity = velocity(block)",
+    );
+    let symbol = Symbol::new("m").unwrap();
+    let ends = [rational(1_000_000, 1), rational(1_000_001, 1)];
+    let over =
+        [Over::new(problem.scaled().unwrap(), "velocity", (&symbol, ends.each_ref())).unwrap()];
+    let step = Over::step(&over).unwrap();
+    for (number, on_step) in over[0].follow(&step, 200).unwrap().iter().enumerate() {
+        let exponent = rational(-(2 * number as i64 + 1), 2) / &ends[0];
+        let exact = Ball::from_rational(&exponent, FINE).exp(FINE).unwrap();
+        let told = of_step(on_step, &rational(1, 2), &rational(-1, 1));
+        assert!(told.subtract(&exact, FINE).contains_zero(), "{number}: {told:?}");
+        assert!(*told.radius() < Magnitude::power_of_two(-85));
+    }
+}
+
 fn asked<'a>(
     range: &'a SymbolRange,
     simpler: &[&str],
@@ -280,19 +314,21 @@ fn nothing_is_proven_across_a_border() {
     let problem = Problem::builtin("mass-on-fixed-bar").unwrap();
     let range: SymbolRange = "mu=1/10..10".parse().unwrap();
     let window = |_: &Problem| Ok([rational(0, 1), rational(2, 1)]);
-    for (simpler, border) in
-        [("third", rational(3258, 10_000)), ("endless:rod.right", rational(9737, 10_000))]
-    {
-        let asked = asked(&range, &[], ("velocity", rational(1, 10)), &window);
-        // Below its border the one is enough, above it the other.
-        let is_below = simpler == "third";
+    for (simpler, quantity, tolerance, border, is_below) in [
+        ("third", "velocity", rational(1, 10), rational(3258, 10_000), true),
+        ("endless:rod.right", "velocity", rational(1, 10), rational(9737, 10_000), false),
+        // Beyond the border the wave that makes the strain large comes too late for the window.
+        ("third", "strain_impact", rational(7, 10), rational(1, 1), true),
+    ] {
+        // Below its border it is enough, or above it.
+        let asked = asked(&range, &[], (quantity, tolerance), &window);
         let simpler: Simpler = simpler.parse().unwrap();
         let [far, low, high, beyond] = [90, 99, 101, 110].map(|part| &border * rational(part, 100));
         for is_enough in [true, false] {
             let proven =
                 |ends: [&Rational; 2]| problem.prove_between(&asked, ends, (&simpler, is_enough));
             let open = proven([&low, &high]).expect_err("a border lies between");
-            let [from, to] = open.undecided.expect("it is undecided");
+            let [from, to] = *open.undecided.expect("it is undecided");
             assert!(low <= from && from < to && to <= high && &to - &from < rational(1, 1000));
             assert_eq!(proven([&far, &low]).is_ok(), is_enough == is_below, "{simpler}");
             assert_eq!(proven([&high, &beyond]).is_ok(), is_enough != is_below, "{simpler}");
@@ -307,13 +343,7 @@ fn proven_parts_of_maps_hold_at_other_values() {
     let window = |_: &Problem| Ok([rational(0, 1), rational(4, 1)]);
     let zero_to = [rational(0, 1), rational(4, 1)];
     for (name, quantity, simpler, tolerance, count) in [
-        (
-            "mass-on-fixed-bar",
-            "velocity",
-            &["third", "endless:rod.right"][..],
-            rational(1, 5),
-            3,
-        ),
+        ("mass-on-fixed-bar", "velocity", &["third", "endless:rod.right"][..], rational(1, 5), 3),
         // The rigid striker is enough again beyond 1.35, which no value of the table shows.
         ("cushioned-impact", "force", &["rigid:striker", "spring:striker"], rational(1, 10), 5),
     ] {

@@ -105,7 +105,7 @@ impl Told<'_> {
             let range = format!("{} <= {symbol} <= {}", in_decimals(from), in_decimals(to));
             text += &format!("{range}  {what}, proven {how}\n");
             for (place, Unproven { why, undecided }) in open {
-                let between = undecided.as_ref().map_or(String::new(), |[from, to]| {
+                let between = undecided.as_deref().map_or(String::new(), |[from, to]| {
                     format!(" from {} to {}", in_decimals(from), in_decimals(to))
                 });
                 text += &format!("  open between, of {}: {why}{between}\n", self.name(*place));
