@@ -12,9 +12,8 @@ use crate::signal::{Taylor, middle_and_half};
 use num_traits::{One as _, ToPrimitive as _, Zero as _};
 use wavestep_polynomial::Rational;
 
-/// In so many parts a step is cut for values that are taken, and how often these are halved about the largest.
-const PARTS: i64 = 8;
-const HALVINGS: usize = 12;
+/// In so many parts a step is cut for values that are taken.
+const PARTS: i64 = 64;
 
 /// How often a step is halved for a bound.
 const DEPTH: usize = 14;
@@ -77,26 +76,12 @@ impl Envelope {
     /// Sizes at both ends of the symbol that are reached at one instant, as near to the largest as is found; none where
     /// no instant is found at which the function is told from zero.
     pub fn reached(&self) -> Option<Ends> {
-        let mut best = None;
-        for step in &self.0 {
-            let Some([from, to]) = &step.within else { continue };
-            for part in 0..=PARTS {
-                step.look(&mut best, from + (to - from) * Rational::new(part.into(), PARTS.into()));
-            }
-        }
-        let step = best.as_ref().map(|(_, _, step)| *step)?;
-        let [from, to] = step.within.as_ref()?;
-        let mut by = (to - from) / Rational::from_integer(PARTS.into());
-        for _ in 0..HALVINGS {
-            by /= Rational::from_integer(2.into());
-            let at = best.as_ref().map(|(_, at, _)| at.clone())?;
-            for beside in [&at - &by, &at + &by] {
-                if *from <= beside && beside <= *to {
-                    step.look(&mut best, beside);
-                }
-            }
-        }
-        best.map(|(sizes, ..)| sizes)
+        let steps = self.0.iter().filter_map(|step| Some((step, step.within.as_ref()?)));
+        let sizes = steps.flat_map(|(step, [from, to])| {
+            let at = move |part| from + (to - from) * Rational::new(part, PARTS.into());
+            (0..=PARTS).filter_map(move |part| step.at_least(&at(part.into())))
+        });
+        sizes.max_by_key(|sizes| sizes[0].clone().min(sizes[1].clone()))
     }
 
     /// Whether all values on the window are proven to be no larger than these at both ends of the symbol, and between them than
@@ -106,23 +91,13 @@ impl Envelope {
     }
 }
 
-/// Sizes that are reached, when, and on which step.
-type Reached<'s> = Option<(Ends, Rational, &'s OneStep)>;
-
 impl OneStep {
-    /// Takes the sizes at an instant where the smaller of both is larger than any that is known.
-    fn look<'s>(&'s self, best: &mut Reached<'s>, at: Rational) {
-        let x = Ball::from_rational(&at, BITS);
-        let values = self.ends.each_ref().map(|end| end.value(&x, BITS));
-        // Of both signs there is a zero between the ends.
-        if values[0].sign() != values[1].sign() {
-            return;
-        }
-        let sizes = values.map(|value| value.smallest_size());
-        let least = |sizes: &Ends| sizes[0].clone().min(sizes[1].clone());
-        if least(&sizes) > best.as_ref().map_or_else(Rational::zero, |(known, ..)| least(known)) {
-            *best = Some((sizes, at, self));
-        }
+    /// Sizes that it has at an instant at least; none where it may be zero. With both signs it is, between the ends.
+    fn at_least(&self, at: &Rational) -> Option<Ends> {
+        let at = Ball::from_rational(at, BITS);
+        let values = self.ends.each_ref().map(|end| end.value(&at, BITS));
+        let is_told = values[0].sign() == values[1].sign() && !values[0].contains_zero();
+        is_told.then(|| values.map(|value| value.smallest_size()))
     }
 
     fn is_within(&self, most: &Ends, [from, to]: &[Rational; 2], depth: usize) -> bool {

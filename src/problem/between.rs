@@ -17,7 +17,7 @@ use wavestep_polynomial::{Rational, Symbol};
 const FINEST: i64 = 1 << 18;
 
 /// A bound of the largest value is tried that is above one that is reached by these powers of two of it.
-const ABOVE: [i64; 4] = [20, 14, 8, 1];
+const ABOVE: [i64; 4] = [14, 11, 8, 1];
 
 /// Why something is not proven of all values between two.
 #[derive(Clone, PartialEq, Eq, Debug)]

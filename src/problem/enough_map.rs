@@ -265,12 +265,15 @@ impl Problem {
             let claim = (&simpler[place], *first == Some(place));
             Some((place, self.prove_between(asked, [from, to], claim).err()?))
         };
-        let is_scene = |simpler: &Simpler| match simpler {
-            Simpler::Scene(changes) => self.changed(changes).is_ok(),
+        // A scene may suit between where its distance is known at neither end.
+        let is_scene = |place: usize| match &simpler[place] {
+            Simpler::Scene(changes) => {
+                self.changed(changes).is_ok_and(|other| other.wanted(asked.quantity).is_ok())
+            }
             _ => false,
         };
         let before = 0..first.unwrap_or(simpler.len());
-        let before = before.filter(|place| suits(*place) || is_scene(&simpler[*place]));
+        let before = before.filter(|place| suits(*place) || is_scene(*place));
         before.chain(*first).filter_map(unproven).collect()
     }
 
