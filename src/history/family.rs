@@ -6,7 +6,7 @@
 //! as in `passivity`: its matrices hold for all values at once.
 
 use super::over::OverSymbol;
-use crate::ball::{Arithmetic, Ball, Magnitude, Number};
+use crate::ball::{Arithmetic, Ball, BallError, Magnitude, Number};
 use crate::enclosure::EnclosureError;
 use crate::expression::{Fraction, NotAUnit, Root};
 use crate::history::passivity::{Block, Passivity, StateError};
@@ -42,19 +42,18 @@ pub enum NotOverSymbol {
     Unknown(String),
     #[error(transparent)]
     Value(#[from] EnclosureError),
+    #[error(transparent)]
+    Ball(#[from] BallError),
+    #[error(transparent)]
+    Division(#[from] NotAUnit),
 }
 
 impl NotOverSymbol {
     /// Whether fewer values at once may be followed.
     pub fn is_of_width(&self) -> bool {
-        use NotOverSymbol::{Unresisted, Value};
-        matches!(self, Unresisted | Value(EnclosureError::Ball(_) | EnclosureError::NotReal))
-    }
-}
-
-impl From<NotAUnit> for NotOverSymbol {
-    fn from(error: NotAUnit) -> NotOverSymbol {
-        EnclosureError::from(error).into()
+        use EnclosureError::NotReal;
+        use NotOverSymbol::{Ball, Unresisted, Value};
+        matches!(self, Unresisted | Ball(_) | Value(EnclosureError::Ball(_) | NotReal))
     }
 }
 
@@ -230,14 +229,14 @@ impl<'a> Over<'a> {
     }
 
     fn inverse(&self, value: &Fraction) -> Outcome<Varying> {
-        Ok(self.symbol.fraction(value)?.reciprocal(BITS).map_err(EnclosureError::from)?)
+        Ok(self.symbol.fraction(value)?.reciprocal(BITS)?)
     }
 
     /// The nodes at the start. With a step as the unit of time a mass is so much lighter, and a spring so much stiffer; then
     /// displacements are measured in steps, too.
     fn places(&self, step: &Root) -> Outcome<Vec<Place>> {
         let step = self.symbol.root(&self.scaled_step(step)?)?;
-        let inverse = step.reciprocal(BITS).map_err(EnclosureError::from)?;
+        let inverse = step.reciprocal(BITS)?;
         let place = |exact: &Node<Fraction>| {
             let mut node = exact.map(|value| self.symbol.fraction(value))?;
             for own in &mut node.elements {
@@ -253,8 +252,7 @@ impl<'a> Over<'a> {
             let system =
                 System::of(&node, |_| true, BITS).map_err(|_| NotOverSymbol::Unresisted)?;
             let numbers = node.map(|value| Ok::<_, NotOverSymbol>(value.number()))?;
-            let passivity = Passivity::of(&numbers, &system.map(Varying::number));
-            let passivity = passivity.map_err(EnclosureError::from)?;
+            let passivity = Passivity::of(&numbers, &system.map(Varying::number))?;
             let start = NodeState::at_start(&node, &system, &passivity)?;
             let driven = node.elements.iter().filter(|own| own.law.is_driven()).map(|own| {
                 let course = self.scaled.model().loads[&own.element].course.as_fraction();
@@ -356,7 +354,7 @@ impl NodeState {
                     momentum = momentum.add(&own.multiply(velocity, BITS), BITS);
                 }
             }
-            let inverse = mass.reciprocal(BITS).map_err(EnclosureError::from)?;
+            let inverse = mass.reciprocal(BITS)?;
             values.push(momentum.multiply(&inverse, BITS));
         }
         values.resize(system.states(), Varying::zero());

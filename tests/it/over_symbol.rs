@@ -124,6 +124,24 @@ fn sizes_hold_between_the_ends_of_a_symbol() {
         }
         assert!(reached[0] > rational(2, 1), "{reached:?}");
     }
+    // Of a window that is another one for each value, bounds hold on the longest and sizes are reached on the shortest.
+    let time = |factors: [i64; 2]| {
+        let coefficients = factors.map(|own| Varying::constant(&rational(own, 1), BITS)).to_vec();
+        let window = StepsOf {
+            from: [rational(1, 4), rational(1, 2)],
+            to: [rational(3, 4), rational(7, 8)],
+        };
+        Envelope::of(&[OnStep { coefficients, error: Magnitude::ZERO }], &window)
+    };
+    for (falls, reached, most) in
+        [(false, rational(3, 4), rational(7, 8)), (true, rational(1, 2), rational(3, 4))]
+    {
+        let time = time(if falls { [1, -1] } else { [0, 1] });
+        let near = |size: &Rational, by| [size + rational(by, 1000), size + rational(by, 1000)];
+        assert!(time.is_within(&near(&most, 1)) && !time.is_within(&near(&most, -1)));
+        let told = time.reached().unwrap();
+        assert!(told <= near(&reached, 0) && told >= near(&reached, -1), "{told:?}");
+    }
     // Of both signs it is zero between.
     let across = x.subtract(&Varying::constant(&rational(3, 2), BITS), BITS);
     let step = OnStep { coefficients: vec![across], error: Magnitude::ZERO };
