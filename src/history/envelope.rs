@@ -23,7 +23,7 @@ struct OneStep {
     /// Its part that the window has for some value of the symbol, and for every one where there is such.
     reach: [Rational; 2],
     within: Option<[Rational; 2]>,
-    /// `p₀ + p₁` and `p₀ − p₁`, both with `R`.
+    /// `p₀ + p₁` and `p₀ − p₁`, both with `R`, where `0 ≤ x ≤ 1`.
     ends: [Taylor; 2],
 }
 
