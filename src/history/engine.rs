@@ -470,8 +470,10 @@ impl Engine {
             (_, Some(top), _) => {
                 Rational::from(&Magnitude::power_of_two(LONGEST_CELL - top)) * share
             }
-            // Where nothing has a rate and nothing arrives, a cell is one unit of time.
-            (None, None, None) => share.clone(),
+            // Where nothing has a rate and nothing arrives, a cell is as long as all before it, and a unit of time at least.
+            (None, None, None) => {
+                share * Rational::from_float(state.about.max(1.0).floor()).expect("a time is finite")
+            }
             (None, None, Some(first)) => return Ok((first.clone(), false)),
         };
         let step = Clock::step(&state.now, &longest);
@@ -581,11 +583,16 @@ impl Engine {
         })
     }
 
-    /// How far the next cell of a node reaches. Where the rate of its free motion is what ends the cell, and the
-    /// fastest of that has died out, a second look finds a longer one.
-    fn next_cell(&mut self, node: usize, share: &Rational) -> Outcome<Reach> {
+    /// How far the next cell of a node reaches, no longer than `most`. Where that or the rate of its free motion is what
+    /// ends the cell, and the fastest of that has died out, a second look finds a longer one.
+    fn next_cell(
+        &mut self,
+        node: usize,
+        share: &Rational,
+        most: Option<&Rational>,
+    ) -> Outcome<Reach> {
         let fastest = self.states[node].passivity.rate();
-        let reach = self.reach(node, Longest { rate: fastest, share, most: None })?;
+        let reach = self.reach(node, Longest { rate: fastest, share, most })?;
         if !reach.is_step {
             return Ok(reach);
         }
@@ -616,13 +623,9 @@ impl Engine {
     fn answer(&mut self, node: usize, share: &Rational) -> Outcome<(Reach, Motion)> {
         let rate = self.states[node].passivity.rate();
         // What was short enough before tells about how long the next cell may be.
-        let mut reach = match self.states[node].pressed_for.take() {
-            Some(length) => {
-                let most = length * Rational::from_integer(2.into());
-                self.reach(node, Longest { rate, share, most: Some(&most) })?
-            }
-            None => self.next_cell(node, share)?,
-        };
+        let before = self.states[node].pressed_for.take();
+        let most = before.map(|length| length * Rational::from_integer(2.into()));
+        let mut reach = self.next_cell(node, share, most.as_ref())?;
         loop {
             let state = &self.states[node];
             let (system, cut) = (&state.system, &self.cut);

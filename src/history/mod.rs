@@ -9,9 +9,9 @@
 //! closed, `reading` for what is taken from it, `crossing` and `positive` for the proof that nothing is passed over,
 //! `story` for how events are told, `observe` and `phased` for what is seen of it, `validity` for how long closed
 //! contacts are true, `closed_form` for instants in closed form, `series` for the arithmetic, `cells` and `memory` for
-//! what is kept of it, `family`, `over` and `envelope` for motions over a symbol, `pressing` for local contacts,
-//! `passivity` and `passive` for what becomes of errors, at a node and in the line, `energy` for what a wave holds, `body`
-//! for energies and momenta of bodies and for why they never meet again.
+//! what is kept of it, `family`, `over` and `envelope` for motions over a symbol, `pressing` for local contacts, `resting`
+//! for those that press evenly, `passivity` and `passive` for what becomes of errors, at a node and in the line, `energy`
+//! for what a wave holds, `body` for energies and momenta of bodies and for why they never meet again.
 
 mod body;
 pub mod cells;
@@ -39,6 +39,7 @@ mod phased;
 pub mod positive;
 pub mod pressing;
 mod reading;
+mod resting;
 mod separation;
 pub mod series;
 mod story;

@@ -38,7 +38,7 @@ fn free_motion(block: &Block, own: &[Number], slow: &[Vec<Number>], cut: &Trunca
 }
 
 /// What is as small as this cannot be told from nothing.
-fn told(error: &StateError, cut: &Truncation) -> Magnitude {
+pub(super) fn told(error: &StateError, cut: &Truncation) -> Magnitude {
     error.size().max(cut.largest.scale(ROUNDING - cut.bits as i64))
 }
 
@@ -68,8 +68,11 @@ pub(super) enum Added {
     Nothing,
     /// So much, and so much per unit of time; of all of it so much is fresh at the end.
     Error { at_once: Magnitude, per_time: Magnitude, fresh: Magnitude },
-    /// The same, and all of it grows by this factor.
-    Growing { at_once: Magnitude, per_time: Magnitude, factor: Magnitude },
+    /// The same, and all of it pushes itself on, by this part of its size. Where it does not, it is not known to die out:
+    /// a contact may be softer than the spring in its place.
+    Growing { at_once: Magnitude, per_time: Magnitude, growth: Magnitude },
+    /// So much, while what there was dies out as beside springs in place of local contacts.
+    Settling { at_start: Magnitude, later: Magnitude },
 }
 
 /// A block on a cell: the coefficients of its members, the norm of what they leave out, its size, how much of that is
@@ -271,6 +274,10 @@ impl System<Number> {
         let given = Given::new(input, norm, cut);
         let rates = passivity.blocks.iter().zip(errors).map(|(block, error)| {
             let own: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
+            if !block.pressed.is_empty() {
+                let rests = self.pressing(block, &given).rest(&own, error).is_some();
+                return if rests { Magnitude::ZERO } else { block.rate };
+            }
             let told = told(error, cut);
             let has_died_out = |separation: &&Separation| {
                 let columns = self.slow_columns(block, separation, &own, &given);
@@ -525,10 +532,19 @@ impl System<Number> {
                     let added = after_all(at_once, per_time);
                     (error.clone().after(length, &added, block), fresh.add(&radius))
                 }
-                Added::Growing { at_once, per_time, factor } => {
-                    let added = after_all(at_once, per_time);
-                    let grown = error.size().add(&added).multiply(factor);
-                    (StateError::new(grown), grown)
+                Added::Growing { at_once, per_time, growth } => {
+                    let added = at_once.add(&per_time.multiply(&length.magnitude())).add(&radius);
+                    let grown = error.size().add(&added).multiply(growth);
+                    let error = match growth.is_zero() {
+                        true => StateError::new(error.size().add(&added)),
+                        false => error.clone().after(length, &added.add(&grown), block),
+                    };
+                    let fresh = error.size();
+                    (error, fresh)
+                }
+                Added::Settling { at_start, later } => {
+                    let size = block.left_of(at_start, length).add(later).add(&radius);
+                    (StateError::new(size), size)
                 }
             };
             let error = match energy {

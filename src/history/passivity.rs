@@ -14,6 +14,8 @@ use crate::history::pressing::Pressed;
 use crate::history::separation::{Rows, Separation};
 use crate::history::series::{LONGEST_CELL, Truncation};
 use crate::network::{Node, System};
+use std::cmp::Ordering;
+use wavestep_polynomial::Rational;
 
 /// The precision of the matrices here: bounds need few digits.
 const BITS: u64 = 64;
@@ -22,8 +24,8 @@ const BITS: u64 = 64;
 const TERMS: u64 = 24;
 const TERMS_LEFT_OUT: i64 = -50;
 
-/// An error that does not halve in `2^8` units of the time of a block is taken to stay.
-const MOST_DOUBLINGS: i64 = 8;
+/// An error that does not halve in `2^16` units of the time of a block is taken to stay.
+const MOST_DOUBLINGS: i64 = 16;
 
 type Matrix = Vec<Vec<Ball>>;
 
@@ -69,6 +71,12 @@ pub struct Block {
     pub separations: Vec<Separation>,
     /// The local contacts that are pressed, whose compressions are members.
     pub pressed: Vec<Pressed>,
+}
+
+/// Whether a motion with such a rate is too fast for a Taylor polynomial on a cell.
+fn is_stiff(rate: &Magnitude, length: &Magnitude) -> bool {
+    // A little above the longest cell, whose length is rounded.
+    rate.multiply(length) > Magnitude::from_u64((1 << LONGEST_CELL) + 1)
 }
 
 /// The blocks of a node whose contacts are as they are.
@@ -226,13 +234,10 @@ impl Block {
         })
     }
 
-    /// With those of these contacts that belong to it: their errors are not known to die out.
+    /// With those of these contacts that belong to it.
     fn with_pressed(mut self, pressed: &[Pressed]) -> Block {
         let own = pressed.iter().filter(|pressed| self.members.contains(&pressed.state));
         self.pressed = own.cloned().collect();
-        if !self.pressed.is_empty() {
-            self.decay = None;
-        }
         self
     }
 
@@ -269,11 +274,25 @@ impl Block {
 
     /// The slow motions for a cell that is too long for a Taylor polynomial of all: as many as it is not too long for.
     pub fn separation_on(&self, length: &Magnitude) -> Option<&Separation> {
-        // A little above the longest cell, whose length is rounded.
-        let longest = Magnitude::from_u64((1 << LONGEST_CELL) + 1);
-        let is_stiff = |rate: &Magnitude| rate.multiply(length) > longest;
-        let slow = || self.separations.iter().rev().find(|own| !is_stiff(&own.rate));
-        if is_stiff(&self.rate) { slow() } else { None }
+        let slow = || self.separations.iter().rev().find(|own| !is_stiff(&own.rate, length));
+        if self.is_stiff_on(length) { slow() } else { None }
+    }
+
+    /// What is left of an error of this size after a time, at most.
+    pub fn left_of(&self, error: &Magnitude, length: &Number) -> Magnitude {
+        let has_passed = |time: i64| {
+            let time = Number::Exact(Rational::from(&Magnitude::power_of_two(time)));
+            length.subtract(&time, BITS).sign() == Some(Ordering::Greater)
+        };
+        match &self.decay {
+            Some((time, left)) if has_passed(*time) => error.multiply(left),
+            _ => *error,
+        }
+    }
+
+    /// Whether a cell is too long for a Taylor polynomial.
+    pub fn is_stiff_on(&self, length: &Magnitude) -> bool {
+        is_stiff(&self.rate, length)
     }
 
     /// The size of a small matrix, `√Σ (√wᵢ Mᵢⱼ/√wⱼ)²`.

@@ -32,6 +32,9 @@ const REACH: i64 = 2;
 /// So often a disc is made smaller in search of one that the motion stays in.
 const MOST_DISCS: usize = 4096;
 
+/// A disc is cut into this power of two of rings.
+const RINGS: i64 = 3;
+
 /// So often a box is made larger before its disc is taken to be too large.
 const MOST_BOXES: usize = 24;
 
@@ -41,7 +44,11 @@ const LARGEST_SPRING: i64 = 2;
 const LEAST_SHARE: f64 = 1.0 / 256.0;
 
 /// `K` is kept while `X'`, within these limits, is within this fraction of it.
-const NEAR: f64 = 1.0 / 16.0;
+const NEAR: f64 = 1.0 / 4096.0;
+
+/// The error of a compression is assumed to be below one of these powers of two times it.
+const TIGHT: i64 = -20;
+const LOOSE: i64 = -5;
 
 /// A contact is light at the start of a cell whose compression is this power of two times the largest light one.
 const LIGHT_AT_START: i64 = -4;
@@ -65,7 +72,7 @@ impl PowerLaw {
     }
 
     /// The force at a positive compression.
-    fn value(&self, compression: &Number, bits: u64) -> Result<Number, BallError> {
+    pub(super) fn value(&self, compression: &Number, bits: u64) -> Result<Number, BallError> {
         let ratio = compression.multiply(&self.compression.reciprocal(bits)?, bits);
         let power = ratio.ball(bits).power(&self.exponent, bits)?;
         Ok(self.force.multiply(&Number::Enclosed(power), bits))
@@ -221,28 +228,32 @@ impl TooLong {
 
 /// What a contact is on a cell.
 #[derive(Clone, Debug)]
-struct Compressed {
+pub(super) struct Compressed {
     /// Its place among the members of its block.
-    place: usize,
+    pub(super) place: usize,
     /// The compression at the start, without its error.
-    start: Magnitude,
+    pub(super) start: Magnitude,
     /// That error; none where it is exactly zero.
-    off: Magnitude,
+    pub(super) off: Magnitude,
+    /// How large it is taken to become at most, which `course` checks with the bound that follows, so that there is no
+    /// first time at which it is larger.
+    assumed: Magnitude,
     /// Whether it is known to be compressed then.
     is_compressed: bool,
-    is_light: bool,
+    pub(super) is_light: bool,
     /// How far the compression may go from where it starts.
     most: Magnitude,
     /// Bounds of the force and of `|X'|` then; zero for a light one.
     force: Magnitude,
-    stiffest: Magnitude,
+    pub(super) stiffest: Magnitude,
 }
 
 /// A box on a disc of times.
 struct Picard {
     radius: Magnitude,
-    /// How far each member may go from where it starts.
+    /// How far each member may go from where it starts, and how far on the cell.
     sizes: Vec<Magnitude>,
+    on_cell: Vec<Magnitude>,
 }
 
 impl System<Number> {
@@ -279,13 +290,16 @@ impl System<Number> {
                 courses.push(self.course(block, state, error, &given));
                 continue;
             }
-            let pressing = Pressing { system: self, block, given: &given };
+            let pressing = self.pressing(block, &given);
             let own: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
             if let Some(columns) = pressing.untouched(&own) {
                 courses.push(Course::exact(columns));
                 continue;
             }
-            let (course, own) = pressing.course(&own, error)?;
+            let (course, own) = match pressing.resting_course(&own, error) {
+                Some(resting) => resting,
+                None => pressing.course(&own, error)?,
+            };
             courses.push(course);
             forces.extend(block.pressed.iter().map(|pressed| pressed.input).zip(own));
         }
@@ -294,13 +308,17 @@ impl System<Number> {
         }
         Ok(self.motion(passivity, (state, courses), input, cut))
     }
+
+    pub(super) fn pressing<'a>(&'a self, block: &'a Block, given: &'a Given<'a>) -> Pressing<'a> {
+        Pressing { system: self, block, given }
+    }
 }
 
 /// A block of a node with local contacts, on a cell.
-struct Pressing<'a> {
-    system: &'a System<Number>,
-    block: &'a Block,
-    given: &'a Given<'a>,
+pub(super) struct Pressing<'a> {
+    pub(super) system: &'a System<Number>,
+    pub(super) block: &'a Block,
+    pub(super) given: &'a Given<'a>,
 }
 
 /// What is known of the errors on a cell.
@@ -321,32 +339,29 @@ type Columns = (Vec<Vec<Number>>, Vec<Vec<Number>>);
 impl Pressing<'_> {
     /// The courses of the block and of the forces of its contacts.
     fn course(&self, own: &[Number], error: &StateError) -> Result<(Course, Vec<Series>), TooLong> {
-        let (norm, bits) = (self.given.norm, self.given.cut.bits);
-        let (mut start, mut radii) = (Vec::new(), Vec::new());
-        for value in own {
-            let (middle, radius) = value.split(bits);
-            // The radius of an enclosure is within the error of the block.
-            radii.push(if value.exact().is_some() { radius } else { Magnitude::ZERO });
-            start.push(middle);
-        }
-        let rounding = self.block.size(radii.into_iter());
+        let norm = self.given.norm;
+        let (start, rounding) = self.rounded(own);
         let at_start = error.size().add(&rounding);
-        let mut light: Vec<usize> = Vec::new();
+        let mut doubted: Vec<usize> = Vec::new();
         loop {
-            let contacts = self.compressed((own, &start), &at_start, &light)?;
+            let contacts = self.compressed((own, &start), &at_start, &doubted)?;
             let rates = self.rates_at_start(&start, &contacts)?;
             let radius = norm.length.scale(REACH);
             let Some(picard) = self.picard(&rates, &contacts, &radius) else {
                 return Err(self.shorter(&rates, &contacts, radius));
             };
-            let distance = self.distance(&contacts, &picard);
+            let is_pushed = |own: &Compressed| own.is_light && !picard.reached(own).is_zero();
+            let distance = match contacts.iter().any(is_pushed) {
+                true => Magnitude::ZERO,
+                false => self.distance(&contacts),
+            };
             let (columns, forces) = self.coefficients(&start, &contacts, &picard, &distance)?;
             let left_out = picard.left_out(&norm.length.add(&distance), columns.len());
             let bounds =
                 self.bounds(&contacts, &picard, (&at_start, &rounding), &distance, left_out)?;
             // A compression that is not known to be positive presses as a light one may.
             let is_doubtful =
-                |own: &&Compressed| self.block.entry(own.place, &bounds.rest).scale(5) > own.start;
+                |own: &&Compressed| self.block.entry(own.place, &bounds.rest) > own.assumed;
             let heavy = contacts.iter().filter(|own| !own.is_light);
             let doubtful: Vec<usize> = heavy.filter(is_doubtful).map(|own| own.place).collect();
             if doubtful.is_empty() {
@@ -356,8 +371,20 @@ impl Pressing<'_> {
                 let course = Course { columns, rest, error, fresh, at_start, added, roughness };
                 return Ok((course, forces));
             }
-            light.extend(doubtful);
+            doubted.extend(doubtful);
         }
+    }
+
+    /// A state without radii, and the size of those of its exact entries.
+    pub(super) fn rounded(&self, own: &[Number]) -> (Vec<Number>, Magnitude) {
+        let (mut start, mut radii) = (Vec::new(), Vec::new());
+        for value in own {
+            let (middle, radius) = value.split(self.given.cut.bits);
+            // The radius of an enclosure is within the error of the block.
+            radii.push(if value.exact().is_some() { radius } else { Magnitude::ZERO });
+            start.push(middle);
+        }
+        (start, self.block.size(radii.into_iter()))
     }
 
     /// The exact motion where no contact is compressed all the while.
@@ -375,12 +402,12 @@ impl Pressing<'_> {
         TooLong::than(&self.given.norm.length.scale(-1))
     }
 
-    /// What the contacts are on the cell; those in these places are light.
-    fn compressed(
+    /// What the contacts are on the cell; those in places that were doubted once may have large errors, twice are light.
+    pub(super) fn compressed(
         &self,
         (own, start): (&[Number], &[Number]),
         error: &Magnitude,
-        light: &[usize],
+        doubted: &[usize],
     ) -> Result<Vec<Compressed>, TooLong> {
         let mut all = Vec::new();
         for pressed in &self.block.pressed {
@@ -389,7 +416,8 @@ impl Pressing<'_> {
             let largest = pressed.law.light(self.given.cut.bits);
             let is_positive = start[place].sign() == Some(Ordering::Greater);
             let is_compressed = is_positive && off < from;
-            let is_light = light.contains(&place)
+            let doubts = doubted.iter().filter(|doubted| **doubted == place).count();
+            let is_light = doubts > 1
                 || !is_positive
                 || from < largest.scale(LIGHT_AT_START)
                 || off.scale(6) > from;
@@ -403,11 +431,14 @@ impl Pressing<'_> {
                 (most, force, pressed.law.stiffest(ends).map_err(|_| self.unknown())?)
             };
             let start = from;
+            let is_tight = doubts == 0 && off.scale(4) < from.scale(TIGHT);
+            let assumed = from.scale(if is_tight { TIGHT } else { LOOSE });
             let off = if own[place].is_zero() { Magnitude::ZERO } else { off };
             all.push(Compressed {
                 place,
                 start,
                 off,
+                assumed,
                 is_compressed,
                 is_light,
                 most,
@@ -418,13 +449,13 @@ impl Pressing<'_> {
         Ok(all)
     }
 
-    fn place_of(&self, pressed: &Pressed) -> usize {
+    pub(super) fn place_of(&self, pressed: &Pressed) -> usize {
         let place = self.block.members.iter().position(|member| *member == pressed.state);
         place.expect("a contact of the block")
     }
 
     /// What the contacts are, each with its law.
-    fn each<'b>(
+    pub(super) fn each<'b>(
         &'b self,
         contacts: &'b [Compressed],
     ) -> impl Iterator<Item = (&'b Compressed, &'b Pressed)> {
@@ -446,9 +477,9 @@ impl Pressing<'_> {
         Ok(rates.iter().map(Number::magnitude).collect())
     }
 
-    /// A box in which the motion for the polynomials of the inputs stays on a disc of times, where it is found: one with
-    /// `radius · |y'| ≤ size` for each member, where `|y'|` is at most its value at the start plus what moving within
-    /// the box adds.
+    /// A box in which the motion for the polynomials of the inputs stays on a disc of times, where it is found. It is found
+    /// ring by ring: on one of width `w` a motion that begins within `s` stays within `s + w · |y'|`, where `|y'|` is at most
+    /// its value at the start plus what moving within that box adds.
     fn picard(
         &self,
         rates: &[Magnitude],
@@ -470,27 +501,38 @@ impl Pressing<'_> {
         let given: Vec<Magnitude> = (rows.iter().zip(rates))
             .map(|(row, rate)| rate.add(&product(&row[states..], &inputs)))
             .collect();
-        let mut sizes = vec![Magnitude::ZERO; rates.len()];
-        for _ in 0..MOST_BOXES {
-            let mut moved = vec![Magnitude::ZERO; states + inputs.len()];
-            for (member, size) in self.block.members.iter().zip(&sizes) {
-                moved[*member] = *size;
+        let width = radius.scale(-RINGS);
+        let mut reached = vec![Magnitude::ZERO; rates.len()];
+        let mut on_cell = Vec::new();
+        for ring in 0..1 << RINGS {
+            if ring == 1 << (RINGS - REACH) {
+                on_cell.clone_from(&reached);
             }
-            for (own, law) in self.each(contacts) {
-                moved[states + law.input] = own.stiffest.multiply(&sizes[own.place]);
-            }
-            let changes: Vec<Magnitude> = (rows.iter().zip(&given))
-                .map(|(row, given)| product(row, &moved).add(given).multiply(radius))
-                .collect();
-            if contacts.iter().any(|own| changes[own.place] > own.most) {
-                return None;
-            }
-            if changes.iter().zip(&sizes).all(|(change, size)| change <= size) {
-                return Some(Picard { radius: *radius, sizes: changes });
-            }
-            sizes = changes.iter().map(|change| change.add(&change.scale(-5))).collect();
+            let mut sizes = reached.clone();
+            let mut boxes = 0..MOST_BOXES;
+            reached = loop {
+                boxes.next()?;
+                let mut moved = vec![Magnitude::ZERO; states + inputs.len()];
+                for (member, size) in self.block.members.iter().zip(&sizes) {
+                    moved[*member] = *size;
+                }
+                for (own, law) in self.each(contacts) {
+                    moved[states + law.input] = own.stiffest.multiply(&sizes[own.place]);
+                }
+                let changes = rows.iter().zip(&given).zip(&reached).map(|((row, given), reached)| {
+                    product(row, &moved).add(given).multiply(&width).add(reached)
+                });
+                let changes: Vec<Magnitude> = changes.collect();
+                if contacts.iter().any(|own| changes[own.place] > own.most) {
+                    return None;
+                }
+                if changes.iter().zip(&sizes).all(|(change, size)| change <= size) {
+                    break changes;
+                }
+                sizes = changes.iter().map(|change| change.add(&change.scale(-5))).collect();
+            };
         }
-        None
+        Some(Picard { radius: *radius, sizes: reached, on_cell })
     }
 
     /// A length of which a disc is small enough.
@@ -513,12 +555,8 @@ impl Pressing<'_> {
 
     /// Within which distance of the cell errors are bounded: half of that of the inputs, half of a cell, and less than
     /// they grow to `e` times in.
-    fn distance(&self, contacts: &[Compressed], picard: &Picard) -> Magnitude {
-        let is_pushed = |own: &Compressed| own.is_light && !picard.reached(own).is_zero();
+    pub(super) fn distance(&self, contacts: &[Compressed]) -> Magnitude {
         let norm = self.given.norm;
-        if contacts.iter().any(is_pushed) {
-            return Magnitude::ZERO;
-        }
         let mut rate = self.block.rate;
         for (own, law) in self.each(contacts) {
             let stiffness = law.stiffness.magnitude().add(&own.stiffest);
@@ -536,7 +574,7 @@ impl Pressing<'_> {
     }
 
     /// `S |B|/√K`: how fast an error of the compression changes the state, where it changes the force by `S`.
-    fn pushed_back(&self, pressed: &Pressed, stiffness: &Magnitude) -> Magnitude {
+    pub(super) fn pushed_back(&self, pressed: &Pressed, stiffness: &Magnitude) -> Magnitude {
         let push = self.block.pushed_by(pressed.input).multiply(stiffness);
         self.block.entry(self.place_of(pressed), &push)
     }
@@ -591,10 +629,24 @@ impl Pressing<'_> {
         terms
     }
 
-    /// `max |S − K|`; of a light contact `K`, since its force is counted as a push. Within the cell `|y − y₀| ≤ h
-    /// sup |y'|`, a `2^−REACH` of the box. The error of a compression is assumed to be below a `2^−5` of it: `course`
-    /// checks that with the bound that follows, so that there is no first time at which it is not.
-    fn mismatch(
+    /// `max |S − K|` while the compression moves so far from where it starts.
+    pub(super) fn mismatch(
+        &self,
+        own: &Compressed,
+        law: &Pressed,
+        moved: &Magnitude,
+    ) -> Result<Magnitude, BallError> {
+        let [start, moved] = [&own.start, moved].map(Rational::from);
+        let mut largest = Magnitude::ZERO;
+        for end in [&start - &moved, &start + &moved] {
+            let off = law.law.slope(&end)?.subtract(&law.stiffness, BITS);
+            largest = largest.max(off.magnitude());
+        }
+        Ok(largest)
+    }
+
+    /// `max |S − K|` on the cell; of a light contact `K`, since its force is counted as a push.
+    fn mismatch_on(
         &self,
         own: &Compressed,
         law: &Pressed,
@@ -603,16 +655,9 @@ impl Pressing<'_> {
         if own.is_light {
             return Ok(law.stiffness.magnitude());
         }
-        let start = Rational::from(&own.start);
         let rounded = own.start.scale(-20);
-        let moved = picard.sizes[own.place].scale(-REACH).add(&own.start.scale(-5)).add(&rounded);
-        let moved = Rational::from(&moved);
-        let mut largest = Magnitude::ZERO;
-        for end in [&start - &moved, &start + &moved] {
-            let off = law.law.slope(&end)?.subtract(&law.stiffness, BITS);
-            largest = largest.max(off.magnitude());
-        }
-        Ok(largest)
+        let moved = picard.on_cell[own.place].add(&own.assumed).add(&rounded);
+        self.mismatch(own, law, &moved)
     }
 
     /// The bounds of errors, by that of the state at the start and what of it comes from rounding now.
@@ -629,7 +674,7 @@ impl Pressing<'_> {
         // A compression that is the only state, as between two bars, has errors that the contact only damps.
         if self.block.members.len() > 1 {
             for (own, law) in self.each(contacts) {
-                let off = self.mismatch(own, law, picard).map_err(|_| self.unknown())?;
+                let off = self.mismatch_on(own, law, picard).map_err(|_| self.unknown())?;
                 rate = rate.add(&self.pushed_back(law, &off));
             }
         }
@@ -638,7 +683,8 @@ impl Pressing<'_> {
         if z > Magnitude::power_of_two(0) {
             return Err(self.unknown());
         }
-        let factor = Magnitude::power_of_two(0).add(&z).add(&z.multiply(&z));
+        let growth = z.add(&z.multiply(&z));
+        let factor = Magnitude::power_of_two(0).add(&growth);
         let arriving = self.block.push(&self.given.rests);
         let early = at_start.add(&arriving.multiply(&norm.length)).multiply(&factor);
         // The forces of light contacts themselves move them by as much again at most, which is proven here. One that
@@ -682,7 +728,7 @@ impl Pressing<'_> {
             roughness: Some(Roughness::within(distance, cut)),
             light,
             left_out,
-            added: Added::Growing { at_once: rounding.add(&tail), per_time, factor },
+            added: Added::Growing { at_once: rounding.add(&tail), per_time, growth },
         })
     }
 
