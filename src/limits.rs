@@ -151,6 +151,17 @@ pub const MAX_HISTORY_CELLS: usize = 400_000;
 /// Bits with which contacts are followed.
 pub const MAX_HISTORY_BITS: u64 = 1 << 11;
 
+// ---- Values of a symbol that are followed at once ---------------------------------------------------
+
+/// Steps of time, of all travel times a common measure.
+pub const MAX_STEPS_OVER_SYMBOL: usize = 2048;
+
+/// The precision of coefficients: bounds of differences need few digits more than tolerances have.
+pub const MAX_SYMBOL_BITS: u64 = 96;
+
+/// Parts of a range of values, each proven by itself.
+pub const MAX_PARTS_OVER_SYMBOL: usize = 256;
+
 // ---- Models --------------------------------------------------------------------------------------
 
 /// Modes of a line.

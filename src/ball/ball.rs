@@ -115,6 +115,16 @@ impl Ball {
         self.midpoint.magnitude().add(&self.radius)
     }
 
+    /// The smallest `|x|` over the ball, or less.
+    pub fn smallest_size(&self) -> BigRational {
+        let (low, high) = self.endpoints();
+        match self.sign() {
+            Some(Ordering::Greater) => BigRational::from(&low),
+            Some(Ordering::Less) => -BigRational::from(&high),
+            _ => BigRational::default(),
+        }
+    }
+
     /// `(a, b)` with `a ≤ x ≤ b` for all `x` of the ball.
     ///
     /// They are the exact ends unless the ball contains zero, where they may lie up to one radius

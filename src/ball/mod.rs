@@ -6,6 +6,7 @@
 //! A [`Decimal`] has a definite count of digits, a [`DecimalEnclosure`] is a ball as a person reads it,
 //! and a [`Value`] is a number with proven digits. [`Precisions`] is the one loop that raises precision.
 
+mod arithmetic;
 #[expect(clippy::module_inception, reason = "the module is named after the type it is built on")]
 mod ball;
 mod binary;
@@ -25,6 +26,7 @@ mod root;
 mod trigonometry;
 mod value;
 
+pub use arithmetic::Arithmetic;
 pub use ball::Ball;
 pub use binary::Binary;
 pub use complex::ComplexBall;

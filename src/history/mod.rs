@@ -9,9 +9,10 @@
 //! closed, `reading` for what is taken from it, `crossing` and `positive` for the proof that nothing is passed over,
 //! `story` for how events are told, `observe` and `phased` for what is seen of it, `validity` for how long closed
 //! contacts are true, `closed_form` for instants in closed form, `series` for the arithmetic, `cells` and `memory` for
-//! what is kept of it, `pressing` and `power` for local contacts, `resting` for those that press evenly, `passivity` and `passive` for what becomes of errors, at a node
-//! and in the line, `energy` for what a wave holds, `body` for energies and momenta of bodies and for why they never
-//! meet again.
+//! what is kept of it, `pressing` and `power` for local contacts, `resting` for those that press evenly, `passivity` and
+//! `passive` for what becomes of errors, at a node and in the line, `energy` for what a wave holds, `body` for energies
+//! and momenta of bodies and for why they never meet again. `family`, `over` and `envelope` follow closed contacts for
+//! all values of a symbol at once.
 
 mod body;
 pub mod cells;
@@ -20,7 +21,9 @@ mod contacts;
 pub mod crossing;
 pub mod energy;
 mod engine;
+pub mod envelope;
 mod error;
+pub mod family;
 #[expect(clippy::module_inception, reason = "the module is named after what it tells")]
 mod history;
 mod leaving;
@@ -29,6 +32,7 @@ mod memory;
 pub mod moment;
 pub mod motion;
 mod observe;
+mod over;
 mod part;
 pub mod passive;
 pub mod passivity;

@@ -32,9 +32,9 @@ use crate::model::line::{Bar, Line, LocalContact, Observable};
 use crate::model::track::{DEGREE, POINTS, Track, Values, integral, points, series, sum};
 use crate::network::{
     Contacts, Face, Field, Layout, Lump, ModelLoad, Reading, ScaledScene, Section, Side,
+    common_measure,
 };
 use crate::scene::ElementIndex;
-use num_integer::Integer as _;
 use num_traits::{Signed, ToPrimitive, Zero};
 use std::collections::BTreeMap;
 use wavestep_polynomial::Rational;
@@ -97,8 +97,7 @@ fn measure(times: &[(String, Fraction)]) -> Result<Option<(Fraction, Vec<i64>)>,
     }
     let mut common = Rational::zero();
     for ratio in ratios.iter().map(Rational::abs) {
-        let numerator = (common.numer() * ratio.denom()).gcd(&(ratio.numer() * common.denom()));
-        common = Rational::new(numerator, common.denom() * ratio.denom());
+        common = common_measure(&common, &ratio);
     }
     let counts = ratios.iter().zip(times).map(|(ratio, (name, _))| {
         (ratio / &common).to_integer().to_i64().ok_or_else(|| refused(name))

@@ -82,7 +82,7 @@ struct Class {
 impl Class {
     /// Takes one more in, where the common measure does not become too fine.
     fn join(&mut self, ratio: &Rational) -> bool {
-        let step = gcd(&self.step, ratio);
+        let step = common_measure(&self.step, ratio);
         let largest = ratio.max(&self.largest).clone();
         let coarse = &largest / &step <= Rational::from_integer(MAX_COUNT.into());
         if coarse {
@@ -93,7 +93,7 @@ impl Class {
 }
 
 /// The greatest rational number of which both are whole multiples.
-fn gcd(a: &Rational, b: &Rational) -> Rational {
+pub fn common_measure(a: &Rational, b: &Rational) -> Rational {
     let common: Integer = a.denom().lcm(b.denom());
     let whole = |value: &Rational| (value * Rational::from_integer(common.clone())).to_integer();
     Rational::new(whole(a).gcd(&whole(b)), common)

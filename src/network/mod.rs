@@ -36,7 +36,7 @@ mod system;
 mod unfold;
 
 pub use assumed::Assumed;
-pub use delay::Lattice;
+pub use delay::{Lattice, common_measure};
 pub(crate) use equations::{FieldBars, WaveRole};
 pub use equations::{Network, Role};
 pub use error::NetworkError;

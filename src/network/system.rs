@@ -6,7 +6,7 @@
 //! `y' = A y + B u`; velocities of runs and forces of closed contacts are `C y + D u`. The input `u` holds
 //! the two arriving waves, then what each load does and the force in each local contact.
 
-use crate::ball::Number;
+use crate::ball::Arithmetic;
 use crate::network::node::{Acting, ElementLaw, Link, Lumped, Node};
 use crate::scene::Drive;
 
@@ -86,10 +86,10 @@ impl<V> System<V> {
 }
 
 /// The inverse of a small matrix, by elimination; none where it is not known to have one.
-pub fn inverse(mut matrix: Vec<Vec<Number>>, bits: u64) -> Option<Vec<Vec<Number>>> {
+pub fn inverse<V: Arithmetic>(mut matrix: Vec<Vec<V>>, bits: u64) -> Option<Vec<Vec<V>>> {
     let size = matrix.len();
-    let unit = |i, j| if i == j { Number::one() } else { Number::zero() };
-    let mut result: Vec<Vec<Number>> =
+    let unit = |i, j| if i == j { V::one() } else { V::zero() };
+    let mut result: Vec<Vec<V>> =
         (0..size).map(|i| (0..size).map(|j| unit(i, j)).collect()).collect();
     for i in 0..size {
         let largest = (i..size).max_by_key(|row| matrix[*row][i].magnitude())?;
@@ -113,22 +113,22 @@ pub fn inverse(mut matrix: Vec<Vec<Number>>, bits: u64) -> Option<Vec<Vec<Number
 }
 
 /// A row times a column.
-pub fn dot(row: &[Number], column: &[Number], bits: u64) -> Number {
+pub fn dot<V: Arithmetic>(row: &[V], column: &[V], bits: u64) -> V {
     let terms = row.iter().zip(column).filter(|(a, b)| !a.is_zero() && !b.is_zero());
-    terms.fold(Number::zero(), |sum, (a, b)| sum.add(&a.multiply(b, bits), bits))
+    terms.fold(V::zero(), |sum, (a, b)| sum.add(&a.multiply(b, bits), bits))
 }
 
-impl Node<Number> {
-    pub fn mass_of(&self, run: usize, bits: u64) -> Number {
+impl<V: Arithmetic> Node<V> {
+    pub fn mass_of(&self, run: usize, bits: u64) -> V {
         let masses = self.attached(run).filter_map(|own| match &own.law {
             ElementLaw::Mass { mass, .. } => Some(mass),
             _ => None,
         });
-        masses.fold(Number::zero(), |sum, mass| sum.add(mass, bits))
+        masses.fold(V::zero(), |sum, mass| sum.add(mass, bits))
     }
 }
 
-impl ElementLaw<Number> {
+impl<V: Arithmetic> ElementLaw<V> {
     /// Whether its displacement is part of the state: not that of a damper alone.
     fn remembers(&self) -> bool {
         match self {
@@ -138,13 +138,13 @@ impl ElementLaw<Number> {
     }
 }
 
-impl System<Number> {
+impl<V: Arithmetic> System<V> {
     /// The system of a node with these contacts closed.
     pub fn of(
-        node: &Node<Number>,
+        node: &Node<V>,
         is_closed: impl Fn(usize) -> bool,
         bits: u64,
-    ) -> Result<System<Number>, Unresisted> {
+    ) -> Result<System<V>, Unresisted> {
         let closed: Vec<(usize, usize)> = (node.contacts())
             .filter(|(contact, run)| {
                 matches!(node.links[*run], Link::Contact(_)) && is_closed(*contact)
@@ -174,12 +174,12 @@ impl System<Number> {
 }
 
 /// The balances of a node while its system is made.
-struct Law<'a> {
-    node: &'a Node<Number>,
+struct Law<'a, V> {
+    node: &'a Node<V>,
     group: Vec<usize>,
     groups: usize,
     /// The mass of each group.
-    mass: Vec<Number>,
+    mass: Vec<V>,
     held: Vec<bool>,
     heavy: Vec<usize>,
     kept: Vec<Option<usize>>,
@@ -188,17 +188,17 @@ struct Law<'a> {
 }
 
 /// The motion that one entry of state and input goes with.
-struct Motion<'a> {
-    state: &'a [Number],
-    input: &'a [Number],
+struct Motion<'a, V> {
+    state: &'a [V],
+    input: &'a [V],
     /// The velocity of each group.
-    velocities: Vec<Number>,
+    velocities: Vec<V>,
 }
 
-impl Law<'_> {
-    fn of<'a>(node: &'a Node<Number>, group: Vec<usize>, idle: &[bool], bits: u64) -> Law<'a> {
+impl<V: Arithmetic> Law<'_, V> {
+    fn of<'a>(node: &'a Node<V>, group: Vec<usize>, idle: &[bool], bits: u64) -> Law<'a, V> {
         let groups = group.last().expect("one run at least") + 1;
-        let (mut mass, mut held) = (vec![Number::zero(); groups], vec![false; groups]);
+        let (mut mass, mut held) = (vec![V::zero(); groups], vec![false; groups]);
         for (run, group) in group.iter().enumerate() {
             mass[*group] = mass[*group].add(&node.mass_of(run, bits), bits);
             held[*group] |= node.is_imposed(run);
@@ -206,25 +206,25 @@ impl Law<'_> {
         let free = |group: &usize| !held[*group] && !mass[*group].is_zero();
         let heavy: Vec<usize> = (0..groups).filter(free).collect();
         let mut states = heavy.len()..;
-        let kept = |(own, idle): (&Lumped<Number>, &bool)| {
+        let kept = |(own, idle): (&Lumped<V>, &bool)| {
             (own.law.remembers() && !idle).then(|| states.next().expect("without end"))
         };
         let kept = node.elements.iter().zip(idle).map(kept).collect();
         let mut inputs = 2..;
         let driven =
-            |own: &Lumped<Number>| own.law.is_driven().then(|| inputs.next().expect("without end"));
+            |own: &Lumped<V>| own.law.is_driven().then(|| inputs.next().expect("without end"));
         let driven = node.elements.iter().map(driven).collect();
         Law { node, group, groups, mass, held, heavy, kept, driven, bits }
     }
 
     /// The sum over the runs of a group.
-    fn sum(&self, values: &[Number], group: usize) -> Number {
+    fn sum(&self, values: &[V], group: usize) -> V {
         let own = values.iter().zip(&self.group).filter(|(_, own)| **own == group);
-        own.fold(Number::zero(), |sum, (value, _)| sum.add(value, self.bits))
+        own.fold(V::zero(), |sum, (value, _)| sum.add(value, self.bits))
     }
 
     /// How fast the displacement of an element grows.
-    fn rate(&self, own: &Lumped<Number>, motion: &Motion<'_>) -> Number {
+    fn rate(&self, own: &Lumped<V>, motion: &Motion<'_, V>) -> V {
         let velocity = |run: usize| &motion.velocities[self.group[run]];
         match own.law.is_link() {
             true => velocity(own.run).subtract(velocity(own.run + 1), self.bits),
@@ -233,12 +233,12 @@ impl Law<'_> {
     }
 
     /// The force of an element: in a spring or a local contact the one that compresses it.
-    fn force_of(&self, place: usize, motion: &Motion<'_>) -> Number {
+    fn force_of(&self, place: usize, motion: &Motion<'_, V>) -> V {
         let own = &self.node.elements[place];
         if let Some(input) = self.driven[place] {
             return motion.input[input].clone();
         }
-        let Some([stiffness, damping]) = own.law.resistance() else { return Number::zero() };
+        let Some([stiffness, damping]) = own.law.resistance() else { return V::zero() };
         let damped = damping.multiply(&self.rate(own, motion), self.bits);
         match self.kept[place] {
             Some(state) => {
@@ -249,7 +249,7 @@ impl Law<'_> {
     }
 
     /// The forces on runs: all terms of their balances but inertia and the forces of contacts.
-    fn forces(&self, motion: &Motion<'_>) -> Vec<Number> {
+    fn forces(&self, motion: &Motion<'_, V>) -> Vec<V> {
         let bits = self.bits;
         let compressive = |run: usize, acting: Acting| match acting {
             Acting::Side(side) => {
@@ -260,13 +260,13 @@ impl Law<'_> {
                 if side == 0 { force } else { force.negate() }
             }
             Acting::Link(link) => match self.node.links[link] {
-                Link::Contact(_) => Number::zero(),
+                Link::Contact(_) => V::zero(),
                 Link::Element(place) | Link::Local { place, .. } => self.force_of(place, motion),
             },
             Acting::Element(place) => self.force_of(place, motion),
         };
         let force = |run: usize| {
-            self.node.acting(run).fold(Number::zero(), |sum, (sign, acting)| {
+            self.node.acting(run).fold(V::zero(), |sum, (sign, acting)| {
                 let term = compressive(run, acting);
                 if sign > 0 { sum.add(&term, bits) } else { sum.subtract(&term, bits) }
             })
@@ -275,13 +275,13 @@ impl Law<'_> {
     }
 
     /// The groups without mass, and the inverse of how the forces on them fall with their velocities.
-    fn massless(&self) -> Result<(Vec<usize>, Vec<Vec<Number>>), Unresisted> {
+    fn massless(&self) -> Result<(Vec<usize>, Vec<Vec<V>>), Unresisted> {
         let free = |group: &usize| !self.held[*group] && self.mass[*group].is_zero();
         let massless: Vec<usize> = (0..self.groups).filter(free).collect();
-        let nothing = vec![Number::zero(); self.columns()];
-        let resistance = |moving: &usize| -> Vec<Number> {
-            let mut velocities = vec![Number::zero(); self.groups];
-            velocities[*moving] = Number::one();
+        let nothing = vec![V::zero(); self.columns()];
+        let resistance = |moving: &usize| -> Vec<V> {
+            let mut velocities = vec![V::zero(); self.groups];
+            velocities[*moving] = V::one();
             let motion = Motion { state: &nothing, input: &nothing, velocities };
             let forces = self.forces(&motion);
             massless.iter().map(|group| self.sum(&forces, *group).negate()).collect()
@@ -300,28 +300,27 @@ impl Law<'_> {
     }
 
     /// The matrices, column by column.
-    fn system(self, closed: Vec<(usize, usize)>) -> Result<System<Number>, Unresisted> {
+    fn system(self, closed: Vec<(usize, usize)>) -> Result<System<V>, Unresisted> {
         let bits = self.bits;
         let (massless, inverse) = self.massless()?;
         let (states, runs) = (self.states(), self.node.runs());
         let reciprocal = |group: &usize| self.mass[*group].reciprocal(bits);
-        let lightness: Vec<Number> =
+        let lightness: Vec<V> =
             self.heavy.iter().map(reciprocal).collect::<Result<_, _>>().map_err(|_| Unresisted)?;
         let mut change = vec![Vec::new(); states];
         let mut output = vec![Vec::new(); runs + closed.len()];
         for column in 0..self.columns() {
-            let mut unit = vec![Number::zero(); self.columns()];
-            unit[column] = Number::one();
+            let mut unit = vec![V::zero(); self.columns()];
+            unit[column] = V::one();
             let (state, input) = unit.split_at(states);
             let mut motion = Motion { state, input, velocities: self.given(state, input) };
             let forces = self.forces(&motion);
-            let rest: Vec<Number> =
-                massless.iter().map(|group| self.sum(&forces, *group)).collect();
+            let rest: Vec<V> = massless.iter().map(|group| self.sum(&forces, *group)).collect();
             for (group, row) in massless.iter().zip(&inverse) {
                 motion.velocities[*group] = dot(row, &rest, bits);
             }
             let forces = self.forces(&motion);
-            let mut accelerations = vec![Number::zero(); self.groups];
+            let mut accelerations = vec![V::zero(); self.groups];
             for ((row, group), lightness) in change.iter_mut().zip(&self.heavy).zip(&lightness) {
                 accelerations[*group] = self.sum(&forces, *group).multiply(lightness, bits);
                 row.push(accelerations[*group].clone());
@@ -344,8 +343,8 @@ impl Law<'_> {
     }
 
     /// The velocities of groups that are states or inputs; zero for the others.
-    fn given(&self, state: &[Number], input: &[Number]) -> Vec<Number> {
-        let mut velocities = vec![Number::zero(); self.groups];
+    fn given(&self, state: &[V], input: &[V]) -> Vec<V> {
+        let mut velocities = vec![V::zero(); self.groups];
         for (group, value) in self.heavy.iter().zip(state) {
             velocities[*group] = value.clone();
         }
@@ -360,7 +359,7 @@ impl Law<'_> {
 
     /// The force of a closed contact: what presses on the runs at its left, less what accelerates them. From the right
     /// where the left is held; and where the right alone has no mass, so that nothing cancels.
-    fn contact_force(&self, run: usize, forces: &[Number], accelerations: &[Number]) -> Number {
+    fn contact_force(&self, run: usize, forces: &[V], accelerations: &[V]) -> V {
         let group = self.group[run];
         let member = |other: &usize| self.group[*other] == group;
         let [left, right]: [Vec<usize>; 2] = [
@@ -372,7 +371,7 @@ impl Law<'_> {
         let is_massless = |side: &[usize]| side.iter().all(|run| mass(run).is_zero());
         let is_light = is_massless(&right) && !is_held(&right) && !is_massless(&left);
         let from_right = is_held(&left) || is_light;
-        let mut sum = Number::zero();
+        let mut sum = V::zero();
         for run in if from_right { right } else { left } {
             let inertia = mass(&run).multiply(&accelerations[group], self.bits);
             sum = sum.add(&forces[run], self.bits).subtract(&inertia, self.bits);
@@ -382,7 +381,7 @@ impl Law<'_> {
 }
 
 /// An undamped spring that has nothing but open contacts at one end, by the run at its left.
-fn loose(node: &Node<Number>, joined: &[bool]) -> Option<usize> {
+fn loose<V: Arithmetic>(node: &Node<V>, joined: &[bool]) -> Option<usize> {
     // The first and the last run that move with one.
     let group_of = |run: usize| {
         let (mut first, mut last) = (run, run);

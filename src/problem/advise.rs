@@ -10,7 +10,6 @@ use crate::language::syntax::Declared;
 use crate::language::{self, Beyond, Change};
 use crate::planner::Purpose;
 use crate::signal::{Limit, Signal};
-use num_traits::Signed as _;
 use std::time::{Duration, Instant};
 use wavestep_polynomial::Rational;
 
@@ -218,7 +217,7 @@ impl Adviser<'_> {
             let value = (signal.point(time, Limit::Right)?.enclose)(SAMPLE_BITS)?;
             let off = if is_difference { value } else { exact.subtract(&value, SAMPLE_BITS) };
             // What is certain of it.
-            let off = least(&off);
+            let off = off.smallest_size();
             if off > worst.0 {
                 worst = (off, time.clone());
             }
@@ -428,18 +427,7 @@ impl Adviser<'_> {
     }
 }
 
-/// The smallest absolute value in a ball.
-fn least(ball: &Ball) -> Rational {
-    let (low, high) = ball.endpoints();
-    let (low, high): (Rational, Rational) = ((&low).into(), (&high).into());
-    match (low.is_positive(), high.is_negative()) {
-        (true, _) => low,
-        (_, true) => -high,
-        _ => Rational::default(),
-    }
-}
-
-fn first_line(error: &ProblemError) -> String {
+pub(super) fn first_line(error: &ProblemError) -> String {
     match error {
         ProblemError::Text(diagnostics) if !diagnostics.is_empty() => {
             diagnostics[0].message().to_owned()

@@ -3,16 +3,21 @@
 //! At some values of the symbol the largest difference of each simpler answer is proven. Where the first that is enough
 //! for a tolerance differs between two neighbours, what lies between them is halved until both are nearly the same.
 
+use super::between::Unproven;
 use super::comparison::Comparison;
 use super::{Problem, ProblemError, Simpler, number};
 use crate::language::syntax::Declared;
 use crate::language::{self, Beyond, Change, parse_number};
 use num_traits::{One as _, Signed as _, ToPrimitive as _};
+use std::collections::BTreeMap;
 use std::str::FromStr;
 use wavestep_polynomial::Rational;
 
 /// Neighbours of a border differ by one in so many.
 const FINE: i64 = 1000;
+
+/// So many values are looked at besides, where a proof leaves something open.
+const MOST_MISSED: usize = 24;
 
 /// The numbers of arrivals, and of modes, that are tried where nothing else is said.
 const COUNTS: [usize; 5] = [1, 2, 4, 8, 16];
@@ -58,7 +63,7 @@ pub fn geometrically_spaced(from: &Rational, to: &Rational, points: usize) -> Ve
 }
 
 /// A number with so many digits.
-fn short(value: f64, digits: usize) -> Option<Rational> {
+pub(super) fn short(value: f64, digits: usize) -> Option<Rational> {
     parse_number(&format!("{value:.*e}", digits - 1)).ok()
 }
 
@@ -69,6 +74,14 @@ fn between(one: &Rational, other: &Rational) -> Option<Rational> {
     }
     let [low, high] = [one, other].map(|end| end.to_f64().unwrap_or(f64::NAN));
     short((low * high).sqrt(), 5).filter(|middle| one < middle && middle < other)
+}
+
+/// Values with few digits near both ends of what is undecided, within a run.
+fn beside([low, high]: &[Rational; 2], run: &[Rational; 2]) -> impl Iterator<Item = Rational> {
+    let apart = Rational::new(1.into(), (4 * FINE).into());
+    let near = [low - low * &apart, high + high * apart].into_iter();
+    let near = near.filter_map(|value| short(value.to_f64()?, 5));
+    near.filter(|value| run[0] < *value && *value < run[1])
 }
 
 /// Values that were looked at one after the other, and are in one state.
@@ -114,6 +127,11 @@ pub fn runs<S: PartialEq, E>(
     Ok(runs)
 }
 
+/// The first answer that is enough.
+fn first_enough(off: &[Option<[Rational; 2]>], tolerance: &Rational) -> Option<usize> {
+    off.iter().position(|own| own.as_ref().is_some_and(|[_, most]| most <= tolerance))
+}
+
 /// What is asked.
 pub struct MapRequest<'a> {
     pub range: &'a SymbolRange,
@@ -146,6 +164,9 @@ pub struct EnoughMap {
     pub columns: Vec<Column>,
     /// For the tolerance, in the order of the values.
     pub runs: Vec<Run<Option<usize>>>,
+    /// Of each run the answers of which it is not proven, for all values from its first to its last, that they are enough, or
+    /// not where another one is the first; without those that suit nowhere.
+    pub open: Vec<Vec<(usize, Unproven)>>,
 }
 
 impl EnoughMap {
@@ -184,20 +205,76 @@ impl Problem {
             false => asked.simpler.clone(),
         };
         let values = geometrically_spaced(&range.from, &range.to, *points);
-        let mut columns = Vec::new();
-        let runs = runs(values.iter().cloned(), |value| {
-            tell(value);
-            let off = self.substituted(&range.symbol, value)?.shares(asked, &simpler)?;
-            let is_enough = |own: &Option<[Rational; 2]>| {
-                own.as_ref().is_some_and(|[_, most]| most <= tolerance)
-            };
-            let first = off.iter().position(is_enough);
-            if values.contains(value) {
-                columns.push(Column { value: value.clone(), off });
+        let mut known = BTreeMap::new();
+        let mut off_at = |value: &Rational| {
+            if !known.contains_key(value) {
+                tell(value);
+                let off = self.substituted(&range.symbol, value)?.shares(asked, &simpler)?;
+                known.insert(value.clone(), off);
             }
-            Ok::<_, ProblemError>(first)
-        })?;
-        Ok(EnoughMap { simpler, columns, runs })
+            Ok::<_, ProblemError>(known[value].clone())
+        };
+        let (mut looked, mut known_open) = (values.clone(), BTreeMap::new());
+        let (runs, open) = loop {
+            let runs = runs(looked.iter().cloned(), |value| {
+                Ok::<_, ProblemError>(first_enough(&off_at(value)?, tolerance))
+            })?;
+            let (mut open, mut missed) = (Vec::new(), Vec::new());
+            for Run { between, state } in &runs {
+                let key = (between.clone(), *state);
+                if !known_open.contains_key(&key) {
+                    let suits = [off_at(&between[0])?, off_at(&between[1])?];
+                    let suits = |place: usize| suits.iter().any(|off| off[place].is_some());
+                    known_open.insert(key.clone(), self.open(asked, &simpler, &key, suits));
+                }
+                let own = &known_open[&key];
+                // Where it is not decided there may be a border that no value has shown.
+                let undecided =
+                    own.iter().filter_map(|(_, unproven)| unproven.undecided.as_deref());
+                for value in undecided.flat_map(|undecided| beside(undecided, between)) {
+                    if first_enough(&off_at(&value)?, tolerance) != *state {
+                        missed.push(value);
+                        break;
+                    }
+                }
+                open.push(own.clone());
+            }
+            if missed.is_empty() || looked.len() > values.len() + MOST_MISSED {
+                break (runs, open);
+            }
+            looked.extend(missed);
+            looked.sort();
+        };
+        let columns = values.into_iter().map(|value| Ok(Column { off: off_at(&value)?, value }));
+        let columns = columns.collect::<Result<_, ProblemError>>()?;
+        Ok(EnoughMap { simpler, columns, runs, open })
+    }
+
+    /// What is not proven of all values between two, where this answer is the first that is enough at both.
+    fn open(
+        &self,
+        asked: &MapRequest<'_>,
+        simpler: &[Simpler],
+        ([from, to], first): &([Rational; 2], Option<usize>),
+        suits: impl Fn(usize) -> bool,
+    ) -> Vec<(usize, Unproven)> {
+        if from == to {
+            return Vec::new();
+        }
+        let unproven = |place: usize| {
+            let claim = (&simpler[place], *first == Some(place));
+            Some((place, self.prove_between(asked, [from, to], claim).err()?))
+        };
+        // A scene may suit between where its distance is known at neither end.
+        let is_scene = |place: usize| match &simpler[place] {
+            Simpler::Scene(changes) => {
+                self.changed(changes).is_ok_and(|other| other.wanted(asked.quantity).is_ok())
+            }
+            _ => false,
+        };
+        let before = 0..first.unwrap_or(simpler.len());
+        let before = before.filter(|place| suits(*place) || is_scene(*place));
+        before.chain(*first).filter_map(unproven).collect()
     }
 
     /// How far simpler answers are off, over the largest value.

@@ -5,6 +5,7 @@
 //! for a title, a quantity, a time, values, and are told where there is no answer.
 
 mod advise;
+mod between;
 mod bounds;
 mod check;
 mod comparison;
@@ -34,6 +35,7 @@ use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
 
 pub use advise::{Advice, Need, Tried, Verdict};
+pub use between::Unproven;
 pub use check::{Checked, Derivations, General, Periods, Solved};
 pub use derive::{Derived, Form, Functions, GeneralFormulas, Orders, Symbols, ToDerive};
 pub use enough_map::{Column, EnoughMap, MapRequest, Run, SymbolRange, geometrically_spaced, runs};

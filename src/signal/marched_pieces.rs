@@ -4,7 +4,7 @@
 //! the march of [`wavestep_kernels::fixed`] gives Taylor polynomials of the response on equal pieces of
 //! all periods, with one proven bound, in a fraction of the time that balls take.
 
-use crate::ball::{Ball, Binary, ComplexBall, Magnitude, at_or_after, rational};
+use crate::ball::{Arithmetic as _, Ball, Binary, ComplexBall, Magnitude, at_or_after, rational};
 use crate::enclosure::Numbers;
 use crate::expression::{Field as _, Fraction, Transform};
 use crate::signal::error::EvaluateError;
@@ -249,7 +249,7 @@ impl MarchedPieces {
                 }
             };
             let weight = Ball::from_rational(&tap.weight, bits);
-            sum.add(part.scaled(&weight, bits), bits);
+            sum = sum.add(&part.scaled(&weight, bits), bits);
         }
         let numbers = Numbers::new(&[]);
         let field = numbers.field(bits);
@@ -265,7 +265,7 @@ impl MarchedPieces {
             let h = field.embed(&Fraction::constant(&half).into())?;
             let terms = sum.coefficients.len().max(32);
             let part = Taylor::of(&function, &x, &h, terms, &numbers, bits)?.real()?;
-            sum.add(part.scaled(&Ball::from_rational(&self.unit, bits), bits), bits);
+            sum = sum.add(&part.scaled(&Ball::from_rational(&self.unit, bits), bits), bits);
         }
         if sum.coefficients.is_empty() {
             sum.coefficients.push(Ball::zero());

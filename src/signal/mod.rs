@@ -20,6 +20,7 @@ mod silence;
 mod taps;
 pub mod taylor;
 pub mod transforms;
+mod varying;
 
 pub use crate::ball::Value;
 pub use arrivals::{Arrival, arrivals};
@@ -28,6 +29,7 @@ pub use cells::{first_doubles, reaching_a_double};
 pub use closed::{ClosedForm, ClosedSignal};
 pub use digits::{digits, value};
 pub use error::EvaluateError;
+pub(crate) use find::middle_and_half;
 pub use find::{Extremum, Goal, Place, Root, Roots, Search};
 pub use method::{
     Certified, Compiled, Evaluator, Marched, MethodError, StablePrecision, Summation, Summed,
@@ -42,3 +44,4 @@ pub(crate) use signal::{Enclosure, Known, MAX_FLATNESS, has_begun, last_begun};
 pub(crate) use silence::Silence;
 pub use taps::{NoTaps, Taps};
 pub use taylor::Taylor;
+pub use varying::Varying;

@@ -201,16 +201,6 @@ fn tail(coefficients: &[ComplexBall], x: &Magnitude, h: &Magnitude, terms: usize
 }
 
 impl Taylor {
-    /// Adds another one.
-    pub(crate) fn add(&mut self, other: Taylor, bits: u64) {
-        let length = self.coefficients.len().max(other.coefficients.len());
-        self.coefficients.resize(length, Ball::zero());
-        for (sum, coefficient) in self.coefficients.iter_mut().zip(&other.coefficients) {
-            *sum = sum.add(coefficient, bits);
-        }
-        self.remainder = self.remainder.add(&other.remainder);
-    }
-
     /// The product, with as many terms as the longer factor has: what either leaves out times all of the
     /// other, and the products of terms of too high a degree, are the remainder.
     pub(crate) fn multiply(&self, other: &Taylor, bits: u64) -> Taylor {
@@ -266,6 +256,16 @@ impl Taylor {
         let horner = |value: Ball, c: &Ball| value.multiply(u, bits).add(c, bits);
         let value = self.coefficients.iter().rev().fold(Ball::zero(), horner);
         value.widened(&self.remainder)
+    }
+
+    /// `c_0 ± Σ_{k≥1} |c_k| ± R`: all values.
+    pub(crate) fn range(&self) -> Ball {
+        self.coefficient(0).widened(&self.tail(1))
+    }
+
+    /// `c_k`, zero where there is none.
+    pub fn coefficient(&self, k: usize) -> Ball {
+        self.coefficients.get(k).cloned().unwrap_or_else(Ball::zero)
     }
 
     /// A bound on what the terms from the `m`-th on, and what is left out, add up to.

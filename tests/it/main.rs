@@ -26,6 +26,7 @@ mod lock;
 mod measures;
 mod methods;
 mod models;
+mod over_symbol;
 mod phases_fields;
 mod products;
 mod rise;

@@ -9,7 +9,7 @@ use super::share::{percent, whole};
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
 use wavestep::ball::{Bound, in_decimals};
-use wavestep::problem::{Column, EnoughMap, MapRequest, Problem, Run, SymbolRange};
+use wavestep::problem::{Column, EnoughMap, MapRequest, Problem, Run, SymbolRange, Unproven};
 use wavestep_draw::{Axis, Caption, Chart, Curve, Curves};
 
 /// Shares below this one are drawn at the lower edge.
@@ -97,12 +97,25 @@ impl Told<'_> {
         }
         text +=
             &format!("\nWithin {}, the first that is enough:\n\n", whole(&self.asked.tolerance));
-        for Run { between: [from, to], state: first } in &self.map.runs {
-            let what = first
-                .map_or_else(|| "exact".to_owned(), |place| self.map.simpler[place].to_string());
-            text += &format!("{} <= {symbol} <= {}  {what}\n", in_decimals(from), in_decimals(to));
+        for (Run { between: [from, to], state: first }, open) in
+            self.map.runs.iter().zip(&self.map.open)
+        {
+            let what = first.map_or_else(|| "exact".to_owned(), |place| self.name(place));
+            let how = if open.is_empty() { "for all of these" } else { "at both ends" };
+            let range = format!("{} <= {symbol} <= {}", in_decimals(from), in_decimals(to));
+            text += &format!("{range}  {what}, proven {how}\n");
+            for (place, Unproven { why, undecided }) in open {
+                let between = undecided.as_deref().map_or(String::new(), |[from, to]| {
+                    format!(" from {} to {}", in_decimals(from), in_decimals(to))
+                });
+                text += &format!("  open between, of {}: {why}{between}\n", self.name(*place));
+            }
         }
         text
+    }
+
+    fn name(&self, place: usize) -> String {
+        self.map.simpler[place].to_string()
     }
 
     /// Marks on the line of the tolerance, where another answer is the first that is enough.

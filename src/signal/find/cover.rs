@@ -219,7 +219,7 @@ impl Search<'_> {
         bits: u64,
     ) -> Result<Ball, EvaluateError> {
         let (middle, half) = middle_and_half(from, to);
-        Ok(range_of(&self.expand(stretch, target, (&middle, &half), 8, bits)?))
+        Ok(self.expand(stretch, target, (&middle, &half), 8, bits)?.range())
     }
 
     /// The same where a cell may be long and the values on it small: with as many terms as it takes.
@@ -239,7 +239,7 @@ impl Search<'_> {
             }
             taylor = of(terms)?;
         }
-        Ok(range_of(&taylor))
+        Ok(taylor.range())
     }
 }
 
@@ -287,7 +287,7 @@ impl Cover<'_, '_, '_> {
         let sharp = expansion.polynomials.iter().all(is_sharp);
         let own = &expansion.polynomials[0];
         let hopeless = own.coefficients.iter().all(Ball::contains_zero)
-            && (sharp || range_of(own).magnitude() <= self.noise);
+            && (sharp || own.range().magnitude() <= self.noise);
         if hopeless || depth >= DEPTH {
             self.push(from, to, Finding::Open);
             return Ok(());
@@ -372,16 +372,16 @@ impl Cover<'_, '_, '_> {
 
     fn decided(&mut self, polynomials: &[Taylor]) -> Option<Finding> {
         if let (Some(record), Some(observable)) = (&mut self.record, polynomials.get(2)) {
-            if record.beats(&range_of(observable)) {
+            if record.beats(&observable.range()) {
                 return Some(Finding::Low);
             }
             record.note(&observable.coefficients[0].widened(&observable.remainder));
         }
-        match range_of(&polynomials[0]).sign() {
+        match polynomials[0].range().sign() {
             Some(Ordering::Equal) | None => {}
             Some(sign) => return Some(Finding::Clear(sign)),
         }
-        match range_of(&polynomials[1]).sign() {
+        match polynomials[1].range().sign() {
             Some(Ordering::Equal) | None => None,
             Some(sign) => Some(Finding::Monotone(sign)),
         }
@@ -406,11 +406,6 @@ impl Expansion {
 /// Whether what is left out matters little.
 pub(crate) fn is_sharp(polynomial: &Taylor) -> bool {
     polynomial.remainder.scale(REMAINDER_BITS) <= polynomial.tail(1)
-}
-
-/// `c_0 ± Σ_{k≥1} |c_k| ± R`: all values on the cell.
-pub(crate) fn range_of(polynomial: &Taylor) -> Ball {
-    polynomial.coefficients[0].widened(&polynomial.tail(1))
 }
 
 pub(crate) fn middle_and_half(from: &Rational, to: &Rational) -> (Rational, Rational) {

@@ -13,7 +13,7 @@
 use crate::ball::{Attempt, Ball, Binary, Precisions, Value};
 use crate::limits::MAX_ROOTS;
 use crate::signal::error::EvaluateError;
-use crate::signal::find::cover::{Finding, Record, middle_and_half, range_of};
+use crate::signal::find::cover::{Finding, Record, middle_and_half};
 use crate::signal::find::refine::Isolated;
 use crate::signal::find::search::{Search, Target, rationals};
 use crate::signal::signal::{At, Limit};
@@ -333,7 +333,7 @@ impl Contenders<'_, '_> {
                 // The value is as flat as the square of what is unknown of the time.
                 search.narrow(root, slope, bits / 2 + 8)?;
                 let (middle, half) = middle_and_half(&root.from, &root.to);
-                range_of(&search.expand(root.stretch, target, (&middle, &half), 8, working)?)
+                search.expand(root.stretch, target, (&middle, &half), 8, working)?.range()
             }
             Candidate::Open { stretch, from, to } => {
                 search.range_of_small(*stretch, target, (from, to), working)?

@@ -20,6 +20,7 @@ mod roots;
 mod search;
 mod size;
 
+pub(crate) use cover::middle_and_half;
 pub use extrema::{Extremum, Goal, Place};
 pub use roots::{Root, Roots};
 pub use search::Search;

@@ -5,7 +5,7 @@
 //! taken, is negligible, or nothing of it is told from zero; else it is halved. So a function that is zero is done at once,
 //! where a search for its extrema would halve cells for ever.
 
-use super::cover::{is_sharp, middle_and_half, range_of};
+use super::cover::{is_sharp, middle_and_half};
 use super::search::{Search, Target};
 use crate::ball::{Ball, Magnitude};
 use crate::limits::{MAX_EXPANSIONS, MAX_POLYNOMIALS};
@@ -138,7 +138,7 @@ impl Bounding<'_, '_> {
     /// Whether halves of a cell would tell no more, and then notes its bound: it is near enough, or nothing is told from zero.
     fn is_done(&mut self, own: &Known, depth: usize) -> bool {
         self.note(&own.taylor.coefficients[0].widened(&own.taylor.remainder));
-        let most = Rational::from(&range_of(&own.taylor).magnitude());
+        let most = Rational::from(&own.taylor.range().magnitude());
         let [low, high] = &mut self.known;
         let slack = &*low * Rational::from(&Magnitude::power_of_two(-SLACK));
         let is_noise =

@@ -4,7 +4,7 @@
 //! handled as Taylor polynomials with one term.
 
 use super::{Mark, Outcome, Rule, Scale, value_at};
-use crate::ball::Ball;
+use crate::ball::{Arithmetic as _, Ball};
 use crate::expression::{Expression, Fraction};
 use crate::signal::{At, EchoCount, Effort, Enclosure, Known, Limit, MAX_FLATNESS, Signal, Taylor};
 use num_traits::{One as _, Zero as _};
@@ -51,7 +51,8 @@ impl Combination<'_> {
                 let mut sum = Taylor::polynomial(Vec::new());
                 for k in 0..=n {
                     let ways = Ball::from_integer(&binomial(n as u32, k as u32));
-                    sum.add(known[k].multiply(&others[n - k], bits).scaled(&ways, bits), bits);
+                    let part = known[k].multiply(&others[n - k], bits).scaled(&ways, bits);
+                    sum = sum.add(&part, bits);
                 }
                 sum
             };
@@ -117,7 +118,7 @@ impl Rule for Combination<'_> {
         };
         let mut sum = Taylor::polynomial(vec![Ball::zero(); terms]);
         for product in &self.products {
-            sum.add(self.derivative(product, order, bits, factor)?, bits);
+            sum = sum.add(&self.derivative(product, order, bits, factor)?, bits);
         }
         Ok(sum)
     }

@@ -4,7 +4,7 @@
 //! `pi` and square roots, which mean the same everywhere; so what happens in both scenes at once is one break.
 
 use super::{Mark, Outcome, Rule, Scale, value_at};
-use crate::ball::Ball;
+use crate::ball::{Arithmetic as _, Ball};
 use crate::expression::{Expression, Fraction};
 use crate::network::Network;
 use crate::scene::PI;
@@ -120,10 +120,9 @@ impl Rule for Difference<'_> {
         terms: usize,
         bits: u64,
     ) -> Outcome<Taylor> {
-        let [mut own, other] =
+        let [own, other] =
             self.both(places, |operand, place| operand.taylor(place, order, around, terms, bits))?;
-        own.add(other.scaled(&Ball::from_integer(&(-1).into()), bits), bits);
-        Ok(own)
+        Ok(own.subtract(&other, bits))
     }
 
     /// Numbers alone mean the same in both scenes.

@@ -11,7 +11,7 @@
 //! so far: what has decayed needs no cells as short as what has not.
 
 use super::{Mark, Outcome, Rule, Scale, locate, taylor_by_rate, value_at, working};
-use crate::ball::{Ball, Binary, Magnitude};
+use crate::ball::{Arithmetic as _, Ball, Binary, Magnitude};
 use crate::expression::{Expression, Fraction};
 use crate::signal::{
     EchoCount, Effort, Enclosure, Instant, Known, Limit, Signal, Taylor, has_begun,
@@ -383,7 +383,7 @@ impl Rule for Integral<'_> {
             let minus = Ball::from_integer(&(-1).into());
             let mut taylor = self.of.taylor(places[UPPER], order, place, kept, bits)?;
             let below = self.taylor_below(places[LOWER], order, place, kept, bits)?;
-            taylor.add(below.scaled(&minus, bits), bits);
+            taylor = taylor.add(&below.scaled(&minus, bits), bits);
             Ok(taylor.scaled(&self.slowness(bits)?, bits))
         };
         let value = || {

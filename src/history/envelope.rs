@@ -1,0 +1,120 @@
+//! How large a function of time is at most and at least, for all values of a symbol.
+//!
+//! On a step `f(x, ν) = p₀(x) + p₁(x) ν + r` with `|r| ≤ R`, where the parameter `ν` of the symbol lies between −1 and 1. A
+//! linear function of `ν` lies between its ends, so sizes are told of both, `|p₀ ± p₁|` more or less `R`: in between they are no larger
+//! than the same mean of two bounds, and no smaller than that of two sizes that are reached at one instant. So sizes that change
+//! alike are compared as nearly as the curvature over the symbol allows.
+
+use crate::ball::{Arithmetic as _, Ball, Magnitude};
+use crate::history::family::OnStep;
+use crate::limits::MAX_SYMBOL_BITS as BITS;
+use crate::signal::{Taylor, middle_and_half};
+use num_traits::{One as _, ToPrimitive as _, Zero as _};
+use wavestep_polynomial::Rational;
+
+/// In so many parts a step is cut for values that are taken.
+const PARTS: i64 = 64;
+
+/// How often a step is halved for a bound.
+const DEPTH: usize = 14;
+
+/// A function on a step.
+struct OneStep {
+    /// Its part that the window has for some value of the symbol, and for every one where there is such.
+    reach: [Rational; 2],
+    within: Option<[Rational; 2]>,
+    /// `p₀ + p₁` and `p₀ − p₁`, both with `R`, where `0 ≤ x ≤ 1`.
+    ends: [Taylor; 2],
+}
+
+/// What a size is at both ends of the symbol.
+pub type Ends = [Rational; 2];
+
+/// A function on a window.
+pub struct Envelope(Vec<OneStep>);
+
+/// A window in steps since the start: between which numbers its first time and its last lie.
+pub struct StepsOf {
+    pub from: [Rational; 2],
+    pub to: [Rational; 2],
+}
+
+impl StepsOf {
+    /// How many there are at most.
+    pub fn count(&self) -> usize {
+        self.to[1].floor().to_usize().map_or(usize::MAX, |last| last.saturating_add(1))
+    }
+}
+
+impl Envelope {
+    /// A function on the steps of a window.
+    pub fn of(steps: &[OnStep], window: &StepsOf) -> Envelope {
+        let one = |(number, own): (usize, &OnStep)| {
+            let start = Rational::from_integer(number.into());
+            let part = |[from, to]: [&Rational; 2]| {
+                let part =
+                    [(from - &start).max(Rational::zero()), (to - &start).min(Rational::one())];
+                // The end of a step is the beginning of the next.
+                (part[0] <= part[1] && !part[0].is_one()).then_some(part)
+            };
+            let reach = part([&window.from[0], &window.to[1]])?;
+            let within = part([&window.from[1], &window.to[0]]);
+            let of_power = |k| {
+                let own = own.coefficients.iter().map(|own| own.coefficient(k)).collect();
+                Taylor { coefficients: own, remainder: Magnitude::ZERO }
+            };
+            let (middle, slope) = (of_power(0), of_power(1));
+            let rests = own.coefficients.iter().map(|own| own.tail(2));
+            let rest = rests.fold(own.error, |sum, rest| sum.add(&rest));
+            let ends = [middle.add(&slope, BITS), middle.subtract(&slope, BITS)];
+            let ends = ends.map(|end| Taylor { remainder: rest, ..end });
+            Some(OneStep { reach, within, ends })
+        };
+        Envelope(steps.iter().enumerate().filter_map(one).collect())
+    }
+
+    /// Sizes at both ends of the symbol that are reached at one instant, as near to the largest as is found; none where
+    /// no instant is found at which the function is told from zero.
+    pub fn reached(&self) -> Option<Ends> {
+        let steps = self.0.iter().filter_map(|step| Some((step, step.within.as_ref()?)));
+        let sizes = steps.flat_map(|(step, [from, to])| {
+            let at = move |part| from + (to - from) * Rational::new(part, PARTS.into());
+            (0..=PARTS).filter_map(move |part| step.at_least(&at(part.into())))
+        });
+        sizes.max_by_key(|sizes| sizes[0].clone().min(sizes[1].clone()))
+    }
+
+    /// Whether all values on the window are proven to be no larger than these at both ends of the symbol, and between them than
+    /// their mean.
+    pub fn is_within(&self, most: &Ends) -> bool {
+        self.0.iter().all(|step| step.is_within(most, &step.reach, DEPTH))
+    }
+}
+
+impl OneStep {
+    /// Sizes that it has at an instant at least; none where it may be zero. With both signs it is, between the ends.
+    fn at_least(&self, at: &Rational) -> Option<Ends> {
+        let at = Ball::from_rational(at, BITS);
+        let values = self.ends.each_ref().map(|end| end.value(&at, BITS));
+        let is_told = values[0].sign() == values[1].sign() && !values[0].contains_zero();
+        is_told.then(|| values.map(|value| value.smallest_size()))
+    }
+
+    fn is_within(&self, most: &Ends, [from, to]: &[Rational; 2], depth: usize) -> bool {
+        let (middle, half) = middle_and_half(from, to);
+        let parts = self.ends.each_ref().map(|end| end.part(&middle, &half, BITS));
+        let is_above = |(part, most): (&Taylor, &Rational)| {
+            part.coefficient(0).widened(&part.remainder).smallest_size() > *most
+        };
+        let is_below =
+            |(part, most): (&Taylor, &Rational)| Rational::from(&part.range().magnitude()) <= *most;
+        if parts.iter().zip(most).all(is_below) {
+            return true;
+        }
+        if depth == 0 || parts.iter().zip(most).any(is_above) {
+            return false;
+        }
+        let halves = [[from.clone(), middle.clone()], [middle, to.clone()]];
+        halves.iter().all(|half| self.is_within(most, half, depth - 1))
+    }
+}
