@@ -17,7 +17,9 @@ const UNIT: &str = "s";
 /// What a way is made of that takes time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Work {
-    /// An operation in balls.
+    /// An echo in balls.
+    Echo,
+    /// A period of a value in balls.
     Ball,
     /// A period of a march in integers.
     FixedPeriod,
@@ -39,7 +41,8 @@ pub enum Work {
 }
 
 impl Work {
-    pub const ALL: [Work; 11] = [
+    pub const ALL: [Work; 12] = [
+        Work::Echo,
         Work::Ball,
         Work::FixedPeriod,
         Work::FixedPoint,
@@ -65,7 +68,8 @@ impl Work {
 
     fn words(self) -> (&'static str, &'static str) {
         match self {
-            Work::Ball => ("ball", "an operation in balls"),
+            Work::Echo => ("echo", "an echo in balls"),
+            Work::Ball => ("ball", "a period of a value in balls"),
             Work::FixedPeriod => ("fixed-period", "a period of a march in integers"),
             Work::FixedPoint => ("fixed-point", "a value of it, at an exact time"),
             Work::Term => ("term", "a term of a piece without a march"),
@@ -215,7 +219,7 @@ impl Cost {
             Method::Certified if size.marches => {
                 (n * take(Work::FixedPeriod), take(Work::FixedPoint))
             }
-            Method::Certified => (3.0 * echoes * take(Work::Ball), n * take(Work::Ball) + lookup),
+            Method::Certified => (echoes * take(Work::Echo), n * take(Work::Ball) + lookup),
             Method::Compiled => (pieces, lookup),
             Method::Stable(StablePrecision::DoubleDouble) => {
                 (0.0, echoes * take(Work::PairStep) + lookup)

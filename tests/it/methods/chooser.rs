@@ -73,9 +73,8 @@ fn what_is_picked_is_the_cheapest_that_is_proven() {
         });
     }
     println!("chooser: {weighed_problems} problems weighed, many values by {many:?}");
-    // A march in integers makes certified values the cheapest at exact times; others cost more.
-    assert!(many.iter().all(|method| matches!(method, Method::Certified | Method::Compiled)));
-    assert!(many.contains(&Method::Certified) && many.contains(&Method::Compiled));
+    // Pieces are worked out once, and each value costs less then.
+    assert!(many.iter().all(|method| *method == Method::Compiled), "{many:?}");
 }
 
 /// A way made for a tolerance keeps it, for tolerances and numbers of points at random.
@@ -172,14 +171,14 @@ fn files_that_hold_no_costs_are_refused() {
     for (text, error) in [
         (String::new(), InvalidCosts::Header),
         (text.replace("costs 1", "costs 2"), InvalidCosts::Header),
-        (without("wave "), InvalidCosts::Missing(12, "wave")),
-        (instead("bal 1 s"), InvalidCosts::Name(3, "bal".to_owned())),
-        (instead("ball 0 s"), InvalidCosts::Number(3, "ball".to_owned())),
-        (instead("ball nan s"), InvalidCosts::Number(3, "ball".to_owned())),
-        (instead("ball inf s"), InvalidCosts::Number(3, "ball".to_owned())),
-        (instead("ball 1"), InvalidCosts::Number(3, "ball".to_owned())),
-        (instead("ball 1 ms"), InvalidCosts::Number(3, "ball".to_owned())),
-        (instead("step 1 s"), InvalidCosts::Again(9, "step".to_owned())),
+        (without("wave "), InvalidCosts::Missing(13, "wave")),
+        (instead("bal 1 s"), InvalidCosts::Name(4, "bal".to_owned())),
+        (instead("ball 0 s"), InvalidCosts::Number(4, "ball".to_owned())),
+        (instead("ball nan s"), InvalidCosts::Number(4, "ball".to_owned())),
+        (instead("ball inf s"), InvalidCosts::Number(4, "ball".to_owned())),
+        (instead("ball 1"), InvalidCosts::Number(4, "ball".to_owned())),
+        (instead("ball 1 ms"), InvalidCosts::Number(4, "ball".to_owned())),
+        (instead("step 1 s"), InvalidCosts::Again(10, "step".to_owned())),
     ] {
         assert_eq!(Costs::read(&text, "a file"), Err(error), "{text}");
     }

@@ -168,7 +168,7 @@ fn costs_are_measured_and_used() {
     assert!(code == 0 && errors.contains("by own.txt"), "{errors}");
     std::fs::write(folder.join("bad.txt"), file.replace("ball ", "bell ")).unwrap();
     for (name, message) in [
-        ("bad.txt", "error: the costs in `bad.txt` cannot be read, line 3: `bell` is no work"),
+        ("bad.txt", "error: the costs in `bad.txt` cannot be read, line 4: `bell` is no work"),
         ("none.txt", "error: the costs in `none.txt` cannot be read: "),
     ] {
         let (code, out, errors) = run(&folder, &words(&format!("{eval} --costs {name}")));

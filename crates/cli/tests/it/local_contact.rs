@@ -19,17 +19,18 @@ fn the_command_tells_tested_values_from_certified_ones() {
     let (code, _, told) =
         run(&format!("plot hertz-striker --quantity force -o {}", file.display()));
     assert!(code == 0, "{told}");
-    // The picture's values are those of `eval`: 63.4 kN at 60 µs.
+    // The picture's values are those of `eval`.
     let drawn = std::fs::read_to_string(&file).unwrap();
-    let points = drawn.lines().filter_map(|line| {
+    let mut points = drawn.lines().filter_map(|line| {
         let numbers: Vec<f64> = line.split(',').filter_map(|field| field.parse().ok()).collect();
         <[f64; 2]>::try_from(numbers).ok()
     });
-    let points: Vec<[f64; 2]> = points.collect();
-    let after = points.iter().position(|[time, _]| *time > 60.0).unwrap();
-    let [[t, force], [later, next]] = [points[after - 1], points[after]];
-    let force = force + (next - force) * (60.0 - t) / (later - t);
-    assert!(later - t < 1.0 && (force - 63.434).abs() < 0.002, "{force}");
+    let [time, force] = points.find(|[time, _]| *time >= 60.0).unwrap();
+    let (code, told, _) = run(&format!("eval hertz-striker --quantity force --at {time}us"));
+    assert!(code == 0 && time < 62.0, "{told}");
+    let newtons = told.split(['=', 'N']).nth(1).unwrap();
+    let exact: f64 = newtons.trim().parse().unwrap();
+    assert!((1000.0 * force - exact).abs() < 1e-9 * exact, "{force} kN and {told}");
     for (line, expected, reason) in [
         ("derive hertz-striker --general", 1, "no recurrence"),
         ("derive local-contact --explain", 1, "stiffness = 335423000 N/m"),

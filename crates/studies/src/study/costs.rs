@@ -45,7 +45,7 @@ type Failed = wavestep::answer::WayError;
 /// [`ProblemError`] where a method has no values: none is known.
 pub fn measured_costs(each: Duration) -> Result<Costs, ProblemError> {
     let settings = Settings { runs: 3, time: each };
-    let mut found = [(Work::Ball, 0.0); Work::ALL.len()];
+    let mut found = [(Work::Echo, 0.0); Work::ALL.len()];
     let mut places = found.iter_mut();
     let mut put = |work, seconds: f64| {
         *places.next().expect("a place for each work") = (work, seconds.max(NOTHING));
@@ -117,13 +117,20 @@ fn two_poles(settings: Settings, put: &mut impl FnMut(Work, f64)) -> Result<(), 
     let until = |order: i64| {
         problem.question("f", [0, 2 * order].map(|t| Rational::from_integer(t.into())))
     };
-    let certified = seconds(settings, || {
-        // Anew, so that nothing is known.
-        let question = until(BALL_ORDER).expect("a window that was asked for");
-        Certified::new(&*question.signal)?.value(&late(BALL_ORDER), Limit::Right)
-    })?;
+    let certified = |times: &[Rational]| {
+        seconds(settings, || {
+            // Anew, so that nothing is known.
+            let question = until(BALL_ORDER).expect("a window that was asked for");
+            Certified::new(&*question.signal)?.exact_values(times, Limit::Right)
+        })
+    };
+    let latest = late(BALL_ORDER);
+    let many: Vec<Rational> =
+        (1..200).map(|i| &latest * &Rational::new(i.into(), 200.into())).collect();
+    let one = certified(std::slice::from_ref(&latest))?;
     let n = (BALL_ORDER + 1) as f64;
-    put(Work::Ball, certified / (3.0 * n * n / 2.0));
+    put(Work::Echo, one / (n * n / 2.0));
+    put(Work::Ball, (certified(&many)? - one) / (many.len() as f64 * n));
     let question = until(TERM_ORDER)?;
     let made = seconds(settings, || Compiled::new(&*question.signal, None))?;
     let n = (TERM_ORDER + 1) as f64;
