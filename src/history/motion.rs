@@ -71,8 +71,6 @@ pub(super) enum Added {
     /// The same, and all of it pushes itself on, by this part of its size. Where it does not, it is not known to die out:
     /// a contact may be softer than the spring in its place.
     Growing { at_once: Magnitude, per_time: Magnitude, growth: Magnitude },
-    /// So much, while what there was dies out as beside springs in place of local contacts.
-    Settling { at_start: Magnitude, later: Magnitude },
 }
 
 /// A block on a cell: the coefficients of its members, the norm of what they leave out, its size, how much of that is
@@ -457,15 +455,7 @@ impl System<Number> {
         given: &Given<'_>,
     ) -> Course {
         let (norm, cut) = (given.norm, given.cut);
-        let mut column = Vec::with_capacity(own.len());
-        let mut rounding = Vec::with_capacity(own.len());
-        for value in own {
-            let (middle, radius) = value.split(cut.bits);
-            // The radius of an enclosure is within the error of the block.
-            rounding.push(if value.exact().is_some() { radius } else { Magnitude::ZERO });
-            column.push(middle);
-        }
-        let rounding = block.size(rounding.into_iter());
+        let (mut column, rounding) = block.rounded(&own, cut.bits);
         let acting = given.settled.iter().enumerate().filter(|(j, _)| block.is_driven_by(*j));
         let degree = acting.map(|(_, series)| series.coefficients.len()).max().unwrap_or(0);
         let mut columns: Vec<Vec<Number>> = Vec::new();
@@ -541,10 +531,6 @@ impl System<Number> {
                     };
                     let fresh = error.size();
                     (error, fresh)
-                }
-                Added::Settling { at_start, later } => {
-                    let size = block.left_of(at_start, length).add(later).add(&radius);
-                    (StateError::new(size), size)
                 }
             };
             let error = match energy {

@@ -14,8 +14,6 @@ use crate::history::pressing::Pressed;
 use crate::history::separation::{Rows, Separation};
 use crate::history::series::{LONGEST_CELL, Truncation};
 use crate::network::{Node, System};
-use std::cmp::Ordering;
-use wavestep_polynomial::Rational;
 
 /// The precision of the matrices here: bounds need few digits.
 const BITS: u64 = 64;
@@ -278,18 +276,6 @@ impl Block {
         if self.is_stiff_on(length) { slow() } else { None }
     }
 
-    /// What is left of an error of this size after a time, at most.
-    pub fn left_of(&self, error: &Magnitude, length: &Number) -> Magnitude {
-        let has_passed = |time: i64| {
-            let time = Number::Exact(Rational::from(&Magnitude::power_of_two(time)));
-            length.subtract(&time, BITS).sign() == Some(Ordering::Greater)
-        };
-        match &self.decay {
-            Some((time, left)) if has_passed(*time) => error.multiply(left),
-            _ => *error,
-        }
-    }
-
     /// Whether a cell is too long for a Taylor polynomial.
     pub fn is_stiff_on(&self, length: &Magnitude) -> bool {
         is_stiff(&self.rate, length)
@@ -321,6 +307,18 @@ impl Block {
             part.multiply(&part)
         });
         squares.fold(Magnitude::ZERO, |sum, square| sum.add(&square)).square_root()
+    }
+
+    /// A state without radii, and the size of those of its exact entries: the radius of an enclosure is within the error
+    /// of the block.
+    pub fn rounded(&self, own: &[Number], bits: u64) -> (Vec<Number>, Magnitude) {
+        let (middles, radii): (Vec<Number>, Vec<Magnitude>) =
+            own.iter().map(|value| value.split(bits)).unzip();
+        let of_exact = own.iter().zip(radii).map(|(value, radius)| match value.exact() {
+            Some(_) => radius,
+            None => Magnitude::ZERO,
+        });
+        (middles, self.size(of_exact))
     }
 
     /// What an entry is at most in a state of this size.

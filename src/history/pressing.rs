@@ -264,7 +264,7 @@ impl Pressing<'_> {
     /// The courses of the block and of the forces of its contacts.
     fn course(&self, own: &[Number], error: &StateError) -> Result<(Course, Vec<Series>), TooLong> {
         let norm = self.given.norm;
-        let (start, rounding) = self.rounded(own);
+        let (start, rounding) = self.block.rounded(own, self.given.cut.bits);
         let at_start = error.size().add(&rounding);
         let mut doubted: Vec<usize> = Vec::new();
         loop {
@@ -297,18 +297,6 @@ impl Pressing<'_> {
             }
             doubted.extend(doubtful);
         }
-    }
-
-    /// A state without radii, and the size of those of its exact entries.
-    pub(super) fn rounded(&self, own: &[Number]) -> (Vec<Number>, Magnitude) {
-        let (mut start, mut radii) = (Vec::new(), Vec::new());
-        for value in own {
-            let (middle, radius) = value.split(self.given.cut.bits);
-            // The radius of an enclosure is within the error of the block.
-            radii.push(if value.exact().is_some() { radius } else { Magnitude::ZERO });
-            start.push(middle);
-        }
-        (start, self.block.size(radii.into_iter()))
     }
 
     /// The exact motion where no contact is compressed all the while.
@@ -429,6 +417,7 @@ impl Pressing<'_> {
         let mut reached = vec![Magnitude::ZERO; rates.len()];
         let mut on_cell = Vec::new();
         for ring in 0..1 << RINGS {
+            // So many rings are as wide as the cell.
             if ring == 1 << (RINGS - REACH) {
                 on_cell.clone_from(&reached);
             }

@@ -28,8 +28,9 @@ pub(super) struct Rest {
     contacts: Vec<Compressed>,
     /// Of the contacts at the start.
     forces: Vec<Number>,
-    /// The size of the error of the state at the start.
+    /// The size of the error of the state at the start, and what of it comes from rounding now.
     at_start: Magnitude,
+    rounding: Magnitude,
     /// `|ρ|`.
     residual: Magnitude,
     /// `m`
@@ -41,7 +42,7 @@ impl Pressing<'_> {
     pub(super) fn rest(&self, own: &[Number], error: &StateError) -> Option<Rest> {
         let (time, _) = self.block.decay.as_ref()?;
         let (norm, cut) = (self.given.norm, self.given.cut);
-        let (start, rounding) = self.rounded(own);
+        let (start, rounding) = self.block.rounded(own, cut.bits);
         let at_start = error.size().add(&rounding);
         let contacts = self.compressed((own, &start), &at_start, &[]).ok()?;
         if contacts.iter().any(|own| own.is_light) {
@@ -64,7 +65,7 @@ impl Pressing<'_> {
         let memory = Magnitude::power_of_two(time + 1);
         // Rounding the state leaves as much of the equation.
         let is_at_rest = residual <= told(error, cut).multiply(&self.block.rate);
-        is_at_rest.then_some(Rest { start, contacts, forces, at_start, residual, memory })
+        is_at_rest.then_some(Rest { start, contacts, forces, at_start, rounding, residual, memory })
     }
 
     /// The courses of the block and of the forces of its contacts where it rests on a cell that is too long for a Taylor
@@ -78,7 +79,8 @@ impl Pressing<'_> {
         if !self.block.is_stiff_on(&norm.length) {
             return None;
         }
-        let Rest { start, contacts, forces, at_start, residual, memory } = self.rest(own, error)?;
+        let Rest { start, contacts, forces, at_start, rounding, residual, memory } =
+            self.rest(own, error)?;
         let per_time = residual.add(&self.block.push(&self.given.rests));
         let driven = per_time.multiply(&memory);
         // |e| ≤ (|e₀| + m |ρ|)/(1 − m λ)
@@ -96,7 +98,7 @@ impl Pressing<'_> {
         if mismatch > Magnitude::power_of_two(MOST_MISMATCH) {
             return None;
         }
-        let later = driven.add(&mismatch.multiply(&largest));
+        let at_once = rounding.add(&mismatch.multiply(&largest));
         // Around the cell errors grow to e times, and those of the inputs are four times as large, as in `pressing`.
         let distance = self.distance(&contacts);
         let arrived = per_time.multiply(&distance).scale(2);
@@ -120,7 +122,7 @@ impl Pressing<'_> {
             error: largest,
             fresh: largest,
             at_start,
-            added: Added::Settling { at_start, later },
+            added: Added::Error { at_once, per_time, fresh: largest },
             roughness,
         };
         Some((course, forces))
