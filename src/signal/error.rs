@@ -41,7 +41,7 @@ pub enum EvaluateError {
     Division(#[from] NotAUnit),
     #[error(transparent)]
     Network(Box<NetworkError>),
-    #[error("the window needs more than {limit} polynomials: ask for a shorter one")]
+    #[error("the window needs more than {limit} polynomials")]
     TooManyCells { limit: usize },
     #[error("more than {limit} roots lie in this window")]
     TooManyRoots { limit: usize },

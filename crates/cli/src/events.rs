@@ -150,19 +150,16 @@ impl Told<'_> {
     }
 
     fn body(&self, body: &Body) -> String {
-        let mut text = format!("{}:", body.elements.join(" - "));
         let named = [
             ("energy", &body.energy, Dimension::ENERGY),
             ("of vibration", &body.vibration, Dimension::ENERGY),
             ("momentum", &body.momentum, Dimension::MOMENTUM),
             ("mean velocity", &body.velocity, Dimension::VELOCITY),
         ];
-        for (number, (name, value, dimension)) in named.into_iter().enumerate() {
-            let Some(value) = value else { continue };
-            let comma = if number == 0 { "" } else { "," };
-            let _ = write!(text, "{comma} {name} {}", self.value(value, dimension));
-        }
-        text
+        let told = named.into_iter().filter_map(|(name, value, dimension)| {
+            Some(format!("{name} {}", self.value(value.as_ref()?, dimension)))
+        });
+        format!("{}: {}", body.elements.join(" - "), told.collect::<Vec<_>>().join(", "))
     }
 
     fn json(&self) -> String {
