@@ -12,7 +12,7 @@ use num_rational::BigRational;
 use wavestep::language::ChangeError;
 use wavestep::planner::Purpose;
 use wavestep::problem::{Against, Other, Problem, ProblemError, Simpler, Size};
-use wavestep::signal::{Place, Search};
+use wavestep::signal::{Search, Value};
 
 pub fn run(options: &Find) -> Result<String, Failure> {
     input::digits(options.digits)?;
@@ -50,9 +50,8 @@ pub fn run(options: &Find) -> Result<String, Failure> {
         Some((goal, _)) => {
             let extremum = search.extremum(goal, digits, limit_bits)?;
             drop(progress);
-            let open = |place: &&Place| matches!(place, Place::Undecided { .. });
-            let undecided = extremum.places.iter().filter(open).count();
-            settled(found::extremum(&extremum, goal, &told), undecided, "place")
+            let undecided = usize::from(matches!(extremum.value, Value::Enclosed(_)));
+            settled(found::extremum(&extremum, goal, &told), undecided, "value")
         }
         None => {
             let roots = search.roots(&level, digits, limit_bits)?;
@@ -164,7 +163,7 @@ fn settled(report: String, undecided: usize, what: &str) -> Result<String, Failu
     let stay = if undecided == 1 { "stays" } else { "stay" };
     let message = format!("{} {stay} undecided", plural(undecided, what));
     let remedy = match what {
-        "distance" => "ask for fewer digits, or a shorter window",
+        "distance" | "value" => "ask for fewer digits, or a shorter window",
         _ => "raise --max-bits; roots of even order stay undecided with any precision",
     };
     Err(Failure::new(ACCURACY, message, remedy).with_report(report))

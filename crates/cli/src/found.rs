@@ -6,12 +6,15 @@ use super::output::plural;
 use super::rows::ALL_DIGITS;
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
-use wavestep::ball::{Ball, Number, in_decimals};
+use wavestep::ball::{Ball, Bound, Decimal, Number, in_decimals};
 use wavestep::problem::{Problem, Size, Wanted};
 use wavestep::signal::{Extremum, Goal, Place, Root, Roots, Value};
 
-/// Digits of bounds and of intervals that stay undecided.
+/// Digits of bounds and of roots that stay undecided.
 const BOUND_DIGITS: usize = 20;
+
+/// Digits of the ends of an interval somewhere in which an extremum may be.
+const PLACE_DIGITS: usize = 6;
 
 pub struct Told<'a> {
     pub options: &'a Find,
@@ -248,8 +251,10 @@ fn place_line(place: &Place, told: &Told<'_>) -> String {
             format!("for {} <= t {relation} {} (constant)\n", told.time(from), told.time(to))
         }
         Place::Undecided { from, to } => {
-            let time = enclosed(from, to).to_decimal(BOUND_DIGITS);
-            format!("at t = {time}{}? (undecided)\n", told.second())
+            let bound = |time, side| Decimal::bound(time, PLACE_DIGITS, side).to_string();
+            let (from, to) = (bound(from, Bound::Lower), bound(to, Bound::Upper));
+            let second = told.second();
+            format!("somewhere in {from}{second} <= t <= {to}{second} (undecided)\n")
         }
     }
 }

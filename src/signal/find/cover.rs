@@ -286,8 +286,9 @@ impl Cover<'_, '_, '_> {
         }
         let sharp = expansion.polynomials.iter().all(is_sharp);
         let own = &expansion.polynomials[0];
-        let hopeless = own.coefficients.iter().all(Ball::contains_zero)
-            && (sharp || own.range().magnitude() <= self.noise);
+        let hopeless = expansion.polynomials[..2].iter().all(is_blurred)
+            || own.coefficients.iter().all(Ball::contains_zero)
+                && (sharp || own.range().magnitude() <= self.noise);
         if hopeless || depth >= DEPTH {
             self.push(from, to, Finding::Open);
             return Ok(());
@@ -406,6 +407,13 @@ impl Expansion {
 /// Whether what is left out matters little.
 pub(crate) fn is_sharp(polynomial: &Taylor) -> bool {
     polynomial.remainder.scale(REMAINDER_BITS) <= polynomial.tail(1)
+}
+
+/// Whether what is unknown of the middle, where zero is possible, is more than all by which a cell differs from it: no
+/// part of the cell tells more.
+fn is_blurred(polynomial: &Taylor) -> bool {
+    let middle = polynomial.coefficient(0);
+    middle.contains_zero() && polynomial.tail(1) <= *middle.radius()
 }
 
 pub(crate) fn middle_and_half(from: &Rational, to: &Rational) -> (Rational, Rational) {

@@ -83,7 +83,7 @@ pub enum Place {
         /// Whether the value is taken at the end as well: where that of the window is it.
         closed: bool,
     },
-    /// Somewhere in an interval, where no critical point could be proven.
+    /// Perhaps in an interval, in which nowhere is told apart from the largest value.
     Undecided {
         /// Its first time, rounded down.
         from: Rational,
@@ -446,8 +446,31 @@ impl Contenders<'_, '_> {
                 *after = true;
                 continue;
             }
+            if let Place::Undecided { from, to } = place {
+                let from = join_undecided(&mut places, from);
+                places.push(Place::Undecided { from, to });
+                continue;
+            }
             places.push(place);
         }
         Ok(places)
     }
+}
+
+/// Takes back an undecided interval that ends where the next one begins, and an arrival between the two, from which
+/// neither is told apart: where both together begin.
+fn join_undecided(places: &mut Vec<Place>, from: Rational) -> Rational {
+    let (touching, first) = match &places[..] {
+        [.., Place::Undecided { from: first, to }, Place::Arrival { time, .. }] => {
+            let [before, after] = time.bounds();
+            if before > *to || from > after {
+                return from;
+            }
+            (2, first.clone())
+        }
+        [.., Place::Undecided { from: first, to }] if from <= *to => (1, first.clone()),
+        _ => return from,
+    };
+    places.truncate(places.len() - touching);
+    first
 }

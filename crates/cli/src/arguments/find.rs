@@ -13,8 +13,9 @@ use wavestep::signal::Goal;
     wavestep find hopkinson --max force --from 0 --to 350us --digits 9\n  \
     wavestep find mass-on-fixed-bar --set mu=1/10 --distance velocity --minus third --to 2\n  \
     wavestep find rigid-mass --min strain_fixed --equal mu=1/10..1 --between 3*mu,5*mu,7*mu\n\n\
-    Both ends of the window belong to it. Every root in it is told, with what is proven of it; exit\n\
-    code 3 when some of it stays undecided. Levels are in the unit of the quantity, or have one.")]
+    Both ends of the window belong to it. Every root in it is told, with what is proven of it.\n\
+    An extremum may be known to all its digits though not where it is taken. Exit code 3 when a\n\
+    root, or a digit of an extremum, stays undecided. Levels are in the unit of the quantity, or have one.")]
 pub struct Find {
     #[command(flatten)]
     pub scene: Scene,

@@ -103,6 +103,22 @@ fn undecided_roots_end_with_code_3_and_a_report() {
     assert!(errors.contains("error: 1 interval stays undecided"));
 }
 
+/// The force between two long bars rises to a limit, from which it is soon no longer told apart: its digits are known all
+/// the same, and the interval somewhere in which it is largest is one.
+#[test]
+fn a_force_that_approaches_its_limit_has_a_largest_value() {
+    for to in ["1ms", "1s"] {
+        let command = format!("find local-contact --max force --to {to} --digits 12");
+        let (code, text, errors) = run(anywhere(), &words(&command));
+        assert_eq!((code, errors.as_str()), (0, ""));
+        let lines: Vec<&str> = text.lines().collect();
+        // Half the impedance times 5 m/s.
+        assert!(lines[0].starts_with("largest force = 31888.5195399 N in "), "{text}");
+        assert!(lines[1].starts_with("somewhere in 0.0009"), "{text}");
+        assert!(lines[2].ends_with("s (end of the window)") && lines.len() == 4, "{text}");
+    }
+}
+
 /// A drill whose bit rests on the rock; what is seen of it stands in lines below.
 const DRILL: &str = "scene \"A drill\"\n\
     material steel { modulus = 206 GPa, density = 7850 kg/m^3 }\n\
