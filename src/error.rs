@@ -8,7 +8,7 @@ use crate::ball::BallError;
 use crate::expression::{NotAUnit, NotInvertible};
 use crate::field::FieldError;
 use crate::history::HistoryError;
-use crate::language::{ChangeError, Diagnostic, closest};
+use crate::language::{ChangeError, Diagnostic, did_you_mean};
 use crate::limits::MAX_DIGITS;
 use crate::lock::LockError;
 use crate::model::ModelError;
@@ -246,8 +246,10 @@ fn remedy(error: &ProblemError) -> Option<String> {
     Some(match error {
         ProblemError::Solve(error) => remedy_of_solve(error),
         ProblemError::Equal(error) => remedy_of_equal(error),
-        ProblemError::NotBuiltIn(_) => {
-            format!("the built-in scenes are {}", SCENES.map(|scene| scene.name).join(", "))
+        ProblemError::NotBuiltIn(name) => {
+            let names = SCENES.map(|scene| scene.name);
+            did_you_mean(name, names)
+                .unwrap_or_else(|| format!("the built-in scenes are {}", names.join(", ")))
         }
         ProblemError::Unknown { names, .. } | ProblemError::UnknownThere { names, .. }
             if names.is_empty() =>
@@ -255,10 +257,8 @@ fn remedy(error: &ProblemError) -> Option<String> {
             "nothing is observed here: add a line such as `observe v = velocity(NAME)`".to_owned()
         }
         ProblemError::Unknown { name, names } | ProblemError::UnknownThere { name, names, .. } => {
-            match closest(name, names.iter().map(String::as_str)) {
-                Some(name) => format!("did you mean `{name}`?"),
-                None => format!("ask for one of {}", names.join(", ")),
-            }
+            did_you_mean(name, names.iter().map(String::as_str))
+                .unwrap_or_else(|| format!("ask for one of {}", names.join(", ")))
         }
         ProblemError::NotAWave { waves, .. } => {
             format!("the waves of this scene are {}", waves.join(", "))
@@ -266,7 +266,14 @@ fn remedy(error: &ProblemError) -> Option<String> {
         ProblemError::NotAnObservable { observables, .. } if !observables.is_empty() => {
             format!("the observables of this scene are {}", observables.join(", "))
         }
-        ProblemError::Change(ChangeError::Unknown(_)) => format!("it is one of {}", Simpler::FORMS),
+        ProblemError::Change(ChangeError::Unknown(text)) => {
+            let likely = Simpler::corrected(text).map(|text| format!("did you mean `{text}`?"));
+            likely.unwrap_or_else(|| format!("it is one of {}", Simpler::FORMS))
+        }
+        ProblemError::Change(ChangeError::NoElement { name, elements }) => {
+            did_you_mean(name, elements.iter().map(String::as_str))
+                .unwrap_or_else(|| format!("name one of {}", elements.join(", ")))
+        }
         ProblemError::NoSymbol { symbols, .. } if !symbols.is_empty() => {
             format!("the free symbols are {}", symbols.join(", "))
         }
@@ -305,9 +312,7 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
             "ask for an observable, or leave out `contacts open`"
         }
         ProblemError::Equations(_) => DESCRIBE,
-        ProblemError::Change(ChangeError::NoElement(_) | ChangeError::NotABar(_)) => {
-            "name an element of the line"
-        }
+        ProblemError::Change(ChangeError::NotABar(_)) => "name a bar of the line",
         ProblemError::Change(_) => "leave something else out",
         ProblemError::AllZero(_) => "ask for a longer window",
         ProblemError::SymbolRange(_) => {

@@ -38,8 +38,8 @@ pub enum Change {
 pub enum ChangeError {
     #[error("`{0}` names no change of a scene")]
     Unknown(String),
-    #[error("there is no element `{0}` in this scene")]
-    NoElement(String),
+    #[error("there is no element `{name}` in this scene")]
+    NoElement { name: String, elements: Vec<String> },
     #[error("`{0}` is no bar")]
     NotABar(String),
     #[error("the bar `{0}` is rigid, or a spring, already")]
@@ -170,7 +170,13 @@ impl<'a> Edits<'a> {
             }
             _ => None,
         });
-        found.ok_or_else(|| ChangeError::NoElement(name.to_owned()))
+        found.ok_or_else(|| self.no_element(name))
+    }
+
+    fn no_element(&self, name: &str) -> ChangeError {
+        let elements = self.line().map_or(&[][..], |(line, _)| &line.elements);
+        let elements = elements.iter().map(|own| own.value.clone()).collect();
+        ChangeError::NoElement { name: name.to_owned(), elements }
     }
 
     fn bar(&self, name: &str) -> Result<&'a Declaration, ChangeError> {
@@ -222,7 +228,7 @@ impl<'a> Edits<'a> {
         let bar = self.bar(name)?;
         let Some((line, _)) = self.line() else { return Ok(()) };
         let place = line.elements.iter().position(|own| own.value == name);
-        let place = place.ok_or_else(|| ChangeError::NoElement(name.to_owned()))?;
+        let place = place.ok_or_else(|| self.no_element(name))?;
         let gone = match beyond {
             Beyond::Left => &line.elements[..place],
             Beyond::Right => &line.elements[place + 1..],

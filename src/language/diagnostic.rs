@@ -92,8 +92,8 @@ impl Diagnostic {
         name: &str,
         candidates: impl IntoIterator<Item = &'a str>,
     ) -> Self {
-        match closest(name, candidates) {
-            Some(candidate) => self.with_remedy(format!("did you mean `{candidate}`?")),
+        match did_you_mean(name, candidates) {
+            Some(remedy) => self.with_remedy(remedy),
             None => self,
         }
     }
@@ -192,6 +192,15 @@ pub fn closest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .filter(|&(edits, candidate)| edits * 3 <= name.len().max(candidate.len()))
         .min_by_key(|&(edits, _)| edits)
         .map(|(_, candidate)| candidate)
+}
+
+/// Asks whether the [`closest`] candidate was meant.
+#[must_use]
+pub fn did_you_mean<'a>(
+    name: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<String> {
+    closest(name, candidates).map(|candidate| format!("did you mean `{candidate}`?"))
 }
 
 fn distance(a: &[char], b: &str) -> usize {

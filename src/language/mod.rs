@@ -38,7 +38,7 @@ use crate::scene as physics;
 
 pub use change::{Beyond, Change, ChangeError, changed, elements};
 pub use constant::constant;
-pub use diagnostic::{Diagnostic, Label, closest};
+pub use diagnostic::{Diagnostic, Label, closest, did_you_mean};
 pub use lowering::ExactFormula;
 pub use name::{RESERVED, normalise as normalise_name};
 pub use source::{Source, Span};

@@ -2,7 +2,7 @@
 
 use super::{Problem, ProblemError, Wanted};
 use crate::export::expression_text;
-use crate::language::{self, Change, ChangeError, Source};
+use crate::language::{self, Change, ChangeError, Source, closest};
 use crate::model::Modes;
 use crate::network::{Network, NetworkError};
 use crate::planner::{self, Purpose};
@@ -27,6 +27,17 @@ impl Simpler {
     pub const FORMS: &'static str = "`rigid`, `third`, `rigid:BAR`, `spring:BAR`, `spring:BAR,SHARE`, \
         `endless:BAR.right`, `endless:BAR.left`, `without:ELEMENT`, `closed`, several of these joined by `+`; \
         `modes:N`, `echoes:N`";
+
+    /// What a text may have meant whose first word is mistyped.
+    pub(crate) fn corrected(text: &str) -> Option<String> {
+        const WORDS: [&str; 8] =
+            ["rigid", "third", "spring", "endless", "without", "closed", "modes", "echoes"];
+        let end = text.find(':').unwrap_or(text.len());
+        let (word, rest) = text.split_at(end);
+        let known = closest(word, WORDS)?;
+        let corrected = [format!("{known}{rest}"), format!("{known}{rest}.right")];
+        corrected.into_iter().find(|text| text.parse::<Simpler>().is_ok())
+    }
 
     /// What it consists of, where it is no scene.
     pub(super) fn work(&self) -> String {

@@ -5,10 +5,11 @@ use super::arguments::Check;
 use super::failure::Failure;
 use super::input;
 use super::lock;
+use super::output::plural;
 use super::progress;
 use std::fmt::Write as _;
 use wavestep::expression::Condition;
-use wavestep::problem::{Checked, Derivations, General, Periods, Solved};
+use wavestep::problem::{Checked, Derivations, General, Periods, Problem, Solved};
 use wavestep_polynomial::Symbol;
 
 pub fn run(options: &Check) -> Result<String, Failure> {
@@ -20,7 +21,10 @@ pub fn run(options: &Check) -> Result<String, Failure> {
         let _progress = progress::spinner("deriving in two ways");
         problem.check()?
     };
-    let mut report = format!("{}: consistent\n", problem.title());
+    let mut report = format!("{}: {}\n", problem.title(), verdict(&checked, &problem));
+    if !options.verbose {
+        return Ok(report);
+    }
     match checked {
         Checked::LocalContact(contact) => {
             let _ = writeln!(
@@ -42,13 +46,46 @@ pub fn run(options: &Check) -> Result<String, Failure> {
             let _ = writeln!(report, "  waves: {}", problem.waves().join(", "));
             add_observables(&mut report, &problem.observables());
             let _ = writeln!(report, "  not derived without values: {reason}");
-            let needed: Vec<String> =
-                symbols.iter().map(|(symbol, _)| format!("--set {symbol}=…")).collect();
-            let _ = writeln!(report, "  for pieces, values and events give {}", needed.join(" "));
+            let _ = writeln!(report, "  for pieces, values and events give {}", listed(&symbols));
         }
         Checked::Periods(periods) => add_periods(&mut report, &periods, &problem.observables()),
     }
     Ok(report)
+}
+
+/// What the scene has, in a line.
+fn verdict(checked: &Checked, problem: &Problem) -> String {
+    let observed = plural(problem.observables().len(), "observable");
+    match checked {
+        Checked::LocalContact(_) => {
+            format!("consistent; it is followed with proof: events, and values of {observed}")
+        }
+        Checked::Lattice { .. } => {
+            format!("consistent; it has echoes in order of arrival, and values of {observed}")
+        }
+        Checked::NeedsValues { symbols, .. } => {
+            let symbols = listed(symbols);
+            format!("consistent; formulas, events and values of {observed} need {symbols}")
+        }
+        Checked::Periods(found) => {
+            let known = |(_, general): &(String, General)| !matches!(general, General::Unknown);
+            let has_general = !found.general.is_empty() && found.general.iter().all(known);
+            let general = if has_general { ", a general form" } else { "" };
+            let needed = match &found.symbols[..] {
+                [] => String::new(),
+                symbols => format!(", which need {}", listed(symbols)),
+            };
+            format!(
+                "consistent; it has formulas for each period{general}, and values of {observed}{needed}"
+            )
+        }
+    }
+}
+
+/// Symbols that are given values as the command takes them.
+fn listed(symbols: &[(Symbol, Option<Condition>)]) -> String {
+    let set: Vec<String> = symbols.iter().map(|(symbol, _)| format!("--set {symbol}=…")).collect();
+    set.join(" ")
 }
 
 fn add_symbols(report: &mut String, symbols: &[(Symbol, Option<Condition>)]) {

@@ -69,7 +69,7 @@ pub fn run(options: &Dispersion) -> Result<String, Failure> {
     let (title, relation) = relation(options)?;
     let _progress = progress::spinner("enclosing velocities");
     let mut at = Vec::new();
-    for text in &options.at {
+    for text in &options.wavenumber {
         let k = number("--at", text)?;
         if k.is_negative() {
             let message = format!("the wavenumber {k} is negative");
@@ -128,10 +128,8 @@ fn relation(options: &Dispersion) -> Result<(String, Relation), Failure> {
     }
     let names = Builtin::ALL.map(Builtin::name);
     if written.len() > 1 && written.chars().all(|c| c.is_ascii_alphabetic() || c == '-') {
-        let remedy = match language::closest(written, names) {
-            Some(name) => format!("did you mean `{name}`?"),
-            None => format!("write a formula in k, or one of {}", names.join(", ")),
-        };
+        let remedy = language::did_you_mean(written, names)
+            .unwrap_or_else(|| format!("write a formula in k, or one of {}", names.join(", ")));
         return Err(Failure::usage(format!("there is no relation `{written}`"), remedy));
     }
     let relation = read_relation(&Source::new("relation", &options.relation)?, &values)?;

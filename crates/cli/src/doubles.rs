@@ -11,13 +11,21 @@ use wavestep::answer::{
     Candidate, Doubles, Method, Promise, Remark, Tested, Tolerance, WayError, Weighed,
 };
 use wavestep::ball::in_decimals;
-use wavestep::problem::{Problem, ProblemError};
+use wavestep::language;
+use wavestep::problem::{Problem, ProblemError, Wanted};
 use wavestep::signal::{EchoCount, Limit};
 
 pub fn method(text: &str) -> Result<Method, Failure> {
     text.parse().map_err(|error| {
         let names: Vec<&str> = Method::NAMES.iter().map(|(name, _)| *name).collect();
-        Failure::usage(format!("{error}"), format!("give one of {}", names.join(", ")))
+        let word = text.split(':').next().unwrap_or_default();
+        let bare = names.iter().map(|name| name.split(':').next().unwrap_or_default());
+        let likely = language::closest(word, bare).filter(|likely| *likely != word);
+        let remedy = match likely {
+            Some(likely) => format!("did you mean `{}`?", text.replacen(word, likely, 1)),
+            None => format!("give one of {}", names.join(", ")),
+        };
+        Failure::usage(format!("{error}"), remedy)
     })
 }
 
@@ -145,11 +153,10 @@ fn double(value: f64) -> String {
 pub fn written(
     found: &Doubles,
     problem: &Problem,
-    unit: &str,
+    wanted: &Wanted,
     times: &[BigRational],
     options: &Eval,
 ) -> String {
-    let name = &options.quantity;
     let rows = times.iter().zip(&found.values);
     match options.format {
         Format::Csv => {
@@ -163,7 +170,7 @@ pub fn written(
             let mut document = json!({
                 "schema_version": SCHEMA_VERSION,
                 "title": problem.title(),
-                "quantity": name,
+                "quantity": wanted.name,
                 "set": options.scene.set,
                 "side": if options.side == Limit::Left { "left" } else { "right" },
                 "method": found.method.to_string(),
@@ -173,14 +180,14 @@ pub fn written(
                 "values": rows.map(row).collect::<Vec<_>>(),
             });
             if problem.has_units() {
-                document["unit"] = json!(unit);
+                document["unit"] = json!(wanted.unit());
                 document["time_unit"] = json!(problem.time_unit());
             }
             format!("{document}\n")
         }
         _ => {
             let rows = rows.map(|(time, value)| (time, double(*value)));
-            lines(problem, unit, rows, options)
+            lines(problem, wanted, rows, options)
         }
     }
 }

@@ -6,11 +6,12 @@ use super::failure::Failure;
 use super::input;
 use super::output::plural;
 use super::progress;
-use super::rows::{times, written};
+use super::rows::{Told, times, written};
 use super::validity::note_pulling;
+use num_rational::BigRational;
 use std::time::Instant;
 use wavestep::answer::Accuracy;
-use wavestep::problem::Digits;
+use wavestep::problem::{Digits, Problem};
 
 /// Says where a contact that stays closed would pull before the last of some times.
 pub fn run(options: &Eval) -> Result<String, Failure> {
@@ -26,27 +27,53 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
         (None, Some(tolerance)) => Accuracy::Within(tolerance),
         (None, None) => Accuracy::Digits,
     };
-    let (name, limit) = (&options.quantity, options.side);
+    let names: Vec<String> = match (&options.quantity[..], &problem.observables()[..]) {
+        ([], []) => problem.waves().iter().map(|&name| name.to_owned()).collect(),
+        ([], observables) => observables.iter().map(|&name| name.to_owned()).collect(),
+        (named, _) => named.iter().map(|name| name.trim().to_owned()).collect(),
+    };
+    let mut told = Told::new(options.format, names.len());
+    let mut last = None;
+    for name in &names {
+        let times = times(&problem, name, options)?;
+        last = last.max(times.iter().max().cloned());
+        told.add(name, answered(&problem, name, &times, accuracy, options)?);
+    }
+    last.iter().for_each(|last| note_pulling(&problem, last));
+    Ok(told.all())
+}
+
+/// The values of one quantity, as they are told.
+fn answered(
+    problem: &Problem,
+    name: &str,
+    times: &[BigRational],
+    accuracy: Accuracy,
+    options: &Eval,
+) -> Result<String, Failure> {
+    let limit = options.side;
+    let tolerance = match accuracy {
+        Accuracy::Within(tolerance) => Some(tolerance),
+        Accuracy::Method(_, tolerance) => tolerance,
+        Accuracy::Digits => None,
+    };
     if accuracy != Accuracy::Digits {
-        let times = times(&problem, options)?;
         let progress = progress::spinner("evaluating");
-        let found = problem.doubles(name, &times, limit, accuracy);
+        let found = problem.doubles(name, times, limit, accuracy);
         drop(progress);
         let found = found.map_err(|error| doubles::refused(error, times.len(), options.explain))?;
         doubles::tell(&found, times.len(), tolerance, options.explain);
         if options.stats {
             doubles::count(found.echoes);
         }
-        times.iter().max().into_iter().for_each(|last| note_pulling(&problem, last));
-        let unit = problem.wanted(name)?.unit();
-        return Ok(doubles::written(&found, &problem, &unit, &times, options));
+        let wanted = problem.wanted(name)?;
+        return Ok(doubles::written(&found, problem, &wanted, times, options));
     }
     let wanted = problem.wanted(name)?;
-    let times = times(&problem, options)?;
     let (count, max_bits) = (options.digits, options.max_bits);
     let digits = Digits { count, max_bits, limit, count_echoes: options.stats };
     let (progress, begin) = (progress::counted(times.len()), Instant::now());
-    let found = problem.proven(&wanted, &times, digits, &|| progress.inc(1))?;
+    let found = problem.proven(&wanted, times, digits, &|| progress.inc(1))?;
     drop(progress);
     if options.explain {
         let (how, took) = (problem.how_found(found.origin), begin.elapsed().as_secs_f64());
@@ -56,9 +83,8 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
              more narrowly, until the last digit is rounded correctly"
         );
     }
-    times.iter().max().into_iter().for_each(|last| note_pulling(&problem, last));
     if options.stats {
         doubles::count(found.echoes);
     }
-    Ok(written(&problem, &wanted, (&times, &found.values), options))
+    Ok(written(problem, &wanted, (times, &found.values), options))
 }

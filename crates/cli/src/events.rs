@@ -19,8 +19,8 @@ use wavestep::signal::Value;
 pub fn run(options: &Events) -> Result<String, Failure> {
     input::digits(options.digits)?;
     let problem = input::problem(&options.scene)?;
-    let until = options.until.as_deref();
-    let until = until.map(|until| problem.time("--until", until)).transpose()?;
+    let to = options.to.as_deref();
+    let until = to.map(|to| problem.time("--to", to)).transpose()?;
     let begin = Instant::now();
     let history = {
         let _progress = progress::spinner("following contacts");

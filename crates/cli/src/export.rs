@@ -47,5 +47,5 @@ pub fn run(options: &Export) -> Result<String, Failure> {
             options.scene.scene, options.quantity, options.from, options.to
         ),
     };
-    output::written(to_c(&compiled, &heading), options.output.as_deref())
+    output::written(to_c(&compiled, &heading), options.output.output.as_deref())
 }

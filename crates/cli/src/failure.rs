@@ -270,7 +270,7 @@ fn for_way(error: &WayError) -> Option<&'static str> {
 fn for_lock(refusal: &LockRefusal) -> Option<&'static str> {
     Some(match refusal {
         LockRefusal::PeriodsWhereContactsOpen => {
-            "leave out --through: events are locked, until --until T"
+            "leave out --through: events are locked, until --to T"
         }
         LockRefusal::NoEvents => "give --through N for pieces and --at T for values",
         LockRefusal::NoLastPeriod => "give --through N, for the periods 0 … N, or --at T",

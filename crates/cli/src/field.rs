@@ -17,7 +17,7 @@ use wavestep::signal::Limit;
 
 pub fn run(options: &Field) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;
-    let time = problem.time("--time", options.time.as_str())?;
+    let time = problem.time("--at", options.at.as_str())?;
     let mut mesh = Mesh::new(options.mesh)?.with_limit(options.side);
     if options.averages {
         mesh = mesh.averages();
@@ -25,8 +25,8 @@ pub fn run(options: &Field) -> Result<String, Failure> {
     for bar in &options.bar {
         mesh = mesh.only(&language::normalise_name(bar));
     }
-    if let Some(reach) = &options.to {
-        let reach = problem.quantity("--to", reach.as_str(), Dimension::LENGTH)?;
+    if let Some(reach) = &options.reach {
+        let reach = problem.quantity("--reach", reach.as_str(), Dimension::LENGTH)?;
         mesh = mesh.reaching(&reach)?;
     }
     let progress = progress::spinner("evaluating");
@@ -37,7 +37,7 @@ pub fn run(options: &Field) -> Result<String, Failure> {
         Format::Json => json_document(&fields, &problem, options),
         _ => csv(&fields),
     };
-    written(text, options.output.as_deref())
+    written(text, options.output.output.as_deref())
 }
 
 /// The places of a row: a node, or the two ends of a cell.

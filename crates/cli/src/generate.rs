@@ -6,10 +6,58 @@ use clap::CommandFactory as _;
 
 pub fn run(options: &Generate) -> Result<String, Failure> {
     let mut command = Arguments::command();
-    let Generated::Completions(shell) = options.what else { return manual(command) };
+    let shell = match options.what {
+        Generated::Completions(shell) => shell,
+        Generated::Manual => return manual(command),
+        Generated::Options => return Ok(vocabulary(command)),
+    };
     let mut out = Vec::new();
     clap_complete::generate(shell, &mut command, "wavestep", &mut out);
     Ok(text(out))
+}
+
+/// An option: its name and what its value is called, what it means in the words of the first command that has it, and the
+/// commands that have it.
+struct Word {
+    option: String,
+    meaning: String,
+    commands: Vec<String>,
+}
+
+/// The table of all options.
+fn vocabulary(mut command: clap::Command) -> String {
+    command.build();
+    let mut words: Vec<Word> = Vec::new();
+    for subcommand in command.get_subcommands().filter(|own| own.get_name() != "help") {
+        for argument in subcommand.get_arguments().filter(|own| !own.is_global_set()) {
+            let Some(long) = argument.get_long().filter(|long| *long != "help") else { continue };
+            let names = argument.get_value_names().filter(|_| argument.get_action().takes_values());
+            let value = names.map_or(String::new(), |names| format!(" {}", names[0]));
+            let short = argument.get_short().map_or(String::new(), |short| format!("-{short}, "));
+            let option = format!("{short}--{long}{value}");
+            let name = subcommand.get_name().to_owned();
+            if let Some(known) = words.iter_mut().find(|word| word.option == option) {
+                known.commands.push(name);
+                continue;
+            }
+            let meaning = argument.get_help().map(|help| help.to_string()).unwrap_or_default();
+            words.push(Word { option, meaning, commands: vec![name] });
+        }
+    }
+    for argument in command.get_arguments().filter(|own| own.is_global_set()) {
+        let long = argument.get_long().unwrap_or_default();
+        let value = argument.get_value_names().map_or("", |names| &names[0]);
+        let meaning = argument.get_help().map(|help| help.to_string()).unwrap_or_default();
+        let option = format!("--{long} {value}");
+        words.push(Word { option, meaning, commands: vec!["all".to_owned()] });
+    }
+    words.sort_by_key(|word| word.option.trim_start_matches("-o, ").to_owned());
+    let row = |word: &Word| {
+        let (meaning, commands) = (word.meaning.replace('|', "\\|"), word.commands.join(", "));
+        format!("| `{}` | {meaning} | {commands} |\n", word.option)
+    };
+    "| Option | Meaning | Commands |\n|---|---|---|\n".to_owned()
+        + &words.iter().map(row).collect::<String>()
 }
 
 /// One page: the command, then each of its subcommands.

@@ -2,7 +2,7 @@
 
 use super::arguments::Scene;
 use super::failure::Failure;
-use std::io::Read as _;
+use std::io::Read;
 use std::ops::{Deref, DerefMut};
 use std::path::Path;
 use wavestep::answer::Costs;
@@ -85,7 +85,11 @@ pub fn costs(file: &str) -> Result<Costs, Failure> {
 /// The bytes of a file; of a longer one, one byte more than `limit`, which is enough to see that.
 pub fn bytes(name: &str, limit: usize) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    std::fs::File::open(name)?.take(limit as u64 + 1).read_to_end(&mut bytes)?;
+    let input: Box<dyn Read> = match name {
+        "-" => Box::new(std::io::stdin().lock()),
+        name => Box::new(std::fs::File::open(name)?),
+    };
+    input.take(limit as u64 + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 

@@ -39,6 +39,8 @@ mod share;
 mod validity;
 
 use arguments::{Arguments, Scenes, Subcommand};
+use clap::builder::StyledStr;
+use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory as _, FromArgMatches as _};
 use failure::Failure;
 use std::io::{self, Write as _};
@@ -63,19 +65,21 @@ pub fn run() -> ExitCode {
     }
     budget::watch(arguments.time_limit);
     let result = match &arguments.subcommand {
-        Subcommand::Derive(options) => derive::run(options),
-        Subcommand::Eval(options) => eval::run(options),
+        Subcommand::Derive(options) => output::report(derive::run(options), &options.output),
+        Subcommand::Eval(options) => output::report(eval::run(options), &options.output),
         Subcommand::Chart(options) => chart::run(options),
-        Subcommand::Events(options) => events::run(options),
+        Subcommand::Events(options) => output::report(events::run(options), &options.output),
         Subcommand::Export(options) => export::run(options),
         Subcommand::Plot(options) => plot::run(options),
         Subcommand::Field(options) => field::run(options),
-        Subcommand::Find(options) => find::run(options),
+        Subcommand::Find(options) => output::report(find::run(options), &options.output),
         Subcommand::Advise(options) => advise::run(options),
-        Subcommand::Dispersion(options) => dispersion::run(options),
-        Subcommand::Hertz(options) => hertz::run(options),
+        Subcommand::Dispersion(options) => {
+            output::report(dispersion::run(options), &options.output)
+        }
+        Subcommand::Hertz(options) => output::report(hertz::run(options), &options.output),
         Subcommand::Figure(options) => figure::run(options),
-        Subcommand::Book(options) => book::run(options),
+        Subcommand::Book(options) => output::report(book::run(options), &options.output),
         Subcommand::Check(options) => check::run(options),
         Subcommand::Lock(options) => lock::run(options),
         Subcommand::Scenes(options) => scenes(options),
@@ -102,8 +106,21 @@ fn parsed() -> Result<Arguments, clap::Error> {
             false => argument,
         })
     });
-    let mut matches = command.try_get_matches_from_mut(std::env::args_os())?;
+    let matches = command.try_get_matches_from_mut(std::env::args_os());
+    let mut matches = matches.map_err(without_dashes)?;
     Arguments::from_arg_matches_mut(&mut matches).map_err(|error| error.format(&mut command))
+}
+
+/// An error without the advice to pass an option as a value behind `--`, which is never what was meant.
+fn without_dashes(mut error: clap::Error) -> clap::Error {
+    if let Some(ContextValue::StyledStrs(tips)) = error.remove(ContextKind::Suggested) {
+        let useful = |tip: &StyledStr| !tip.to_string().contains("-- ");
+        let tips: Vec<StyledStr> = tips.into_iter().filter(useful).collect();
+        if !tips.is_empty() {
+            error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
+        }
+    }
+    error
 }
 
 /// The exit code after writing: a reader that has gone away ends the command quietly.

@@ -17,7 +17,7 @@ use wavestep::problem::{LockRefusal, ProblemError, ToLock};
 pub fn run(options: &Options) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;
     let digits = input::digits(options.digits)?;
-    let until = options.until.as_deref().map(|until| problem.time("--until", until)).transpose()?;
+    let until = options.to.as_deref().map(|to| problem.time("--to", to)).transpose()?;
     let times = options.at.iter().map(|at| problem.time("--at", at.as_str()));
     let times = times.collect::<Result<Vec<BigRational>, ProblemError>>()?;
     let asked = ToLock { through: options.through, until, times, digits };
@@ -55,7 +55,9 @@ fn write(options: &Options, lock: &Lock) -> Result<String, Failure> {
         let message = "the numbers or powers in these pieces are too long to be read back";
         return Err(Failure::usage(message, "ask for a smaller --through, or shorter values"));
     }
-    let Some(file) = options.output.as_ref().filter(|file| *file != "-") else { return Ok(text) };
+    let Some(file) = options.output.output.as_ref().filter(|file| *file != "-") else {
+        return Ok(text);
+    };
     if fs::canonicalize(file)
         .is_ok_and(|file| fs::canonicalize(&options.scene.scene).ok() == Some(file))
     {

@@ -1,5 +1,6 @@
 //! Files that are written: whole, or not at all.
 
+use super::arguments::Output;
 use super::budget;
 use super::failure::Failure;
 use std::fs::{self, File};
@@ -15,6 +16,11 @@ pub fn written(text: String, file: Option<&str>) -> Result<String, Failure> {
             Ok(format!("{file}: {} bytes\n", text.len()))
         }
     }
+}
+
+/// A report, in a file where one is named; one of a failure is told all the same.
+pub fn report(report: Result<String, Failure>, to: &Output) -> Result<String, Failure> {
+    written(report?, to.output.as_deref())
 }
 
 /// Writes a file as a whole or not at all: beside it first, under a name that is free, then in its

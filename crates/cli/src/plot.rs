@@ -18,7 +18,7 @@ pub fn run(options: &Plot) -> Result<String, Failure> {
 
 fn chart(options: &Plot) -> Result<Box<dyn Chart>, Failure> {
     let problem = input::problem(&options.scene)?;
-    if !options.at_time.is_empty() {
+    if !options.at.is_empty() {
         return fields_at(&problem, options);
     }
     let from = problem.time("--from", options.from.as_str())?;
@@ -44,7 +44,7 @@ fn chart(options: &Plot) -> Result<Box<dyn Chart>, Failure> {
 }
 
 fn fields_at(problem: &Problem, options: &Plot) -> Result<Box<dyn Chart>, Failure> {
-    let times = options.at_time.iter().map(|time| problem.time("--at-time", time.as_str()));
+    let times = options.at.iter().map(|time| problem.time("--at", time.as_str()));
     let times = times.collect::<Result<Vec<BigRational>, ProblemError>>()?;
     let Some(last) = times.iter().max() else { unreachable!("there are times") };
     note_pulling(problem, last);

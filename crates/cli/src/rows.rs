@@ -18,9 +18,48 @@ const MAX_FRACTION: usize = 40;
 /// More digits than a ball of the highest precision has.
 pub const ALL_DIGITS: usize = 1 << 30;
 
-pub fn times(problem: &Problem, options: &Eval) -> Result<Vec<BigRational>, Failure> {
+/// What is told of one quantity or of several: lines below each other, columns with the name before each row, a list of
+/// documents.
+pub struct Told {
+    format: Format,
+    several: bool,
+    parts: Vec<String>,
+}
+
+impl Told {
+    pub fn new(format: Format, count: usize) -> Told {
+        Told { format, several: count > 1, parts: Vec::new() }
+    }
+
+    pub fn add(&mut self, name: &str, told: String) {
+        let is_first = self.parts.is_empty();
+        self.parts.push(match self.format {
+            Format::Csv if self.several => {
+                let rows = told.lines().enumerate().filter(|(row, _)| is_first || *row > 0);
+                let named = |(row, line)| match row {
+                    0 => format!("quantity,{line}\n"),
+                    _ => format!("{name},{line}\n"),
+                };
+                rows.map(named).collect()
+            }
+            _ => told,
+        });
+    }
+
+    pub fn all(self) -> String {
+        match self.format {
+            Format::Json if self.several => {
+                let documents: Vec<&str> = self.parts.iter().map(|part| part.trim_end()).collect();
+                format!("[{}]\n", documents.join(",\n"))
+            }
+            _ => self.parts.concat(),
+        }
+    }
+}
+
+pub fn times(problem: &Problem, name: &str, options: &Eval) -> Result<Vec<BigRational>, Failure> {
     if let (Some(n), Some(local)) = (options.piece, &options.local) {
-        let wanted = problem.wanted(&options.quantity)?;
+        let wanted = problem.wanted(name)?;
         let local = problem::number("--local", local)?;
         return Ok(vec![problem.time_on_period(&wanted, n, &local, options.side)?]);
     }
@@ -55,25 +94,25 @@ pub fn written(
         Format::Json => json_document(problem, wanted, rows, options),
         _ => {
             let values = rows.1.iter().map(|value| value.to_text(options.digits));
-            lines(problem, &wanted.unit(), rows.0.iter().zip(values), options)
+            lines(problem, wanted, rows.0.iter().zip(values), options)
         }
     }
 }
 
 pub fn lines<'a>(
     problem: &Problem,
-    unit: &str,
+    wanted: &Wanted,
     rows: impl Iterator<Item = (&'a BigRational, String)>,
     options: &Eval,
 ) -> String {
     let limit = if options.side == Limit::Left { "-" } else { "" };
     let spaced = |unit: &str| if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    let (unit, second) = (spaced(unit), spaced(problem.time_unit()));
+    let (unit, second) = (spaced(&wanted.unit()), spaced(problem.time_unit()));
     let line = |(time, value): (&BigRational, String)| {
         let fraction = time.to_string();
         let is_short = second.is_empty() && fraction.len() <= MAX_FRACTION;
         let time = if is_short { fraction } else { in_decimals(time) };
-        format!("{}({time}{second}{limit}) = {value}{unit}\n", options.quantity)
+        format!("{}({time}{second}{limit}) = {value}{unit}\n", wanted.name)
     };
     rows.map(line).collect()
 }
@@ -103,7 +142,7 @@ fn json_document(
     let mut document = json!({
         "schema_version": SCHEMA_VERSION,
         "title": problem.title(),
-        "quantity": options.quantity,
+        "quantity": wanted.name,
         "set": options.scene.set,
         "digits": options.digits,
         "side": if options.side == Limit::Left { "left" } else { "right" },

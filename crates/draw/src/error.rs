@@ -46,4 +46,6 @@ pub enum NotDrawn {
     Svg(String),
     #[error("{0}")]
     Png(String),
+    #[error("{0}")]
+    Pdf(String),
 }

@@ -1,10 +1,10 @@
 //! Pictures: charts of accuracy against speed, figures of quantities, diagrams of place and time; as
-//! SVG, PNG, JSON, CSV, and pages of HTML.
+//! SVG, PDF, PNG, JSON, CSV, and pages of HTML.
 //!
 //! The layer knows series of numbers only, not where they come from. A [`WorkPrecision`] diagram
 //! shows methods, a [`Map`] shows the error over two parameters, [`Curves`] show it along one;
 //! [`page`] puts several of them into one file. A [`Figure`] shows quantities in panels over one axis, a
-//! [`Diagram`] waves over place and time; [`png`] turns any of them into pixels. What a picture shows can
+//! [`Diagram`] waves over place and time; [`png`] turns any of them into pixels, [`pdf`] into a page. What a picture shows can
 //! be drawn again from its data: equal data give equal bytes.
 //!
 //! Pictures are written as SVG here, by a few shapes in one file. Every chart needs what plotting
@@ -30,6 +30,7 @@ mod marks;
 mod number;
 mod page;
 mod palette;
+mod pdf;
 mod placement;
 mod png;
 mod text;
@@ -45,5 +46,6 @@ pub use figure::{Figure, Look, Panel, Series};
 pub use frontier::frontier;
 pub use map::Map;
 pub use page::{Listing, Row, Section, Table, page};
+pub use pdf::pdf;
 pub use png::png;
 pub use work_precision::{Method, Point, WorkPrecision};

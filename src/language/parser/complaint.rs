@@ -1,6 +1,6 @@
 //! What the parser says about texts it refuses.
 
-use super::super::diagnostic::{Diagnostic, closest};
+use super::super::diagnostic::{Diagnostic, closest, did_you_mean};
 use super::super::number::LiteralError;
 use super::super::source::Source;
 use super::super::syntax::{Expression, Name, Node, Span};
@@ -518,18 +518,35 @@ pub(super) fn no_keyword(input: Input<'_>) -> Diagnostic {
     at(input, message, span, "expected a statement").with_remedy(remedy)
 }
 
+/// Other words for what is declared in a scene.
+const OTHER_WORDS: [(&str, &str); 8] = [
+    ("rod", "bar"),
+    ("beam", "bar"),
+    ("pile", "bar"),
+    ("ram", "mass"),
+    ("dashpot", "spring"),
+    ("damper", "spring"),
+    ("contact", "hertz"),
+    ("output", "observe"),
+];
+
 /// A statement that begins with an unknown word.
 pub(super) fn unknown_keyword(input: Input<'_>, word: &str, span: Span) -> Diagnostic {
     let message = format!("no statement begins with {}", quoted(word));
     let after = input.text[span.end - input.offset..].trim_start();
     let is_equation = after.starts_with(['[', '\'', '(', '=', '+', '-', '*', '/']);
+    let word_meant = word.to_ascii_lowercase();
     let words = input.context.forms.iter().map(|(keyword, _)| *keyword);
-    let remedy = match closest(&word.to_ascii_lowercase(), words) {
-        Some(keyword) => format!("did you mean `{keyword}`?"),
-        None if is_equation && !input.context.is_scene() => {
+    let other = OTHER_WORDS.iter().find(|(other, _)| *other == word_meant);
+    let remedy = match (did_you_mean(&word_meant, words), other) {
+        (_, Some((_, keyword))) if input.context.is_scene() => {
+            format!("did you mean `{keyword}`?")
+        }
+        (Some(likely), _) => likely,
+        (None, _) if is_equation && !input.context.is_scene() => {
             format!("an equation begins with `equation`: write `equation {word}…`")
         }
-        None => keywords(input),
+        _ => keywords(input),
     };
     at(input, message, span, "unknown statement").with_remedy(remedy)
 }
@@ -571,16 +588,24 @@ pub(super) fn unit_power(from: Input<'_>, to: Input<'_>) -> Diagnostic {
         .with_remedy("write it like `m^3`, `s^-1` or `m³`")
 }
 
-/// A line that does not say what is at an end.
-pub(super) fn expected_end_of_line(input: Input<'_>, side: &str) -> Diagnostic {
-    let ends = End::ALL.map(End::word);
-    let likely = input.next_word().and_then(|word| closest(word.value, ends));
-    let remedy = match likely {
-        Some(end) => format!("did you mean `{end}`?"),
-        None => "a line goes from end to end: `line free - rod - fixed`".to_owned(),
-    };
+const END_TO_END: &str = "a line goes from end to end: `line free - rod - fixed`";
+
+/// A line that does not begin with what is at its left end.
+pub(super) fn expected_left_end(input: Input<'_>) -> Diagnostic {
+    let word = input.next_word().map_or("", |word| word.value);
+    end_of_line_expected(input, "left", word)
+}
+
+/// A line that ends with this name, not with what is at its right end.
+pub(super) fn expected_right_end(input: Input<'_>, last: &Name) -> Diagnostic {
+    end_of_line_expected(input, "right", &last.value)
+        .with_secondary(last.span, "the line ends with this")
+}
+
+fn end_of_line_expected(input: Input<'_>, side: &str, word: &str) -> Diagnostic {
+    let remedy = did_you_mean(word, End::ALL.map(End::word));
     let what = format!("what is at the {side} end: `free`, `fixed` or `endless`");
-    expected_with(input, &what, remedy)
+    expected_with(input, &what, remedy.unwrap_or_else(|| END_TO_END.to_owned()))
 }
 
 /// `force(a)^2`
@@ -620,10 +645,10 @@ pub(super) fn unclosed_place(input: Input<'_>, opener: Span) -> Diagnostic {
 
 /// `rod.middle`
 pub(super) fn expected_section(input: Input<'_>, element: &str) -> Diagnostic {
-    let likely = input.next_word().and_then(|word| closest(word.value, ["left", "right", "at"]));
-    let remedy = match likely {
-        Some(word) => format!("did you mean `{word}`?"),
-        None => format!("write `{element}.left`, `{element}.right` or `{element}.at(1/2)`"),
-    };
+    let sections = ["left", "right", "at"];
+    let likely = input.next_word().and_then(|word| did_you_mean(word.value, sections));
+    let remedy = likely.unwrap_or_else(|| {
+        format!("write `{element}.left`, `{element}.right` or `{element}.at(1/2)`")
+    });
     expected_with(input, "`left`, `right` or `at(…)`", remedy)
 }

@@ -133,16 +133,16 @@ fn line(input: &mut Input<'_>) -> Outcome<Line> {
     let before = *input;
     let first = input.word().and_then(|word| Some((end_of_line(word.value)?, word.span)));
     let Some((end, span)) = first else {
-        return Err(complaint::expected_end_of_line(before, "left"));
+        return Err(complaint::expected_left_end(before));
     };
     let left = Spanned::new(end, span);
     let (mut elements, mut joints) = (Vec::<Name>::new(), Vec::new());
     loop {
         let signs = [("-", Joint::Bonded), ("−", Joint::Bonded), ("|", Joint::Contact)];
         let Some(joint) = input.one_of(&signs) else {
-            return Err(match input.after_blanks().text.is_empty() {
-                true => complaint::expected_end_of_line(*input, "right"),
-                false => complaint::expected(*input, "`-` or `|`"),
+            return Err(match (input.after_blanks().text.is_empty(), elements.last()) {
+                (true, Some(last)) => complaint::expected_right_end(*input, last),
+                _ => complaint::expected(*input, "`-` or `|`"),
             });
         };
         joints.push(joint);

@@ -295,9 +295,12 @@ impl<'a> Lowering<'a> {
             let Name { value: name, span } = name;
             let error = self.error(format!("unknown element `{name}`"), *span, "not declared");
             let names = self.elements.iter().map(|known| known.declaration.name.value.as_str());
-            return Err(with_likely(error, name, names).or_remedy(format!(
-                "declare it, as in `bar {name} {{ impedance = 1, travel = 1 }}`"
-            )));
+            let declared = names.clone().collect::<Vec<_>>().join(", ");
+            let declaration = format!("`bar {name} {{ impedance = 1, travel = 1 }}`");
+            return Err(with_likely(error, name, names).or_remedy(match &declared[..] {
+                "" => format!("declare it, as in {declaration}"),
+                _ => format!("declared are {declared}; declare another as in {declaration}"),
+            }));
         };
         let message = format!("`{}` is {}", name.value, self.described(*meaning));
         Err(self

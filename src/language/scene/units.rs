@@ -7,7 +7,7 @@
 use num_traits::{One, Pow};
 use wavestep_polynomial::Rational;
 
-use crate::language::diagnostic::Diagnostic;
+use crate::language::diagnostic::{Diagnostic, closest};
 use crate::language::scope::{Scope, with_likely};
 use crate::language::syntax::{Operator, Unit};
 use crate::scene::Dimension;
@@ -54,6 +54,32 @@ const PREFIXES: [(&str, i32, bool); 8] = [
 const USUAL: [&str; 19] = [
     "m", "mm", "cm", "km", "kg", "g", "s", "ms", "us", "N", "kN", "MN", "Pa", "kPa", "MPa", "GPa",
     "Hz", "J", "W",
+];
+
+/// Units in words, and under names that are not those of the SI.
+const SPELT: [(&str, &str); 22] = [
+    ("metre", "m"),
+    ("meter", "m"),
+    ("millimetre", "mm"),
+    ("millimeter", "mm"),
+    ("centimeter", "cm"),
+    ("inch", "in"),
+    ("gram", "g"),
+    ("kilogram", "kg"),
+    ("second", "s"),
+    ("seconds", "s"),
+    ("sec", "s"),
+    ("msec", "ms"),
+    ("usec", "us"),
+    ("millisecond", "ms"),
+    ("microsecond", "us"),
+    ("minute", "min"),
+    ("newton", "N"),
+    ("kilonewton", "kN"),
+    ("pascal", "Pa"),
+    ("hertz", "Hz"),
+    ("joule", "J"),
+    ("watt", "W"),
 ];
 
 fn named(name: &str) -> Option<Worth> {
@@ -113,7 +139,14 @@ fn unknown(scope: &Scope, name: &str, span: crate::language::Span) -> Diagnostic
     let parted = (1..name.len())
         .filter(|at| name.is_char_boundary(*at))
         .map(|at| name.split_at(at))
-        .find(|(left, right)| named(left).is_some() && named(right).is_some());
+        .find(|(left, right)| {
+            let dimensions = [left, right].map(|name| named(name).map(|worth| worth.dimension));
+            // Two lengths are one that was mistyped.
+            dimensions.iter().all(Option::is_some) && dimensions[0] != dimensions[1]
+        });
+    let lower = name.to_ascii_lowercase();
+    let spelt = closest(&lower, SPELT.iter().map(|(word, _)| *word));
+    let spelt = spelt.and_then(|spelt| SPELT.iter().find(|(word, _)| *word == spelt));
     if scope.symbols.contains_key(name) || name == "t" {
         error.with_remedy(format!(
             "no unit has this name; multiplication is written, as in `2*{name}`"
@@ -124,6 +157,8 @@ fn unknown(scope: &Scope, name: &str, span: crate::language::Span) -> Diagnostic
         error.with_remedy(format!("write products with `*`: `{left}*{right}`"))
     } else if name == "bar" {
         error.with_remedy("write pressures in Pa: 1 bar is `100 kPa`")
+    } else if let Some((_, unit)) = spelt.filter(|_| name.chars().count() > 2) {
+        error.with_remedy(format!("did you mean `{unit}`?"))
     } else {
         with_likely(error, name, USUAL.into_iter()).or_remedy(
             "units are m, g, s, N, Pa, Hz, J, W with prefixes n, u, m, k, M, G (and cm, dm), min, \

@@ -14,7 +14,7 @@ use std::path::PathBuf;
     then the exact answer. What is enough is proven on the whole window. What misses has a time at which\n\
     that is seen.\n\
     With --for, the largest difference of each simpler answer is proven at some values of the symbol.\n\
-    Borders between what is enough are found by halving. -o draws the map (.svg, .png, .json or .csv).")]
+    Borders between what is enough are found by halving. -o draws the map (.svg, .pdf, .png, .json or .csv).")]
 pub struct Advise {
     #[command(flatten)]
     pub scene: Scene,
@@ -22,7 +22,7 @@ pub struct Advise {
     #[arg(long, value_name = "NAME")]
     pub quantity: Option<String>,
     /// How far off it may be, over its largest value
-    #[arg(long, value_name = "SHARE", default_value = "1e-2")]
+    #[arg(long, value_name = "TOL", default_value = "1e-2")]
     pub tol: String,
     /// The first time of the window
     #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]

@@ -1,6 +1,6 @@
 //! Arguments of `book`.
 
-use super::{Format, named};
+use super::{Format, Output, named};
 use clap::Args;
 
 #[derive(Args)]
@@ -21,4 +21,6 @@ pub struct Book {
         ("markdown", Format::Markdown, "The page docs/equations.md"),
     ]))]
     pub format: Format,
+    #[command(flatten)]
+    pub output: Output,
 }

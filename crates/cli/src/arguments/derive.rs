@@ -1,6 +1,6 @@
 //! Arguments of `derive`.
 
-use super::{Format, Scene, named};
+use super::{Format, Output, Scene, named};
 use clap::{Args, ValueHint};
 use wavestep::export::{LATEX_WIDTH, TEXT_WIDTH};
 use wavestep::problem::{Form, Orders};
@@ -64,6 +64,8 @@ pub struct Derive {
         ("json", Format::Json, "Terms with reduced rationals"),
     ]))]
     pub format: Format,
+    #[command(flatten)]
+    pub output: Output,
     /// The most characters in a line, on the page in LaTeX [default: 100 for text, 84 for LaTeX]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(20..))]
     pub line_length: Option<u16>,

@@ -1,12 +1,12 @@
 //! Arguments of `dispersion`.
 
-use super::{Format, named};
+use super::{Format, Output, named};
 use clap::{Args, ValueHint};
 
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
-    wavestep dispersion lattice --at 1\n  \
-    wavestep dispersion 'k*sqrt(1 + a*k^2)' --set a=1/12 --at 1/2 --digits 30\n  \
+    wavestep dispersion lattice --wavenumber 1\n  \
+    wavestep dispersion 'k*sqrt(1 + a*k^2)' --set a=1/12 --wavenumber 1/2 --digits 30\n  \
     wavestep dispersion cubic --pulse triangle\n  \
     wavestep dispersion cubic --length 10 --propagate 20\n  \
     wavestep dispersion lattice --pulse 'exp(-k^2)' --duration 8\n\n\
@@ -19,9 +19,9 @@ pub struct Dispersion {
     #[arg(long = "set", value_name = "NAME=VALUE", allow_hyphen_values = true,
           value_hint = ValueHint::Other)]
     pub set: Vec<String>,
-    /// Values at this wavenumber; may be given several times
-    #[arg(long, value_name = "K", allow_hyphen_values = true)]
-    pub at: Vec<String>,
+    /// Values at these wavenumbers, separated by commas
+    #[arg(long, alias = "at", value_name = "K", value_delimiter = ',', allow_hyphen_values = true)]
+    pub wavenumber: Vec<String>,
     /// The pulse: square, triangle, gaussian, or its spectrum as a formula in k [default: square, where
     /// a length or a duration is given]
     #[arg(long, value_name = "PULSE", allow_hyphen_values = true)]
@@ -51,4 +51,6 @@ pub struct Dispersion {
         ("json", Format::Json, "Formulas as text, decimal strings with proven radii"),
     ]))]
     pub format: Format,
+    #[command(flatten)]
+    pub output: Output,
 }

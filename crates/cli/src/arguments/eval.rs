@@ -1,6 +1,6 @@
 //! Arguments of `eval`.
 
-use super::{Format, Scene, limits, value_formats};
+use super::{Format, Output, Scene, limits, value_formats};
 use clap::{Args, ValueHint};
 use wavestep::limits::VALUE_BITS;
 use wavestep::signal::Limit;
@@ -8,6 +8,7 @@ use wavestep::signal::Limit;
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep eval rigid-mass --set mu=1/4 --quantity f --at 33/10 --digits 30\n  \
+    wavestep eval hopkinson --at 100us,200us\n  \
     wavestep eval rigid-mass --set mu=1 --quantity strain_fixed --from 0 --to 6 --points 13\n  \
     wavestep eval rigid-mass --set mu=1 --quantity velocity --at 2 --side left\n  \
     wavestep eval rigid-mass --set mu=1 --quantity f --piece 2 --local 1/2 --format json\n  \
@@ -18,11 +19,11 @@ use wavestep::signal::Limit;
 pub struct Eval {
     #[command(flatten)]
     pub scene: Scene,
-    /// A wave or an observable
-    #[arg(long, value_name = "NAME")]
-    pub quantity: String,
-    /// At this scene time; may be given several times
-    #[arg(long, value_name = "T", allow_hyphen_values = true,
+    /// These waves and observables, separated by commas [default: all observables]
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub quantity: Vec<String>,
+    /// At these scene times, separated by commas
+    #[arg(long, value_name = "T", value_delimiter = ',', allow_hyphen_values = true,
           conflicts_with_all = ["from", "to", "points", "piece", "local"])]
     pub at: Vec<String>,
     /// First of evenly spaced times
@@ -71,4 +72,6 @@ pub struct Eval {
     /// Written how
     #[arg(long, value_parser = value_formats(), default_value = "text")]
     pub format: Format,
+    #[command(flatten)]
+    pub output: Output,
 }

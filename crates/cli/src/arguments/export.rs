@@ -1,7 +1,7 @@
 //! Arguments of `export`.
 
-use super::Scene;
-use clap::{Args, ValueEnum, ValueHint};
+use super::{Output, Scene};
+use clap::{Args, ValueEnum};
 
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
@@ -27,9 +27,8 @@ pub struct Export {
     /// How far off values may be, as for eval [default: ulp:4]
     #[arg(long, value_name = "TOL")]
     pub tol: Option<String>,
-    /// The file to write; standard output without it
-    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub output: Option<String>,
+    #[command(flatten)]
+    pub output: Output,
 }
 
 /// What values on a window are written as.

@@ -1,6 +1,6 @@
 //! Arguments of `find`.
 
-use super::{Format, Scene, value_formats};
+use super::{Format, Output, Scene, value_formats};
 use clap::{ArgGroup, Args};
 use wavestep::limits::SEARCH_BITS;
 use wavestep::signal::Goal;
@@ -64,6 +64,8 @@ pub struct Find {
     /// Written how
     #[arg(long, value_parser = value_formats(), default_value = "text")]
     pub format: Format,
+    #[command(flatten)]
+    pub output: Output,
 }
 
 impl Find {

@@ -1,6 +1,6 @@
 //! Arguments of `hertz`.
 
-use super::{Format, Scene, named};
+use super::{Format, Output, Scene, named};
 use clap::Args;
 
 #[derive(Args)]
@@ -32,4 +32,6 @@ pub struct Hertz {
         ("json", Format::Json, "Decimal strings"),
     ]))]
     pub format: Format,
+    #[command(flatten)]
+    pub output: Output,
 }

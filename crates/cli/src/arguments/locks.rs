@@ -1,6 +1,6 @@
 //! Arguments of `check` and `lock`.
 
-use super::Scene;
+use super::{Output, Scene};
 use clap::{Args, ValueHint};
 
 #[derive(Args)]
@@ -14,12 +14,15 @@ pub struct Check {
     /// Compare with what `wavestep lock` wrote to this file, with the values that stand there
     #[arg(long, value_name = "FILE", conflicts_with = "set", value_hint = ValueHint::FilePath)]
     pub locked: Option<String>,
+    /// Say too what was found: symbols and conditions, equations, derivations, general forms
+    #[arg(long, conflicts_with = "locked")]
+    pub verbose: bool,
 }
 
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep lock my.wave --through 4 -o my.lock\n  \
-    wavestep lock rigid-mass --through 2 --set mu=1/4 --at 33/10 --at 5\n  \
+    wavestep lock rigid-mass --through 2 --set mu=1/4 --at 33/10,5\n  \
     wavestep lock saint-venant --set mu=1 --at 2 -o my.lock\n  \
     wavestep check my.wave --locked my.lock\n\n\
     The file holds what the scene states of its period, symbols and observables, the pieces of all\n\
@@ -33,15 +36,20 @@ pub struct Lock {
     #[arg(long, value_name = "N")]
     pub through: Option<usize>,
     /// Lock the events until this scene time, where contacts open [default: as in `events`]
-    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with = "through")]
-    pub until: Option<String>,
-    /// Lock values at this scene time; may be given several times
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        alias = "until",
+        value_name = "T",
+        allow_hyphen_values = true,
+        conflicts_with = "through"
+    )]
+    pub to: Option<String>,
+    /// Lock values at these scene times, separated by commas
+    #[arg(long, value_name = "T", value_delimiter = ',', allow_hyphen_values = true)]
     pub at: Vec<String>,
     /// How many significant digits values have
     #[arg(long, value_name = "D", default_value_t = 20)]
     pub digits: usize,
-    /// The file to write; standard output without it
-    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub output: Option<String>,
+    #[command(flatten)]
+    pub output: Output,
 }

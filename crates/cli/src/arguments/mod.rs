@@ -55,6 +55,14 @@ fn limits(left: &'static str, right: &'static str) -> impl TypedValueParser<Valu
     named([("left", Limit::Left, left), ("right", Limit::Right, right)])
 }
 
+/// Where a report goes.
+#[derive(Args)]
+pub struct Output {
+    /// The file to write; standard output without it, or for -
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<String>,
+}
+
 fn value_formats() -> impl TypedValueParser<Value = Format> {
     named([
         ("text", Format::Text, "A line a time"),
@@ -155,7 +163,7 @@ pub enum Subcommand {
 /// A scene, with values in place of symbols.
 #[derive(Args)]
 pub struct Scene {
-    /// A file, or the name of a built-in scene (see `wavestep scenes`), which comes first
+    /// A file, the name of a built-in scene (see `wavestep scenes`), which comes first, or - for standard input
     #[arg(value_hint = ValueHint::FilePath)]
     pub scene: String,
     /// Put an exact value in place of a symbol, before anything is derived; may be given several times

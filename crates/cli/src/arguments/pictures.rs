@@ -1,6 +1,6 @@
 //! Arguments of the commands that draw and give fields.
 
-use super::{Format, Scene, limits, named};
+use super::{Format, Output, Scene, limits, named};
 use clap::{Args, ValueHint};
 use wavestep::field::Quantity;
 use wavestep::signal::Limit;
@@ -10,7 +10,7 @@ use wavestep::signal::Limit;
     wavestep chart rigid-mass --set mu=1 -o charts\n  \
     wavestep chart hopkinson --quantity gauge_output --to 2ms -o charts\n  \
     wavestep chart --costs -o costs.txt\n\n\
-Each chart is written as SVG, JSON and CSV; index.html shows all of them with a table.\n\
+To draw a solution, use `plot`. Each chart is written as SVG, JSON and CSV; index.html shows all of them with a table.\n\
 With one symbol set, there are maps over the order and that symbol as well.\n\
 Seconds are those of this machine. With --costs nothing is drawn: what methods are made of is\n\
 measured again, beside the built-in table; `eval --costs FILE` reads what -o writes.")]
@@ -48,12 +48,12 @@ pub struct Chart {
 #[command(after_help = "Examples:\n  \
     wavestep plot rigid-mass --set mu=1 --to 8 -o strain.svg\n  \
     wavestep plot hopkinson --diagram velocity --to 400us -o hopkinson.svg\n  \
-    wavestep plot hopkinson --at-time 50us,100us,150us --quantity velocity,force -o fields.png\n\n\
-The ending of the file says what is written: .svg, .png, or the numbers as .json or .csv.")]
+    wavestep plot hopkinson --at 50us,100us,150us --quantity velocity,force -o fields.png\n\n\
+The ending of the file says what is written: .svg, .pdf, .png, or the numbers as .json or .csv.")]
 pub struct Plot {
     #[command(flatten)]
     pub scene: Scene,
-    /// These waves and observables, separated by commas [default: all observables]; with --at-time,
+    /// These waves and observables, separated by commas [default: all observables]; with --at,
     /// these of velocity, strain, displacement and force [default: the first three]
     #[arg(long, value_name = "NAME", value_delimiter = ',', conflicts_with = "diagram")]
     pub quantity: Vec<String>,
@@ -71,32 +71,32 @@ pub struct Plot {
     ]))]
     pub diagram: Option<Quantity>,
     /// Fields along the line at these times, separated by commas
-    #[arg(long, value_name = "T", value_delimiter = ',', allow_hyphen_values = true,
+    #[arg(long, alias = "at-time", value_name = "T", value_delimiter = ',', allow_hyphen_values = true,
           conflicts_with_all = ["diagram", "from", "to"])]
-    pub at_time: Vec<String>,
+    pub at: Vec<String>,
     /// The title [default: that of the scene]; nothing for none
     #[arg(long, value_name = "TEXT")]
     pub title: Option<String>,
     /// The width of a PNG in pixels
     #[arg(long, value_name = "PIXELS", default_value_t = 1800)]
     pub width: u32,
-    /// The file to write
+    /// The file to write, or - for SVG on standard output
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: String,
 }
 
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
-    wavestep field mass-on-fixed-bar --set mu=1 --time 5/2 --mesh 100\n  \
-    wavestep field hopkinson --time 120us --mesh 200 --bar striker --averages --format json\n\n\
+    wavestep field mass-on-fixed-bar --set mu=1 --at 5/2 --mesh 100\n  \
+    wavestep field hopkinson --at 120us --mesh 200 --bar striker --averages --format json\n\n\
 Each value is a double with a proven bound on its error. Where a field jumps at a node, the limit from\n\
 the right is given, at the right end of a bar that from within; --side left gives the other.")]
 pub struct Field {
     #[command(flatten)]
     pub scene: Scene,
     /// At this scene time
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    pub time: String,
+    #[arg(long, alias = "time", value_name = "T", allow_hyphen_values = true)]
+    pub at: String,
     /// How many cells each bar has
     #[arg(long, value_name = "N", default_value_t = 100)]
     pub mesh: usize,
@@ -110,17 +110,16 @@ pub struct Field {
     #[arg(long, value_name = "NAME", value_hint = ValueHint::Other)]
     pub bar: Vec<String>,
     /// Endless bars up to this distance from their end [default: as far as waves have come]
-    #[arg(long, value_name = "X", allow_hyphen_values = true)]
-    pub to: Option<String>,
+    #[arg(long, alias = "to", value_name = "X", allow_hyphen_values = true)]
+    pub reach: Option<String>,
     /// Written how
     #[arg(long, default_value = "csv", value_parser = named([
         ("csv", Format::Csv, "A row a node or cell, with a heading"),
         ("json", Format::Json, "Lists of numbers for each bar"),
     ]))]
     pub format: Format,
-    /// The file to write; standard output without it
-    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub output: Option<String>,
+    #[command(flatten)]
+    pub output: Output,
 }
 
 #[derive(Args)]
@@ -135,7 +134,7 @@ pub struct Figure {
     /// The width of a PNG in pixels
     #[arg(long, value_name = "PIXELS", default_value_t = 1800)]
     pub width: u32,
-    /// The file to write: .svg, .png, .json or .csv
+    /// The file to write: .svg, .pdf, .png, .json or .csv
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "number")]
     pub output: Option<String>,
 }

@@ -24,6 +24,7 @@ pub struct Generate {
         ("fish", Generated::Completions(Shell::Fish), "Completions for fish"),
         ("powershell", Generated::Completions(Shell::PowerShell), "Completions for PowerShell"),
         ("zsh", Generated::Completions(Shell::Zsh), "Completions for zsh"),
+        ("options", Generated::Options, "A table of all options, as Markdown"),
         ("manual", Generated::Manual, "The manual page, for man"),
     ]))]
     pub what: Generated,
@@ -34,4 +35,5 @@ pub struct Generate {
 pub enum Generated {
     Completions(Shell),
     Manual,
+    Options,
 }

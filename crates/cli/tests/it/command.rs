@@ -82,7 +82,7 @@ fn scenes_are_listed_and_correct() {
     // In `incommensurate` nothing has a common measure, and the last two are not linear.
     let linear = &SCENES[..SCENES.len() - 2];
     for scene in linear.iter().filter(|scene| **scene != "incommensurate") {
-        let line = format!("check {scene}");
+        let line = format!("check {scene} --verbose");
         let report = output(&line);
         let derived = ["derived in two ways, equal on periods 0 to", "derived echo by echo"];
         assert!(derived.iter().any(|told| report.contains(told)), "{report}");
@@ -207,7 +207,7 @@ fn a_scene_of_ones_own_works_everywhere() {
     fs::write(folder.join("strange.wave"), STRANGE).unwrap();
     let recorded =
         |name: &str, line: &str| snapshot("command", name, line, &output_in(&folder, line));
-    recorded("own-check", "check strange.wave");
+    recorded("own-check", "check strange.wave --verbose");
     recorded("own-derive", "derive strange.wave --through 1");
     for form in ["period", "echo", "piecewise"] {
         let line = format!("derive strange.wave --through 1 --form {form} --format");
@@ -284,7 +284,7 @@ fn bad_arguments_are_explained() {
         ("set-double", format!("{at} --set mu=1=2")),
         ("set-twice", format!("{at} --set mu=1 --set μ=1")),
         ("symbol-without-value", at.to_owned()),
-        ("quantity-missing", "eval rigid-mass --set mu=1 --at 1".to_owned()),
+        ("quantity-missing", "export rigid-mass --as c --set mu=1 --to 1".to_owned()),
         ("quantity-unknown", "eval rigid-mass --set mu=1 --quantity h --at 1".to_owned()),
         ("quantity-misspelt", "eval rigid-mass --set mu=1 --quantity velocty --at 1".to_owned()),
         ("wave-unknown", "derive rigid-mass --wave velocity".to_owned()),

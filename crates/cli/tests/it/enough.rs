@@ -338,7 +338,7 @@ fn what_cannot_be_weighed_is_told() {
         ("advise mass-on-fixed-bar --for nu=1..2".to_owned(), "`nu` is not a free symbol", "mu"),
         (format!("advise {scene} --for mu=1..2"), "`mu` is not a free symbol", "leave out --for"),
         ("advise mass-on-fixed-bar --for mu=2..1".to_owned(), "no range", "mu=1/10..10"),
-        ("advise mass-on-fixed-bar --for mu=1..2 -o map.pdf".to_owned(), "map.pdf", ".svg"),
+        ("advise mass-on-fixed-bar --for mu=1..2 -o map.eps".to_owned(), "map.eps", ".svg"),
         ("advise mass-on-fixed-bar --for mu=1..2 --models x:y".to_owned(), "x:y", "third"),
         ("advise mass-on-fixed-bar --to 1".to_owned(), "mu", "--set"),
         ("advise hertz-striker".to_owned(), "no end", "--to"),

@@ -50,7 +50,7 @@ fn events_take_little_memory() {
     std::fs::write(anywhere().join("tube.wave"), text).unwrap();
     for (scene, until, memory) in [("mass-that-bounces", "100", "1MB"), ("tube.wave", "20", "6MB")]
     {
-        let line = ["events", scene, "--until", until];
+        let line = ["events", scene, "--to", until];
         let scarce = output(&[&line[..], &["--memory", memory]].concat());
         assert_eq!(scarce, output(&line), "{scene}");
     }

@@ -143,8 +143,8 @@ fn request(chance: &mut Chance, text: &str) -> Vec<String> {
         6 => [&find[..], &["--zero", quantity]].concat(),
         7 => [&find[..], &["--max", quantity]].concat(),
         8 => [["plot", "X"], observed, to, ["-o", "plot.svg"]].concat(),
-        9 => vec!["events", "X", "--until", &time],
-        10 => vec!["field", "X", "--time", &time, "--mesh", "8"],
+        9 => vec!["events", "X", "--to", &time],
+        10 => vec!["field", "X", "--at", &time, "--mesh", "8"],
         11 => [["export", "X"], observed, to, ["--as", "c"]].concat(),
         _ => [["lock", "X"], at, ["-o", "X.lock"]].concat(),
     };

@@ -13,7 +13,7 @@ fn the_command_tells_tested_values_from_certified_ones() {
     let (_, json, told) = run(steps);
     assert!(told.contains("tested, not certified: computed to 1e-10"), "{told}");
     assert!(json.contains("\"bound\":null") && json.contains("\"method\":\"steps:1e-10\""));
-    let (code, checked, _) = run("check local-contact");
+    let (code, checked, _) = run("check local-contact --verbose");
     assert!(code == 0 && checked.contains("`tip` is a local contact"), "{checked}");
     let file = anywhere().join("hertz-striker.csv");
     let (code, _, told) =

@@ -128,10 +128,10 @@ fn the_command_locks_events_and_checks_them() {
     let cases: [(&[&str], &str); 8] = [
         (&["lock", "saint-venant"], "the history needs numbers, and `mu` has no value"),
         (&["lock", "my.wave", "--through", "1"], "where contacts open there are no periods"),
-        (&["lock", "my.wave", "--until", "-1"], "before the start"),
+        (&["lock", "my.wave", "--to", "-1"], "before the start"),
         (&["lock", "my.wave", "-o", "my.wave"], "the scene itself"),
         (&["lock", "closed.wave"], "through which period"),
-        (&["lock", "closed.wave", "--until", "3"], "there are no events here"),
+        (&["lock", "closed.wave", "--to", "3"], "there are no events here"),
         (&["check", "closed.wave", "--locked", "my.lock"], "no contacts open in closed.wave now"),
         (&["check", "my.wave", "--locked", "closed.lock"], "contacts open in my.wave now"),
     ];

@@ -24,6 +24,7 @@ mod snapshot;
 mod strains;
 mod typeset;
 mod validity;
+mod vocabulary;
 
 use snapshot::snapshot;
 use std::fs;

@@ -44,7 +44,7 @@ fn assumptions_are_told_once() {
 #[test]
 fn the_commands_follow_contacts_that_open() {
     let rows =
-        output(&["field", "bars-of-equal-length", "--time", "3", "--mesh", "2", "--bar", "first"]);
+        output(&["field", "bars-of-equal-length", "--at", "3", "--mesh", "2", "--bar", "first"]);
     let row = rows.lines().nth(2).unwrap();
     assert_eq!(row, "first,0.5,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0");
     let file = anywhere().join("phases.json");
@@ -61,8 +61,7 @@ fn the_commands_follow_contacts_that_open() {
     };
     assert!(cells.iter().filter(is_left).all(|cell| cell["value"].as_f64() == Some(0.0)));
     assert!(cells.iter().any(|cell| cell["value"].as_f64() == Some(1.0)));
-    let figure =
-        drawn(&["saint-venant", "--set", "mu=1", "--at-time", "5", "--quantity", "strain"]);
+    let figure = drawn(&["saint-venant", "--set", "mu=1", "--at", "5", "--quantity", "strain"]);
     let points = figure["panels"][0]["series"][0]["points"].as_array().unwrap();
     assert_eq!(points[0][1].as_f64(), Some(0.0), "a free end");
 }

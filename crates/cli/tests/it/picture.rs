@@ -41,8 +41,8 @@ const PICTURES: [&[&str]; 10] = [
     &["stepped-striker", "--diagram", "force", "--to", "6"],
     &["incommensurate", "--diagram", "strain", "--to", "300us"],
     &["mass-on-fixed-bar", "--set", "mu=1", "--diagram", "strain"],
-    &["hopkinson", "--at-time", "50us,100us", "--quantity", "velocity,force"],
-    &["incommensurate", "--at-time", "100us,200us", "--title", ""],
+    &["hopkinson", "--at", "50us,100us", "--quantity", "velocity,force"],
+    &["incommensurate", "--at", "100us,200us", "--title", ""],
     &["incommensurate"],
 ];
 
@@ -156,8 +156,7 @@ fn diagrams_cover_the_window() {
 #[test]
 fn fields_along_the_line_jump_at_fronts() {
     let folder = folder("picture-along");
-    let arguments =
-        ["hopkinson", "--at-time", "50us,100us", "--quantity", "velocity", "--title", "x"];
+    let arguments = ["hopkinson", "--at", "50us,100us", "--quantity", "velocity", "--title", "x"];
     let data = json(&folder, &arguments);
     let series = data["panels"][0]["series"].as_array().unwrap();
     assert_eq!(series[0]["name"], "t = 50 µs");
@@ -219,18 +218,35 @@ fn units_have_prefixes() {
     assert!(svg.contains(">t = 200 µs</text>") && !svg.contains("class=\"title\""));
 }
 
+/// The same picture as PDF: one page of its size, with its texts as text in the fonts that come along, twice the same.
+#[test]
+fn pictures_are_pages_of_pdf() {
+    let folder = folder("picture-pdf");
+    let drawn = |name: &str| drawn(&folder, PICTURES[8], name);
+    let (svg, pdf) = (String::from_utf8(drawn("picture.svg")).unwrap(), drawn("picture.pdf"));
+    assert!(pdf == drawn("again.pdf") && pdf.starts_with(b"%PDF-"));
+    let text = String::from_utf8_lossy(&pdf);
+    let side = |name: &str| -> f64 {
+        let (_, rest) = svg.split_once(&format!("{name}=\"")).unwrap();
+        rest.split('"').next().unwrap().parse().unwrap()
+    };
+    let page = format!("/MediaBox[0 0 {} {}]", 0.75 * side("width"), 0.75 * side("height"));
+    assert!(text.contains(&page), "{page}");
+    assert!(text.contains("DejaVuSans") && text.contains("/ToUnicode"));
+}
+
 #[test]
 fn what_cannot_be_drawn_leaves_no_file() {
     let folder = folder("picture-refused");
     fs::write(folder.join("old.svg"), "kept").unwrap();
     for (arguments, code, message) in [
         (&["rigid-mass", "-o", "a.svg"][..], 2, "mu has no value"),
-        (&["rigid-mass", "--set", "mu=1", "-o", "a.pdf"], 2, "ends with .svg, .png"),
+        (&["rigid-mass", "--set", "mu=1", "-o", "a.eps"], 2, "ends with .svg, .pdf"),
         (&["rigid-mass", "--set", "mu=1", "--to", "0", "-o", "a.svg"], 2, "is empty"),
         (&["rigid-mass", "--set", "mu=1", "--quantity", "g,h", "-o", "a.svg"], 2, "`h` is neither"),
         (&["rigid-mass", "--set", "mu=1", "--diagram", "force", "-o", "a.svg"], 2, "no bars"),
-        (&["hopkinson", "--at-time", "1us", "--quantity", "speed", "-o", "a.svg"], 2, "no field"),
-        (&["hopkinson", "--at-time", "-1us", "-o", "a.svg"], 2, "before the start"),
+        (&["hopkinson", "--at", "1us", "--quantity", "speed", "-o", "a.svg"], 2, "no field"),
+        (&["hopkinson", "--at", "-1us", "-o", "a.svg"], 2, "before the start"),
         (&["pushed-bar", "--width", "0", "-o", "a.png"], 2, "give another --width"),
         (&["pushed-bar", "-o", "none/a.svg"], 2, "cannot be written"),
         (&["rigid-mass", "--set", "mu=1", "--to", "-1", "-o", "old.svg"], 2, "before the start"),
@@ -246,7 +262,7 @@ fn what_cannot_be_drawn_leaves_no_file() {
 #[test]
 fn field_is_told_as_csv_and_json() {
     let folder = folder("picture-field");
-    let scene = ["field", "mass-on-fixed-bar", "--set", "mu=1", "--time", "5/4", "--mesh", "8"];
+    let scene = ["field", "mass-on-fixed-bar", "--set", "mu=1", "--at", "5/4", "--mesh", "8"];
     let (code, csv, _) = run(&folder, &scene);
     assert!(code == 0 && csv.lines().count() == 10);
     let columns = csv.lines().next().unwrap().split(',').count();
@@ -275,7 +291,7 @@ fn field_is_told_as_csv_and_json() {
         &[
             "field",
             "hopkinson",
-            "--time",
+            "--at",
             "100us",
             "--mesh",
             "4",
@@ -293,21 +309,21 @@ fn field_is_told_as_csv_and_json() {
     for (more, message) in [
         (&["--mesh", "0"][..], "0 cells"),
         (&["--mesh", "100001"], "from 1 to 100000"),
-        (&["--time", "-1"], "before the start"),
+        (&["--at", "-1"], "before the start"),
         (&["--bar", "red"], "no bar `red`"),
         (&["--to", "0"], "above 0"),
     ] {
         let mut all: Vec<&str> = scene.to_vec();
         match more[0] {
             "--mesh" => all[7] = more[1],
-            "--time" => all[5] = more[1],
+            "--at" => all[5] = more[1],
             _ => all.extend(more),
         }
         let (code, text) = refused(&folder, &all);
         assert!(code == 2 && text.contains(message), "{more:?}: {text}");
     }
-    let (code, text) = refused(&folder, &["field", "rigid-mass", "--time", "1"]);
+    let (code, text) = refused(&folder, &["field", "rigid-mass", "--at", "1"]);
     assert!(code == 2 && text.contains("no bars"), "{text}");
-    let (code, text) = refused(&folder, &["field", "mass-on-fixed-bar", "--time", "1"]);
+    let (code, text) = refused(&folder, &["field", "mass-on-fixed-bar", "--at", "1"]);
     assert!(code == 2 && text.contains("--set mu=1"), "{text}");
 }

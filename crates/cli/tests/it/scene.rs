@@ -112,8 +112,8 @@ fn forms_look_as_recorded() {
         ("derive-lattice-latex", "derive incommensurate --wave g_striker --format latex"),
         ("derive-named-rate", "derive pile --wave cushion --through 1"),
         ("derive-named-cubic", "derive cubic.wave --wave cushion --through 0"),
-        ("check-scene", "check cushion.wave"),
-        ("check-lattice", "check incommensurate"),
+        ("check-scene", "check cushion.wave --verbose"),
+        ("check-lattice", "check incommensurate --verbose"),
         ("scenes", "scenes"),
     ] {
         recorded(&folder, name, line);
