@@ -7,6 +7,7 @@ use crate::export::notation::{Notation, both};
 use crate::export::tree::Term;
 use crate::expression::{Expression, Fraction};
 use crate::recurrence::{LinearForm, Recurrence, Statement};
+use crate::solution::{Solved, solved_for_waves};
 use std::sync::Arc;
 use wavestep_polynomial::{Rational, Symbol};
 
@@ -96,37 +97,12 @@ impl<'a> Writer<'a> {
     pub fn solved(&self, shown: usize) -> (Vec<Formula>, Vec<Formula>) {
         let mut equations = Vec::new();
         let mut starts = Vec::new();
-        let mut explicit: Vec<(usize, LinearForm)> = Vec::new();
-        let time = &self.recurrence.statement().time;
-        for step in self.recurrence.steps() {
+        for Solved { step, right } in solved_for_waves(self.recurrence) {
             let added = step.wave >= self.recurrence.statement().waves.len();
             if step.wave >= shown && !added {
                 continue;
             }
-            // Waves that are given by others are put in.
-            let mut equation = step.equation.clone();
-            for (wave, solved) in explicit.iter().rev() {
-                let mut put_in = equation.clone();
-                if put_in.replace(*wave, solved, time) {
-                    equation = put_in;
-                }
-            }
-            let (mut left, mut right) = (LinearForm::zero(), -&equation);
-            let own = match &step.start {
-                None => vec![(LinearForm::wave(step.wave, 0), Expression::one())],
-                Some(start) => vec![
-                    (LinearForm::slope(step.wave, 0), Expression::one()),
-                    (LinearForm::wave(step.wave, 0), start.rate.clone().into()),
-                ],
-            };
-            for (form, factor) in own {
-                left.add_scaled(&form, &factor, 0);
-                right.add_scaled(&form, &factor, 0);
-            }
-            if step.start.is_none() && !right.operators().any(|(wave, _)| wave == step.wave) {
-                explicit.push((step.wave, right.clone()));
-            }
-            equations.push(self.equation(&left, &right));
+            equations.push(self.equation(&step.left(), &right));
             if let Some(start) = &step.start {
                 let head = self.written(&start.continuous);
                 let right = Right::Terms(arrange(&start.initial, None));
