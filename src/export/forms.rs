@@ -11,10 +11,21 @@ use crate::solution::{Solved, solved_for_waves};
 use std::sync::Arc;
 use wavestep_polynomial::{Rational, Symbol};
 
-/// Writes forms in waves with their index on the n-th period.
+/// On which period a form is written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Place {
+    /// The n-th, or one by so much later.
+    General(usize),
+    /// This one.
+    Period(usize),
+}
+
+/// Writes forms in waves with their index on a period.
 pub(crate) struct Writer<'a> {
     pub recurrence: &'a Recurrence,
     names: Arc<Names>,
+    /// The last lag of which anything is there.
+    last: usize,
 }
 
 /// The equations of a recurrence, solved for one wave after another, waves that are given by others
@@ -33,7 +44,18 @@ pub fn form_text(recurrence: &Recurrence, form: &LinearForm) -> String {
 }
 
 impl<'a> Writer<'a> {
+    /// Writes on the n-th period.
     pub fn new(recurrence: &'a Recurrence) -> Writer<'a> {
+        Writer::at(recurrence, Place::General(0))
+    }
+
+    pub fn at(recurrence: &'a Recurrence, place: Place) -> Writer<'a> {
+        let index = |lag: usize| match place {
+            Place::Period(n) => n.saturating_sub(lag).to_string(),
+            Place::General(later) if later > lag => format!("n+{}", later - lag),
+            Place::General(later) if later == lag => "n".to_owned(),
+            Place::General(later) => format!("n-{}", lag - later),
+        };
         let mut names = Names::new();
         let forms = recurrence.steps().iter().flat_map(|step| {
             let continuous = step.start.as_ref().map(|start| &start.continuous);
@@ -50,9 +72,8 @@ impl<'a> Writer<'a> {
             for lag in 0..=most {
                 for slope in [false, true] {
                     let name = recurrence.wave_name(wave);
-                    let index = if lag == 0 { "n".to_owned() } else { format!("n-{lag}") };
                     let prime = if slope { "'" } else { "" };
-                    let written = both(|n| format!("{}{prime}", n.indexed(&name, &index)));
+                    let written = both(|n| format!("{}{prime}", n.indexed(&name, &index(lag))));
                     names.insert(stand_in(wave, lag, slope), Name::plain(written));
                 }
             }
@@ -61,7 +82,8 @@ impl<'a> Writer<'a> {
             let written = both(|n| format!("[n{}{lag}]", n.choose(">=", " \\ge ")));
             names.insert(from_period(lag), Name::plain(written));
         }
-        Writer { recurrence, names: Arc::new(names) }
+        let last = if let Place::Period(n) = place { n } else { usize::MAX };
+        Writer { recurrence, names: Arc::new(names), last }
     }
 
     /// A form as terms, slopes first and newest first.
@@ -72,19 +94,20 @@ impl<'a> Writer<'a> {
             for lag in 0..reach.max().unwrap_or(0) {
                 for (wave, operator) in form.operators() {
                     let row = if slope { &operator.slope } else { &operator.value };
-                    let Some(factor) = row.get(lag) else { continue };
+                    let Some(factor) = row.get(lag).filter(|_| lag <= self.last) else { continue };
                     let symbol = Expression::symbol(&stand_in(wave, lag, slope));
                     terms.extend(arrange(&(&symbol * factor), None));
                 }
             }
         }
-        for (lag, function) in form.forcing_terms().iter() {
+        for (lag, function) in form.forcing_terms().up_to(self.last) {
             let Statement { time, period, .. } = self.recurrence.statement();
             let late = period.scale(&Rational::from_integer(lag.into()));
             let function = function.substitute(time, &(&Fraction::symbol(time) - &late));
             let function = function.expect("no denominator of a load holds the time");
             let function = match lag {
                 0 => function,
+                _ if self.last < usize::MAX => function,
                 _ => &function * &Expression::symbol(&from_period(lag)),
             };
             terms.extend(arrange(&function, Some(time)));
@@ -112,7 +135,7 @@ impl<'a> Writer<'a> {
         (equations, starts)
     }
 
-    fn right(&self, form: &LinearForm) -> Right {
+    pub fn right(&self, form: &LinearForm) -> Right {
         Right::Named(self.terms(form), self.names.clone())
     }
 
@@ -121,7 +144,7 @@ impl<'a> Writer<'a> {
     }
 
     /// A form as the left side of an equation.
-    fn written(&self, form: &LinearForm) -> Head {
+    pub fn written(&self, form: &LinearForm) -> Head {
         let whole = self.right(form);
         Head::both(|n| whole.written(n).text().to_owned())
     }

@@ -34,7 +34,9 @@ pub use period::PeriodByPeriod;
 pub use rise::Rise;
 pub use solved::Solution;
 pub(crate) use step::{FieldForm, FieldStep};
-pub use steps::{EchoStep, Integration, PieceSteps, Solved, solved_for_waves};
+pub use steps::{
+    EchoStep, Integration, Lesson, PieceSteps, SequenceStep, Solved, solved_for_waves,
+};
 pub(crate) use table::EchoRow;
 pub use table::EchoTable;
 pub use template::{EchoTemplate, Family};

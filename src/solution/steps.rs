@@ -6,7 +6,9 @@
 use crate::expression::{Expression, Fraction};
 use crate::recurrence::{LinearForm, Recurrence, Step, WaveIndex};
 use crate::solution::error::{SolveError, Unsolvable};
+use crate::solution::general::GeneralForm;
 use crate::solution::period::PeriodByPeriod;
+use crate::solution::solved::Solution;
 use crate::solution::template::{EchoTemplate, Family};
 use wavestep_polynomial::Symbol;
 
@@ -143,5 +145,105 @@ impl EchoStep {
         let left = &to.derivative(x) + &to.times(&self.rate);
         let right = &before.derivative(x).times(&slope) + &before.times(&value);
         left == right && to.at_zero(x) == before.at_zero(x).times(&slope)
+    }
+}
+
+/// A sequence in general n put into its equation: both sides for `n + later`, each power `λ^n` a symbol.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct SequenceStep {
+    pub later: usize,
+    pub left: Expression,
+    pub right: Expression,
+    /// The symbols that stand for powers, and their ratios.
+    pub powers: Vec<(Symbol, Expression)>,
+}
+
+impl SequenceStep {
+    /// The step of a wave from its equation without slopes, where all waves in it are sequences.
+    #[must_use]
+    pub fn of(solution: &Solution, solved: &Solved<'_>, n: &Symbol) -> Option<SequenceStep> {
+        let reach = solved.right.operators().map(|(_, operator)| operator.reach()).max();
+        let later = reach.unwrap_or(0).max(solved.right.forcing_terms().reach()).max(2) - 1;
+        let differs = solved.step.start.is_some() || solved.right.has_slopes();
+        let mut step = SequenceStep {
+            later,
+            left: Expression::zero(),
+            right: Expression::zero(),
+            powers: Vec::new(),
+        };
+        step.left = step.value(solution, solved.step.wave, later, n).filter(|_| !differs)?;
+        for (wave, operator) in solved.right.operators() {
+            for (lag, factor) in operator.value.iter() {
+                step.right += &(&step.value(solution, wave, later - lag, n)? * factor);
+            }
+        }
+        let time = &solution.recurrence().statement().time;
+        for function in solved.right.forcing_terms().values() {
+            step.right += Some(function).filter(|function| !function.contains(time))?;
+        }
+        Some(step)
+    }
+
+    /// The general form of a wave for `n + by`.
+    fn value(
+        &mut self,
+        solution: &Solution,
+        wave: WaveIndex,
+        by: usize,
+        n: &Symbol,
+    ) -> Option<Expression> {
+        let Ok(GeneralForm::Geometric(form)) = solution.general(wave) else { return None };
+        let later = &Expression::symbol(n) + &Expression::integer(i64::try_from(by).ok()?);
+        let mut sum = Expression::zero();
+        for term in &form.terms {
+            let mut value = &term.coefficient * &later.pow(term.power);
+            if !term.ratio.is_one() {
+                value = &value * &term.ratio.pow(u32::try_from(by).ok()?);
+                let known = self.powers.iter().position(|(_, ratio)| *ratio == term.ratio);
+                let place = known.unwrap_or(self.powers.len());
+                let symbol = Symbol::new(&format!("power_{place}")).expect("a name");
+                value = &value * &Expression::symbol(&symbol);
+                if known.is_none() {
+                    self.powers.push((symbol, term.ratio.clone()));
+                }
+            }
+            sum += &value;
+        }
+        Some(sum)
+    }
+}
+
+/// Pieces derived step by step, period by period.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Lesson<'a> {
+    pub solved: Vec<Solved<'a>>,
+    /// The periods with the steps of each solved equation.
+    pub periods: Vec<(usize, Vec<PieceSteps>)>,
+    /// Why it goes no further, where a piece has no exact form.
+    pub stopped: Option<SolveError>,
+}
+
+impl<'a> Lesson<'a> {
+    /// The periods `first … last`; those before are solved without telling how.
+    #[must_use]
+    pub fn of(recurrence: &'a Recurrence, first: usize, last: usize) -> Lesson<'a> {
+        let solved = solved_for_waves(recurrence);
+        let mut lesson = Lesson { solved, periods: Vec::new(), stopped: None };
+        let mut solver = PeriodByPeriod::new(recurrence);
+        for n in 0..=last {
+            let told = solver.advance().and_then(|()| match n < first {
+                true => Ok(Vec::new()),
+                false => lesson.solved.iter().map(|solved| solver.steps(solved, n)).collect(),
+            });
+            match told {
+                Ok(steps) if n >= first => lesson.periods.push((n, steps)),
+                Ok(_) => {}
+                Err(error) => {
+                    lesson.stopped = Some(error);
+                    break;
+                }
+            }
+        }
+        lesson
     }
 }
