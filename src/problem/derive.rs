@@ -11,9 +11,9 @@ use crate::language;
 use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::{Observable, Recurrence, WaveIndex};
 use crate::signal::{Arrival, arrivals};
-use crate::solution::{ObserveError, ObservedStretch, Solution, Unknown};
+use crate::solution::{Lesson, ObserveError, ObservedStretch, Solution, Unknown};
 
-/// The periods that an explanation ends with.
+/// How many periods an explanation tells after the first, where nothing is said.
 const FIRST_PIECES: usize = 2;
 
 /// How many orders are derived after the first, where nothing is said.
@@ -195,31 +195,31 @@ impl Problem {
         found.map_err(|error| self.explained(error))
     }
 
-    /// How the recurrence follows from the bars and elements of a scene, with the first pieces.
-    pub fn explanation(&self) -> Result<Derivation, ProblemError> {
-        if let Kind::Equations(_) = &self.kind {
-            return Err(ProblemError::NothingToExplain);
-        }
-        let network = self.network()?;
+    /// How the recurrence follows from the bars and elements of a scene, how the pieces of these periods follow
+    /// from it, step by step, and why general forms hold. Where no periods are asked for, three from `from` on.
+    pub fn explanation(&self, orders: Option<Orders>, from: usize) -> Result<Derivation, ProblemError> {
         if self.on_lattice() {
             return Err(ProblemError::NoPeriodsToExplain);
         }
         let solution = self.solution()?;
         let recurrence = solution.recurrence();
-        let decimal = |value: &_| super::constants::decimal(recurrence.constants(), value);
-        let mut derivation = Derivation::of(network, recurrence, &decimal);
-        let local = &recurrence.statement().local;
-        let mut formulas = Vec::new();
-        for (wave, named) in network.waves().iter().enumerate() {
-            // What has no exact form is left out; a derivation of this wave says why.
-            let pieces = solution.pieces(wave, 0, FIRST_PIECES).unwrap_or_default();
-            for (n, piece) in pieces.iter().enumerate() {
-                formulas.push(Formula::piece(&named.name, n, piece, local));
+        let waves = self.waves_to_derive(ToDerive::Waves)?;
+        let (first, last) = match orders {
+            Some(orders) => orders.ends(),
+            None => {
+                let (_, last) = self.first_orders(ToDerive::Waves, from).0.ends();
+                (from, last.min(from + FIRST_PIECES))
             }
-        }
-        if !formulas.is_empty() {
-            derivation.add("The first pieces", formulas);
-        }
+        };
+        self.refuse_explosion(recurrence, Orders::Through(first, last), Form::Period, &waves)?;
+        let decimal = |value: &_| super::constants::decimal(recurrence.constants(), value);
+        let mut derivation = match &self.kind {
+            Kind::Equations(_) => Derivation::of_recurrence(recurrence, &decimal),
+            Kind::Line { .. } => Derivation::of(self.network()?, recurrence, &decimal),
+        };
+        let lesson = Lesson::of(recurrence, first, last);
+        derivation.pieces(recurrence, &lesson, waves.len());
+        derivation.general_forms(solution, &lesson, waves.len());
         Ok(derivation)
     }
 

@@ -174,7 +174,8 @@ impl SequenceStep {
         step.left = step.value(solution, solved.step.wave, later, n).filter(|_| !differs)?;
         for (wave, operator) in solved.right.operators() {
             for (lag, factor) in operator.value.iter() {
-                step.right += &(&step.value(solution, wave, later - lag, n)? * factor);
+                let value = step.value(solution, wave, later - lag, n)?;
+                step.right += &(&value * factor);
             }
         }
         let time = &solution.recurrence().statement().time;

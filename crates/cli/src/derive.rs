@@ -68,7 +68,8 @@ fn formulas(
 }
 
 fn explanation(problem: &Problem, options: &Derive) -> Result<String, Failure> {
-    let derivation = problem.explanation()?;
+    options.orders().map_or(Ok(()), refuse_empty)?;
+    let derivation = problem.explanation(options.orders(), options.from)?;
     match options.format {
         Format::Latex => Ok(derivation.to_latex(options.width())),
         Format::Json => {
@@ -125,12 +126,7 @@ fn derived(
         }
         orders
     });
-    if let Orders::Through(first, last) = orders
-        && first > last
-    {
-        let message = format!("no period lies from {first} through {last}");
-        return Err(Failure::usage(message, "give --through N with N at least --from"));
-    }
+    refuse_empty(orders)?;
     if symbols == Symbols::Source {
         let formulas = problem.source_form(what, orders)?;
         return match options.format {
@@ -139,6 +135,16 @@ fn derived(
         };
     }
     written(problem, &problem.functions(what, orders, options.form)?, options)
+}
+
+fn refuse_empty(orders: Orders) -> Result<(), Failure> {
+    match orders {
+        Orders::Through(first, last) if first > last => {
+            let message = format!("no period lies from {first} through {last}");
+            Err(Failure::usage(message, "give --through N with N at least --from"))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn source_form_as_json() -> Failure {

@@ -48,10 +48,9 @@ pub struct Derive {
     /// for pieces of waves, and with --general for waves that are sequences; in text and LaTeX
     #[arg(long, conflicts_with_all = ["observable", "form"])]
     pub source_form: bool,
-    /// Say how the recurrence follows from the bars and elements of a scene: scales, waves, laws at
-    /// ends and joints, the recurrence, and its first pieces
-    #[arg(long, conflicts_with_all = ["wave", "observable", "general", "form", "source_form",
-          "through", "from", "piece"])]
+    /// Derive on the board: how the recurrence follows from the bars and elements of a scene, how the
+    /// pieces follow from it step by step [default: periods 0 … 2], and why general forms hold
+    #[arg(long, conflicts_with_all = ["wave", "observable", "general", "form", "source_form"])]
     pub explain: bool,
     /// Derive a simpler model too, below the exact formulas: `rigid` (no bar yields), `third` (bars are springs with a
     /// third of their mass), or another change of the scene, as `find --minus` takes it
