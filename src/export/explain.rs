@@ -20,6 +20,8 @@ pub(super) const RECURRENCE: &str = "recurrence";
 #[derive(Clone, PartialEq, Eq, Debug)]
 enum Block {
     Heading(&'static str),
+    /// An empty line: a new paragraph.
+    Gap,
     /// In text, and in LaTeX.
     Sentence(String, String),
     /// With a label in LaTeX, where they are referred to.
@@ -75,6 +77,10 @@ impl Derivation {
         self.parts.push(Block::Heading(heading));
     }
 
+    pub(super) fn gap(&mut self) {
+        self.parts.push(Block::Gap);
+    }
+
     pub(super) fn equations(&mut self, formulas: Vec<Formula>) {
         self.parts.push(Block::Equations(formulas, None));
     }
@@ -96,11 +102,7 @@ impl Derivation {
     }
 
     /// In which units the scene is written, and the constants that got names.
-    fn scales(
-        &mut self,
-        network: &Network,
-        decimal: &dyn Fn(&Definition) -> Option<String>,
-    ) {
+    fn scales(&mut self, network: &Network, decimal: &dyn Fn(&Definition) -> Option<String>) {
         let (scene, model) = (network.scene(), network.model());
         let constants = &*model.constants;
         let name = |element: Option<ElementIndex>| {
@@ -175,7 +177,9 @@ impl Derivation {
                 Role::Compression(e) => (e, "the compression of the spring"),
                 Role::Displacement(e) => (e, "the displacement of the support"),
                 Role::Velocity(..) => {
-                    self.tell(|n| format!("${}$ is a velocity that no bar tells.", n.name(&wave.name)));
+                    self.tell(|n| {
+                        format!("${}$ is a velocity that no bar tells.", n.name(&wave.name))
+                    });
                     continue;
                 }
                 _ => continue,
@@ -188,7 +192,9 @@ impl Derivation {
     fn laws(&mut self, network: &Network, writer: &Writer<'_>) {
         self.heading("Laws at ends and joints");
         self.periods(writer.recurrence);
-        self.sentence("The laws are, by the clock of each place and with waves that are zero for $n < 0$:");
+        self.sentence(
+            "The laws are, by the clock of each place and with waves that are zero for $n < 0$:",
+        );
         for law in network.laws() {
             if matches!(law.rule, Rule::Integral(_)) {
                 continue;
@@ -201,10 +207,13 @@ impl Derivation {
     /// What a period is.
     fn periods(&mut self, recurrence: &Recurrence) {
         let Statement { period, local, time, .. } = recurrence.statement();
-        self.sentence_with("A period lasts $D =$ {}.", Some(period));
+        let lasts = arrange(&period.into(), None);
         self.tell(|n| {
-            let (s, t) = (n.symbol(local), n.symbol(time));
-            format!("The n-th is from ${t} = n D$ to ${t} = (n+1) D$; on it time is ${s} = {t} - n D$.")
+            let (s, t, lasts) = (n.symbol(local), n.symbol(time), write_flat(&lasts, n));
+            format!(
+                "A period lasts $D = {lasts}$. The $n$-th is from ${t} = n D$ to ${t} = (n+1) D$; on it time \
+                 is ${s} = {t} - n D$."
+            )
         });
     }
 
@@ -228,6 +237,7 @@ impl Derivation {
                     let line = "-".repeat(heading.len());
                     out.push_str(&format!("{gap}{heading}\n{line}\n"));
                 }
+                Block::Gap => out.push('\n'),
                 Block::Sentence(text, _) => out.push_str(&wrapped(text, width, "")),
                 Block::Equations(formulas, _) => {
                     let lines = text(formulas, width.saturating_sub(4));
@@ -244,8 +254,11 @@ impl Derivation {
         for part in &self.parts {
             match part {
                 Block::Heading(heading) => out.push_str(&format!("\\subsection*{{{heading}}}\n")),
+                Block::Gap => out.push('\n'),
                 Block::Sentence(_, latex) => out.push_str(&format!("{latex}\n")),
-                Block::Equations(formulas, label) => out.push_str(&numbered(formulas, *label, width)),
+                Block::Equations(formulas, label) => {
+                    out.push_str(&numbered(formulas, *label, width))
+                }
             }
         }
         out

@@ -100,18 +100,22 @@ impl<'a> Writer<'a> {
                 }
             }
         }
+        let Statement { time, period, .. } = self.recurrence.statement();
+        let mut together = Expression::zero();
         for (lag, function) in form.forcing_terms().up_to(self.last) {
-            let Statement { time, period, .. } = self.recurrence.statement();
             let late = period.scale(&Rational::from_integer(lag.into()));
             let function = function.substitute(time, &(&Fraction::symbol(time) - &late));
             let function = function.expect("no denominator of a load holds the time");
-            let function = match lag {
-                0 => function,
-                _ if self.last < usize::MAX => function,
-                _ => &function * &Expression::symbol(&from_period(lag)),
-            };
-            terms.extend(arrange(&function, Some(time)));
+            match lag {
+                _ if self.last < usize::MAX => together += &function,
+                0 => terms.extend(arrange(&function, Some(time))),
+                _ => {
+                    let late = &function * &Expression::symbol(&from_period(lag));
+                    terms.extend(arrange(&late, Some(time)));
+                }
+            }
         }
+        terms.extend(arrange(&together, Some(time)));
         terms
     }
 

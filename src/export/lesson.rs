@@ -2,8 +2,8 @@
 
 use crate::export::arrangement::arrange;
 use crate::export::explain::{Derivation, RECURRENCE};
-use crate::export::formula::{Formula, Head, Right};
 use crate::export::forms::{Place, Writer};
+use crate::export::formula::{Formula, Head, Right};
 use crate::export::general::{echo_index, free_name, general_form, ratio_tree, template_terms};
 use crate::export::names::{Name, Names};
 use crate::export::notation::{Notation, both};
@@ -12,8 +12,8 @@ use crate::export::writer::{write_flat, write_named};
 use crate::expression::{Expression, Fraction};
 use crate::recurrence::{Recurrence, Start, Statement};
 use crate::solution::{
-    EchoStep, EchoTemplate, GeneralForm, Integration, Lesson, PieceSteps, SequenceStep, Solution,
-    Solved,
+    EchoStep, EchoTemplate, GeneralForm, Integration, Lesson, PieceSteps, PowerSum, SequenceStep,
+    Solution, Solved,
 };
 use std::sync::Arc;
 use wavestep_polynomial::{Rational, Symbol};
@@ -30,7 +30,8 @@ impl Derivation {
     pub fn pieces(&mut self, recurrence: &Recurrence, lesson: &Lesson<'_>, shown: usize) {
         let Statement { waves, local, period, .. } = recurrence.statement();
         self.heading("The pieces, step by step");
-        let told = |solved: &Solved<'_>| solved.step.wave < shown || solved.step.wave >= waves.len();
+        let told =
+            |solved: &Solved<'_>| solved.step.wave < shown || solved.step.wave >= waves.len();
         let rate = |solved: &Solved<'_>| solved.step.start.is_some() && told(solved);
         if lesson.solved.iter().any(rate) {
             self.tell(|n| {
@@ -55,6 +56,7 @@ impl Derivation {
         for (n, steps) in &lesson.periods {
             let begins = period.scale(&Rational::from_integer((*n).into()));
             let ends = &begins + period;
+            self.gap();
             self.tell(|form| {
                 format!("Period {n} is from ${}$ to ${}$.", flat(&begins, form), flat(&ends, form))
             });
@@ -139,7 +141,8 @@ impl Told<'_> {
             to.equations(vec![self.equation()]);
             to.sentence("With the known pieces put in:");
         }
-        let left = Writer::at(self.recurrence, Place::Period(self.n)).written(&self.solved.step.left());
+        let left =
+            Writer::at(self.recurrence, Place::Period(self.n)).written(&self.solved.step.left());
         let known = Formula::new(left, &self.steps.right, local);
         to.equations(vec![known]);
         if self.steps.right.is_zero() && steps.constant.is_zero() {
@@ -210,37 +213,45 @@ impl Derivation {
     /// The forms for every n of the first `shown` waves, and why they hold.
     pub fn general_forms(&mut self, solution: &Solution, lesson: &Lesson<'_>, shown: usize) {
         let recurrence = solution.recurrence();
+        let index = symbol("n");
+        // What makes echoes follow from one another is told once for all waves for which it is the same.
+        let mut told: Vec<EchoStep> = Vec::new();
         let mut begun = false;
-        for solved in lesson.solved.iter().filter(|solved| solved.step.wave < shown) {
-            let wave = solved.step.wave;
-            let Ok(form) = solution.general(wave) else { continue };
-            let name = &recurrence.statement().waves[wave];
-            let told: Option<Box<dyn Fn(&mut Derivation)>> = match form {
-                GeneralForm::Echoes(template) if solved.step.start.is_some() => {
-                    EchoStep::of(template).map(|step| {
-                        Box::new(move |to: &mut Derivation| to.echoes(recurrence, template, &step)) as _
-                    })
+        for wave in 0..shown {
+            let solved = lesson.solved.iter().find(|solved| solved.step.wave == wave);
+            let (Some(solved), Ok(form)) = (solved, solution.general(wave)) else { continue };
+            let sequence = SequenceStep::of(solution, solved, &index).filter(SequenceStep::agrees);
+            let echoes = match form {
+                GeneralForm::Echoes(template) => {
+                    EchoStep::of(template).map(|step| (template, step))
                 }
-                GeneralForm::Echoes(_) => None,
-                GeneralForm::Geometric(_) => {
-                    let index = Symbol::new("n").expect("a name");
-                    let step = SequenceStep::of(solution, solved, &index);
-                    step.filter(|step| step.left == step.right).map(|step| {
-                        let told = move |to: &mut Derivation| {
-                            to.sequence(recurrence, solved, &step, &index);
-                        };
-                        Box::new(told) as _
-                    })
-                }
+                GeneralForm::Geometric(_) => None,
             };
-            if let Some(why) = told {
-                if !begun {
-                    self.heading("The form for every n");
+            if sequence.is_none() && echoes.is_none() {
+                continue;
+            }
+            if !std::mem::replace(&mut begun, true) {
+                self.heading("The form for every n");
+            } else {
+                self.gap();
+            }
+            self.tell(|n| format!("For ${}$ it is", n.name(&recurrence.statement().waves[wave])));
+            self.equations(general_form(recurrence, wave, form));
+            if let Some(step) = sequence {
+                self.sequence(recurrence, solved, &step, &index);
+            }
+            match echoes {
+                Some((_, step)) if told.contains(&step) => {
+                    self.tell(|n| {
+                        let k = n.symbol(&echo_index(recurrence));
+                        format!("It is made of the same functions $u$, and holds from ${k}$ to ${k} + 1$ as before.")
+                    });
                 }
-                begun = true;
-                self.tell(|n| format!("For ${}$ it is", n.name(name)));
-                self.equations(general_form(recurrence, wave, form));
-                why(self);
+                Some((template, step)) => {
+                    self.echoes(recurrence, template, &step);
+                    told.push(step);
+                }
+                None => {}
             }
         }
     }
@@ -248,24 +259,18 @@ impl Derivation {
     /// The step from k to k + 1 for echoes.
     fn echoes(&mut self, recurrence: &Recurrence, template: &EchoTemplate, step: &EchoStep) {
         let x = &recurrence.statement().local;
-        let (k, name) = (echo_index(recurrence), free_name(recurrence, &["u", "w", "h"]));
+        let (k, name) = (echo_index(recurrence), free_name(recurrence, &["u", "v", "h"]));
         let next = format!("{k}+1");
         let u = |n: Notation, index: &str| n.indexed(name.name(), index);
-        self.sentence(
-            "The wave on a period is the sum of the echoes that have arrived. Put into the recurrence, the \
-             sum shows that each echo of this form follows from the one before by one equation. The form is \
-             a sum of functions u with fixed coefficients, and the equation is linear: it is enough to put in",
-        );
-        let alone = EchoTemplate { terms: vec![(0, Fraction::one())], ..template.clone() };
-        let head = Head::both(|n| format!("{}({})", u(n, k.name()), n.symbol(x)));
-        self.equations(vec![Formula::of(head, Right::Terms(template_terms(&alone, x, &k)))]);
         // The two sides in symbols for u and its derivative.
         let names = |index: &str| {
             let named = |prime: &str| Name::plain(both(|n| u(n, index) + prime));
             Names::from([(symbol("slope"), named("'")), (symbol("value"), named(""))])
         };
         let side = |slope: &Fraction, value: &Fraction, index: &str| {
-            let part = |factor: &Fraction, name| &Expression::from(factor.clone()) * &Expression::symbol(&symbol(name));
+            let part = |factor: &Fraction, name| {
+                &Expression::from(factor.clone()) * &Expression::symbol(&symbol(name))
+            };
             let mut terms = arrange(&part(slope, "slope"), None);
             terms.extend(arrange(&part(value, "value"), None));
             let names = names(index);
@@ -281,27 +286,38 @@ impl Derivation {
             let product = &Expression::from(factor.clone()) * &Expression::symbol(&symbol("value"));
             Formula::of(written(&at(&next)), Right::Named(arrange(&product, None), Arc::new(names)))
         };
-        self.sentence("The equation, and where it starts:");
+        self.tell(|n| {
+            format!(
+                "On a period the wave is the sum of the echoes that have arrived. With all other waves \
+                 eliminated, the recurrence holds for this sum if each echo of this form follows from the \
+                 one before as $u$ of ${next}$ follows from $u$ of ${}$:",
+                n.symbol(&k)
+            )
+        });
         self.equations(vec![
             Formula::of(written(&left), Right::Written(right.0.clone(), right.1.clone())),
             starts(&slope),
         ]);
-        // In front of both sides: c rho^(k+1) exp(-b x), or rho^(k+1) exp(-b x).
+        self.sentence(
+            "This is linear, and the form is a combination with fixed coefficients of the functions",
+        );
+        let alone = EchoTemplate { terms: vec![(0, Fraction::one())], ..template.clone() };
+        let head = Head::both(|n| format!("{}({})", u(n, k.name()), n.symbol(x)));
+        self.equations(vec![Formula::of(head, Right::Terms(template_terms(&alone, x, &k)))]);
+        // In front of both sides: c rho rho^k exp(-b x), or rho rho^k exp(-b x).
         let factor = step.scale.clone().unwrap_or_else(Fraction::one);
-        let power = symbol("power");
-        let mut front = Expression::from(&factor * &step.ratio);
-        if !step.ratio.is_one() {
-            front = &front * &Expression::symbol(&power);
-        }
+        let front = Expression::from(&factor * &step.ratio);
         let front = front.times_exponential(&-&(&step.rate * &Fraction::symbol(x)));
-        let names = Names::from([(power, power_of(&step.ratio.clone().into(), &k))]);
-        let with_front = |n: Notation, of: String| {
-            let front = write_named(&arrange(&front, Some(x)), n, &names).text().to_owned();
-            match &*front {
-                "1" => of,
-                "-1" => format!("-{of}"),
-                _ => format!("{front}{}{of}", n.times_symbol()),
-            }
+        let (sign, tree) = Tree::sum(arrange(&front, Some(x)));
+        let mut factors = tree.into_factors();
+        if !step.ratio.is_one() {
+            factors.push(power_of(&step.ratio.clone().into(), &k));
+        }
+        let front = [(sign, Tree::product(factors))];
+        let with_front = |n: Notation, of: String| match &*write_flat(&front, n) {
+            "1" => of,
+            "-1" => format!("-{of}"),
+            front => format!("{front}{}{of}", n.times_symbol()),
         };
         let argument = |n| flat(&(&factor * &Fraction::symbol(x)), n);
         let laguerre = |n: Notation, prime: &str, index: &str, at: &str| match n {
@@ -311,7 +327,8 @@ impl Derivation {
         let sides = |n: Notation| match step.scale {
             Some(_) => {
                 let at = argument(n);
-                let (slope, value) = (laguerre(n, "'", k.name(), &at), laguerre(n, "", k.name(), &at));
+                let (slope, value) =
+                    (laguerre(n, "'", k.name(), &at), laguerre(n, "", k.name(), &at));
                 [laguerre(n, "'", &next, &at), format!("({slope} - {value})")]
             }
             None => {
@@ -320,7 +337,7 @@ impl Derivation {
                 [whole.clone(), whole]
             }
         };
-        self.sentence("With u put in, the left and the right side are");
+        self.sentence("With these the left and the right side are");
         let formula = |head, i: usize| {
             Formula::of(written(head), Right::both(|n| with_front(n, sides(n)[i].clone())))
         };
@@ -345,7 +362,7 @@ impl Derivation {
             );
             let coefficient = format!("{}{}(-1)^i/i!", binomial(k, "i"), n.choose("*", "\\,"));
             format!(
-                "Both agree, since ${rule} = {slope} - {value}$: ${value}$ has the coefficient ${coefficient}$ \
+                "Both agree, since ${rule} = {slope} - {value}$, $L'$ the derivative of $L$: ${value}$ has the coefficient ${coefficient}$ \
                  at $y^i$, and ${pascal}$ is Pascal's rule. At ${} = 0$ they agree as well, since ${}$ is 1 \
                  for every ${k}$. {last}",
                 n.symbol(x),
@@ -363,10 +380,18 @@ impl Derivation {
         index: &Symbol,
     ) {
         let writer = Writer::at(recurrence, Place::General(step.later));
-        let power = |(symbol, ratio): &(Symbol, Expression)| (symbol.clone(), power_of(ratio, index));
-        let names: Arc<Names> = Arc::new(step.powers.iter().map(power).collect());
-        let side = |head, value: &Expression| {
-            Formula::of(head, Right::Named(arrange(value, Some(index)), names.clone()))
+        let side = |head, sum: &PowerSum| {
+            let term = |(ratio, coefficient): &(Expression, Expression)| {
+                let terms = arrange(coefficient, Some(index));
+                if ratio.is_one() {
+                    return terms;
+                }
+                let (sign, tree) = Tree::sum(terms);
+                let mut factors = tree.into_factors();
+                factors.push(power_of(ratio, index));
+                vec![(sign, Tree::product(factors))]
+            };
+            Formula::of(head, Right::Terms(sum.iter().flat_map(term).collect()))
         };
         self.tell(|_| format!("Put into the equation for $n + {}$, its sides are", step.later));
         self.equations(vec![
@@ -381,8 +406,6 @@ fn symbol(name: &str) -> Symbol {
     Symbol::new(name).expect("a name")
 }
 
-/// A name for a power of a ratio.
-fn power_of(ratio: &Expression, index: &Symbol) -> Name {
-    let power = Tree::Power(Box::new(ratio_tree(ratio)), Box::new(Tree::Symbol(index.clone())));
-    Name::plain(both(|n| write_flat(&[(Sign::Plus, power.clone())], n)))
+fn power_of(ratio: &Expression, index: &Symbol) -> Tree {
+    Tree::Power(Box::new(ratio_tree(ratio)), Box::new(Tree::Symbol(index.clone())))
 }

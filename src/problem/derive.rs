@@ -197,7 +197,11 @@ impl Problem {
 
     /// How the recurrence follows from the bars and elements of a scene, how the pieces of these periods follow
     /// from it, step by step, and why general forms hold. Where no periods are asked for, three from `from` on.
-    pub fn explanation(&self, orders: Option<Orders>, from: usize) -> Result<Derivation, ProblemError> {
+    pub fn explanation(
+        &self,
+        orders: Option<Orders>,
+        from: usize,
+    ) -> Result<Derivation, ProblemError> {
         if self.on_lattice() {
             return Err(ProblemError::NoPeriodsToExplain);
         }

@@ -184,7 +184,11 @@ impl<'a> PeriodByPeriod<'a> {
     }
 
     /// The form at the end of the n-th period.
-    pub(super) fn end_of_form(&mut self, form: &LinearForm, n: usize) -> Result<Expression, Unsolvable> {
+    pub(super) fn end_of_form(
+        &mut self,
+        form: &LinearForm,
+        n: usize,
+    ) -> Result<Expression, Unsolvable> {
         let mut sum = self.forcing_at(form, n, &self.arrival(n + 1))?;
         for (wave, operator) in form.operators() {
             for (lag, value) in operator.value.up_to(n) {

@@ -148,70 +148,76 @@ impl EchoStep {
     }
 }
 
-/// A sequence in general n put into its equation: both sides for `n + later`, each power `λ^n` a symbol.
+/// A sequence in general n put into its equation for `n + later`.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SequenceStep {
     pub later: usize,
-    pub left: Expression,
-    pub right: Expression,
-    /// The symbols that stand for powers, and their ratios.
-    pub powers: Vec<(Symbol, Expression)>,
+    pub left: PowerSum,
+    pub right: PowerSum,
 }
+
+/// A sum of powers `λ^n` with coefficients that hold `n`, none zero.
+pub type PowerSum = Vec<(Expression, Expression)>;
 
 impl SequenceStep {
     /// The step of a wave from its equation without slopes, where all waves in it are sequences.
     #[must_use]
     pub fn of(solution: &Solution, solved: &Solved<'_>, n: &Symbol) -> Option<SequenceStep> {
+        if solved.step.start.is_some() || solved.right.has_slopes() {
+            return None;
+        }
         let reach = solved.right.operators().map(|(_, operator)| operator.reach()).max();
         let later = reach.unwrap_or(0).max(solved.right.forcing_terms().reach()).max(2) - 1;
-        let differs = solved.step.start.is_some() || solved.right.has_slopes();
-        let mut step = SequenceStep {
-            later,
-            left: Expression::zero(),
-            right: Expression::zero(),
-            powers: Vec::new(),
-        };
-        step.left = step.value(solution, solved.step.wave, later, n).filter(|_| !differs)?;
+        let (mut left, mut right) = (PowerSum::new(), PowerSum::new());
+        let own = solved.step.wave;
+        add_general(&mut left, solution, (own, later), n, &Expression::one())?;
         for (wave, operator) in solved.right.operators() {
             for (lag, factor) in operator.value.iter() {
-                let value = step.value(solution, wave, later - lag, n)?;
-                step.right += &(&value * factor);
+                add_general(&mut right, solution, (wave, later - lag), n, factor)?;
             }
         }
-        let time = &solution.recurrence().statement().time;
         for function in solved.right.forcing_terms().values() {
-            step.right += Some(function).filter(|function| !function.contains(time))?;
+            let constant = !function.contains(&solution.recurrence().statement().time);
+            add_power(&mut right, &Expression::one(), constant.then_some(function)?);
         }
-        Some(step)
+        for side in [&mut left, &mut right] {
+            side.retain(|(_, coefficient)| !coefficient.is_zero());
+            side.sort_by_key(|(ratio, _)| !ratio.is_one());
+        }
+        Some(SequenceStep { later, left, right })
     }
 
-    /// The general form of a wave for `n + by`.
-    fn value(
-        &mut self,
-        solution: &Solution,
-        wave: WaveIndex,
-        by: usize,
-        n: &Symbol,
-    ) -> Option<Expression> {
-        let Ok(GeneralForm::Geometric(form)) = solution.general(wave) else { return None };
-        let later = &Expression::symbol(n) + &Expression::integer(i64::try_from(by).ok()?);
-        let mut sum = Expression::zero();
-        for term in &form.terms {
-            let mut value = &term.coefficient * &later.pow(term.power);
-            if !term.ratio.is_one() {
-                value = &value * &term.ratio.pow(u32::try_from(by).ok()?);
-                let known = self.powers.iter().position(|(_, ratio)| *ratio == term.ratio);
-                let place = known.unwrap_or(self.powers.len());
-                let symbol = Symbol::new(&format!("power_{place}")).expect("a name");
-                value = &value * &Expression::symbol(&symbol);
-                if known.is_none() {
-                    self.powers.push((symbol, term.ratio.clone()));
-                }
-            }
-            sum += &value;
-        }
-        Some(sum)
+    /// Whether both sides are one sum, each power for itself.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        let (left, right) = (&self.left, &self.right);
+        left.len() == right.len() && left.iter().all(|term| right.contains(term))
     }
+}
+
+fn add_power(sum: &mut PowerSum, ratio: &Expression, coefficient: &Expression) {
+    match sum.iter_mut().find(|(known, _)| known == ratio) {
+        Some((_, known)) => *known += coefficient,
+        None => sum.push((ratio.clone(), coefficient.clone())),
+    }
+}
+
+/// Adds a factor times the general form of a wave for `n + by`.
+fn add_general(
+    sum: &mut PowerSum,
+    solution: &Solution,
+    (wave, by): (WaveIndex, usize),
+    n: &Symbol,
+    factor: &Expression,
+) -> Option<()> {
+    let Ok(GeneralForm::Geometric(form)) = solution.general(wave) else { return None };
+    let by = u32::try_from(by).ok()?;
+    let later = &Expression::symbol(n) + &Expression::integer(by.into());
+    for term in &form.terms {
+        let power = &later.pow(term.power) * &term.ratio.pow(by);
+        add_power(sum, &term.ratio, &(&(&term.coefficient * &power) * factor));
+    }
+    Some(())
 }
 
 /// Pieces derived step by step, period by period.
