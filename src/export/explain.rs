@@ -1,8 +1,9 @@
 //! The derivation of a scene's recurrence as a text to be read: sentences and equations.
 
 use crate::export::arrangement::arrange;
-use crate::export::forms::Writer;
+use crate::export::forms::{Told, Writer};
 use crate::export::formula::{Formula, Head, Right, numbered, text};
+use crate::export::general::free_name;
 use crate::export::notation::{Notation, both};
 use crate::export::prose::{capitalised, wrapped};
 use crate::export::tree::{Sign, Term};
@@ -77,8 +78,11 @@ impl Derivation {
         self.parts.push(Block::Heading(heading));
     }
 
+    /// A new paragraph.
     pub(super) fn gap(&mut self) {
-        self.parts.push(Block::Gap);
+        if !matches!(self.parts.last(), Some(Block::Heading(_))) {
+            self.parts.push(Block::Gap);
+        }
     }
 
     pub(super) fn equations(&mut self, formulas: Vec<Formula>) {
@@ -135,7 +139,7 @@ impl Derivation {
             let remark = number.map(|number| (format!("= {number}"), format!("\\approx {number}")));
             Formula { remark, ..Formula::of(head, definition(&constant.value)) }
         };
-        self.sentence("What is no rational number has a name:");
+        self.sentence("Numbers that are not rational have names:");
         self.equations(all.iter().map(formula).collect());
     }
 
@@ -159,13 +163,12 @@ impl Derivation {
             force.extend(negated(&(&g * &impedance)));
             let name = &scene.elements[*element].name;
             let way = match &data.travel {
-                None => "goes on for ever, and nothing returns from there",
-                Some(_) => "is passed in {}",
+                None => "The bar `{name}` has no end from which waves return.",
+                Some(_) => "A wave crosses the bar `{name}` in {}.",
             };
-            self.sentence_with(
-                &format!("The bar `{name}` {way}. Its velocity $v$ and compressive force $X$ are"),
-                data.travel.as_ref(),
-            );
+            let way = way.replace("{name}", name);
+            self.sentence_with(&way, data.travel.as_ref());
+            self.sentence("Its velocity $v$ and compressive force $X$ are");
             let equation = |head: &str, terms: Vec<Term>| {
                 Formula::of(Head::both(|_| head.to_owned()), Right::Terms(terms))
             };
@@ -178,7 +181,10 @@ impl Derivation {
                 Role::Displacement(e) => (e, "the displacement of the support"),
                 Role::Velocity(..) => {
                     self.tell(|n| {
-                        format!("${}$ is a velocity that no bar tells.", n.name(&wave.name))
+                        format!(
+                            "${}$ is the velocity of a part that touches no bar.",
+                            n.name(&wave.name)
+                        )
                     });
                     continue;
                 }
@@ -193,7 +199,7 @@ impl Derivation {
         self.heading("Laws at ends and joints");
         self.periods(writer.recurrence);
         self.sentence(
-            "The laws are, by the clock of each place and with waves that are zero for $n < 0$:",
+            "By the clock of each place, and with waves that are zero for $n < 0$, the laws are:",
         );
         for law in network.laws() {
             if matches!(law.rule, Rule::Integral(_)) {
@@ -207,21 +213,45 @@ impl Derivation {
     /// What a period is.
     fn periods(&mut self, recurrence: &Recurrence) {
         let Statement { period, local, time, .. } = recurrence.statement();
-        let lasts = arrange(&period.into(), None);
+        let (lasts, d) = (arrange(&period.into(), None), free_name(recurrence, &["D", "P"]));
         self.tell(|n| {
-            let (s, t, lasts) = (n.symbol(local), n.symbol(time), write_flat(&lasts, n));
+            let [s, t, d] = [local, time, &d].map(|symbol| n.symbol(symbol));
             format!(
-                "A period lasts $D = {lasts}$. The $n$-th is from ${t} = n D$ to ${t} = (n+1) D$; on it time \
-                 is ${s} = {t} - n D$."
+                "Period $n$ lasts from ${t} = n {d}$ to ${t} = (n+1) {d}$ with ${d} = {}$; its local time is \
+                 ${s} = {t} - n {d}$.",
+                write_flat(&lasts, n)
             )
         });
     }
 
     /// The recurrence, solved for one wave after another.
-    fn solved(&mut self, writer: &Writer<'_>, waves: usize) {
+    fn solved(&mut self, writer: &Writer<'_>, shown: usize) {
+        let recurrence = writer.recurrence;
+        let Statement { continuity, equations, .. } = recurrence.statement();
+        let told = |wave| Told::of(recurrence, wave, shown);
+        let loads = equations.iter().map(|form| form.forcing_terms().reach()).max();
         self.sentence("Solved for one wave after another:");
-        let (equations, starts) = writer.solved(waves);
+        let (equations, mut starts) = writer.solved(|wave| told(wave) == Told::Steps);
         self.parts.push(Block::Equations(equations, Some(RECURRENCE)));
+        if loads > Some(1) {
+            self.tell(|n| {
+                format!(
+                    "A bracket $[n {} m]$ is 1 from period $m$ on, and 0 before.",
+                    n.choose(">=", "\\ge")
+                )
+            });
+        }
+        let together: Vec<usize> = (0..shown).filter(|wave| told(*wave) == Told::Result).collect();
+        if !together.is_empty() {
+            self.tell(|n| {
+                let names = together.iter().map(|wave| format!("${}$", n.name(&recurrence.wave_name(*wave))));
+                let names = names.collect::<Vec<_>>().join(" and ");
+                format!("The equations of {names} are coupled by derivatives and have complex rates: they are solved together.")
+            });
+            let of = |form: &LinearForm| form.operators().any(|(wave, _)| together.contains(&wave));
+            let others = continuity.iter().filter(|own| of(&own.form));
+            starts.extend(others.map(|own| writer.start(&own.form, &own.start)));
+        }
         if !starts.is_empty() {
             self.sentence("These are continuous from period to period, and start at");
             self.equations(starts);

@@ -6,7 +6,7 @@ use crate::export::names::{Name, Names};
 use crate::export::notation::{Notation, both};
 use crate::export::tree::Term;
 use crate::expression::{Expression, Fraction};
-use crate::recurrence::{LinearForm, Recurrence, Statement};
+use crate::recurrence::{LinearForm, Recurrence, Statement, WaveIndex};
 use crate::solution::{Solved, solved_for_waves};
 use std::sync::Arc;
 use wavestep_polynomial::{Rational, Symbol};
@@ -18,6 +18,30 @@ pub(crate) enum Place {
     General(usize),
     /// This one.
     Period(usize),
+}
+
+/// How much is told of the way to a wave.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Told {
+    Steps,
+    /// Only what is found: its equation is solved together with others, in complex numbers.
+    Result,
+    Nothing,
+}
+
+impl Told {
+    /// For the first `shown` waves, and those that were added to uncouple them.
+    pub fn of(recurrence: &Recurrence, wave: WaveIndex, shown: usize) -> Told {
+        let (added, coupled) = (wave >= recurrence.statement().waves.len(), recurrence.coupled());
+        let unit = Symbol::square_root(-1).expect("the imaginary unit");
+        let complex = coupled.iter().any(|of| of.rates.iter().any(|rate| rate.contains(&unit)));
+        match added || coupled.iter().any(|of| of.waves.contains(&wave)) {
+            _ if wave >= shown && !added => Told::Nothing,
+            true if complex && added => Told::Nothing,
+            true if complex => Told::Result,
+            _ => Told::Steps,
+        }
+    }
 }
 
 /// Writes forms in waves with their index on a period.
@@ -32,7 +56,7 @@ pub(crate) struct Writer<'a> {
 /// put in; then what is continuous from period to period, with the value at which it starts.
 #[must_use]
 pub fn solved_equations(recurrence: &Recurrence) -> (Vec<Formula>, Vec<Formula>) {
-    Writer::new(recurrence).solved(recurrence.statement().waves.len())
+    Writer::new(recurrence).solved(|_| true)
 }
 
 /// A linear form in the waves of a recurrence on the n-th period, as text; sums over earlier periods are
@@ -119,24 +143,22 @@ impl<'a> Writer<'a> {
         terms
     }
 
-    /// The recurrence solved for one wave after another, and what is continuous with its start, of
-    /// the first `shown` waves and those that were added to uncouple them.
-    pub fn solved(&self, shown: usize) -> (Vec<Formula>, Vec<Formula>) {
+    /// The recurrence solved for one wave after another, and what is continuous with its start.
+    pub fn solved(&self, told: impl Fn(WaveIndex) -> bool) -> (Vec<Formula>, Vec<Formula>) {
         let mut equations = Vec::new();
         let mut starts = Vec::new();
-        for Solved { step, right } in solved_for_waves(self.recurrence) {
-            let added = step.wave >= self.recurrence.statement().waves.len();
-            if step.wave >= shown && !added {
-                continue;
-            }
+        let all = solved_for_waves(self.recurrence).into_iter();
+        for Solved { step, right } in all.filter(|solved| told(solved.step.wave)) {
             equations.push(self.equation(&step.left(), &right));
             if let Some(start) = &step.start {
-                let head = self.written(&start.continuous);
-                let right = Right::Terms(arrange(&start.initial, None));
-                starts.push(Formula::of(head, right));
+                starts.push(self.start(&start.continuous, &start.initial));
             }
         }
         (equations, starts)
+    }
+
+    pub fn start(&self, form: &LinearForm, value: &Expression) -> Formula {
+        Formula::of(self.written(form), Right::Terms(arrange(value, None)))
     }
 
     pub fn right(&self, form: &LinearForm) -> Right {

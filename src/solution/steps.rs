@@ -3,13 +3,12 @@
 //! `PeriodByPeriod` solves for what is differentiated and forms no derivative; here derivatives of the
 //! pieces before are formed and put in, so that the right side is seen, and the result is compared.
 
-use crate::expression::{Expression, Fraction};
+use crate::expression::Expression;
 use crate::recurrence::{LinearForm, Recurrence, Step, WaveIndex};
 use crate::solution::error::{SolveError, Unsolvable};
 use crate::solution::general::GeneralForm;
 use crate::solution::period::PeriodByPeriod;
 use crate::solution::solved::Solution;
-use crate::solution::template::{EchoTemplate, Family};
 use wavestep_polynomial::Symbol;
 
 /// An equation solved for its wave: `w' + a w = right`, or `w = right` where nothing is differentiated.
@@ -100,127 +99,72 @@ impl PeriodByPeriod<'_> {
     }
 }
 
-/// The equation by which each echo follows from the one before,
-///
-/// ```text
-/// φ_{k+1}' + b φ_{k+1} = ρ (φ_k' − a φ_k),     φ_{k+1}(0) = ρ φ_k(0)      Laguerre, a = c − b
-/// φ_{k+1}' + b φ_{k+1} = ρ φ_k,                φ_{k+1}(0) = 0             Power
-/// ```
-///
-/// It holds from the first echo of the general form on. On the coefficients of `T_k`, after division by
-/// `ρ^{k+1} e^{−bx}`, it is Pascal's rule.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct EchoStep {
-    pub rate: Fraction,
-    pub ratio: Fraction,
-    /// `c` of the Laguerre polynomials `L_k(c x)`; none for powers.
-    pub scale: Option<Fraction>,
-}
-
-impl EchoStep {
-    /// The step of a general form, where anything returns.
-    #[must_use]
-    pub fn of(template: &EchoTemplate) -> Option<EchoStep> {
-        let scale = match &template.family {
-            Family::Laguerre(scale) => Some(scale.clone()),
-            Family::Power => None,
-        };
-        let (rate, ratio) = (template.rate.clone(), template.ratio.clone());
-        (!template.terms.is_empty()).then_some(EchoStep { rate, ratio, scale })
-    }
-
-    /// The coefficients of `φ_k'` and of `φ_k` on the right side.
-    #[must_use]
-    pub fn right(&self) -> (Fraction, Fraction) {
-        match &self.scale {
-            Some(scale) => (self.ratio.clone(), &self.ratio * &(&self.rate - scale)),
-            None => (Fraction::zero(), self.ratio.clone()),
-        }
-    }
-
-    /// Whether an echo follows from the one before.
-    #[must_use]
-    pub fn leads(&self, before: &Expression, to: &Expression, x: &Symbol) -> bool {
-        let (slope, value) = self.right();
-        let left = &to.derivative(x) + &to.times(&self.rate);
-        let right = &before.derivative(x).times(&slope) + &before.times(&value);
-        left == right && to.at_zero(x) == before.at_zero(x).times(&slope)
-    }
-}
-
-/// A sequence in general n put into its equation for `n + later`.
+/// A sequence in general n put into its equation for `n + later`. Both sides hold `n` and a symbol for each `λ^n`.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SequenceStep {
     pub later: usize,
-    pub left: PowerSum,
-    pub right: PowerSum,
+    pub left: Expression,
+    pub right: Expression,
+    /// The symbols that stand for powers, each with its `λ`.
+    pub powers: Vec<(Symbol, Expression)>,
 }
-
-/// A sum of powers `λ^n` with coefficients that hold `n`, none zero.
-pub type PowerSum = Vec<(Expression, Expression)>;
 
 impl SequenceStep {
     /// The step of a wave from its equation without slopes, where all waves in it are sequences.
     #[must_use]
     pub fn of(solution: &Solution, solved: &Solved<'_>, n: &Symbol) -> Option<SequenceStep> {
-        if solved.step.start.is_some() || solved.right.has_slopes() {
+        let Solved { step, right: form } = solved;
+        if step.start.is_some() || form.has_slopes() {
             return None;
         }
-        let reach = solved.right.operators().map(|(_, operator)| operator.reach()).max();
-        let later = reach.unwrap_or(0).max(solved.right.forcing_terms().reach()).max(2) - 1;
-        let (mut left, mut right) = (PowerSum::new(), PowerSum::new());
-        let own = solved.step.wave;
-        add_general(&mut left, solution, (own, later), n, &Expression::one())?;
-        for (wave, operator) in solved.right.operators() {
+        let reaches = form.operators().map(|(_, operator)| operator.reach());
+        let reach = reaches.chain([form.forcing_terms().reach(), 2]).max()?;
+        let (later, mut powers) = (reach - 1, Vec::new());
+        let left = later_by(solution, step.wave, later, n, &mut powers)?;
+        let mut right = Expression::zero();
+        for (wave, operator) in form.operators() {
             for (lag, factor) in operator.value.iter() {
-                add_general(&mut right, solution, (wave, later - lag), n, factor)?;
+                let value = later_by(solution, wave, later - lag, n, &mut powers)?;
+                right.add_scaled(&value, factor);
             }
         }
-        for function in solved.right.forcing_terms().values() {
-            let constant = !function.contains(&solution.recurrence().statement().time);
-            add_power(&mut right, &Expression::one(), constant.then_some(function)?);
+        for load in form.forcing_terms().values() {
+            right += (!load.contains(&solution.recurrence().statement().time)).then_some(load)?;
         }
-        for side in [&mut left, &mut right] {
-            side.retain(|(_, coefficient)| !coefficient.is_zero());
-            side.sort_by_key(|(ratio, _)| !ratio.is_one());
-        }
-        Some(SequenceStep { later, left, right })
-    }
-
-    /// Whether both sides are one sum, each power for itself.
-    #[must_use]
-    pub fn agrees(&self) -> bool {
-        let (left, right) = (&self.left, &self.right);
-        left.len() == right.len() && left.iter().all(|term| right.contains(term))
+        Some(SequenceStep { later, left, right, powers })
     }
 }
 
-fn add_power(sum: &mut PowerSum, ratio: &Expression, coefficient: &Expression) {
-    match sum.iter_mut().find(|(known, _)| known == ratio) {
-        Some((_, known)) => *known += coefficient,
-        None => sum.push((ratio.clone(), coefficient.clone())),
-    }
-}
-
-/// Adds a factor times the general form of a wave for `n + by`.
-fn add_general(
-    sum: &mut PowerSum,
+/// The general form of a wave for `n + by`, where it is a sequence.
+fn later_by(
     solution: &Solution,
-    (wave, by): (WaveIndex, usize),
+    wave: WaveIndex,
+    by: usize,
     n: &Symbol,
-    factor: &Expression,
-) -> Option<()> {
+    powers: &mut Vec<(Symbol, Expression)>,
+) -> Option<Expression> {
     let Ok(GeneralForm::Geometric(form)) = solution.general(wave) else { return None };
     let by = u32::try_from(by).ok()?;
     let later = &Expression::symbol(n) + &Expression::integer(by.into());
+    let mut sum = Expression::zero();
     for term in &form.terms {
-        let power = &later.pow(term.power) * &term.ratio.pow(by);
-        add_power(sum, &term.ratio, &(&(&term.coefficient * &power) * factor));
+        let factor = &(&term.coefficient * &later.pow(term.power)) * &term.ratio.pow(by);
+        let known = powers.iter().find(|(_, ratio)| *ratio == term.ratio);
+        let power = match known.map(|(symbol, _)| symbol.clone()) {
+            _ if term.ratio.is_one() => Expression::one(),
+            Some(symbol) => Expression::symbol(&symbol),
+            None => {
+                let symbol = Symbol::new(&format!("power_{}", powers.len())).expect("a name");
+                powers.push((symbol.clone(), term.ratio.clone()));
+                Expression::symbol(&symbol)
+            }
+        };
+        sum.add_scaled(&power, &factor);
     }
-    Some(())
+    Some(sum)
 }
 
-/// Pieces derived step by step, period by period.
+/// Pieces derived step by step.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Lesson<'a> {
     pub solved: Vec<Solved<'a>>,
@@ -238,13 +182,13 @@ impl<'a> Lesson<'a> {
         let mut lesson = Lesson { solved, periods: Vec::new(), stopped: None };
         let mut solver = PeriodByPeriod::new(recurrence);
         for n in 0..=last {
-            let told = solver.advance().and_then(|()| match n < first {
-                true => Ok(Vec::new()),
-                false => lesson.solved.iter().map(|solved| solver.steps(solved, n)).collect(),
-            });
-            match told {
-                Ok(steps) if n >= first => lesson.periods.push((n, steps)),
-                Ok(_) => {}
+            let told = if n < first { &[][..] } else { &lesson.solved };
+            let steps = solver
+                .advance()
+                .and_then(|()| told.iter().map(|solved| solver.steps(solved, n)).collect());
+            match steps {
+                Ok(_) if n < first => {}
+                Ok(steps) => lesson.periods.push((n, steps)),
                 Err(error) => {
                     lesson.stopped = Some(error);
                     break;
