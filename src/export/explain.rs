@@ -67,7 +67,9 @@ impl Derivation {
         derivation.sentence("Waves are zero for $n < 0$.");
         let sums = |form: &LinearForm| *form != form.without_sums();
         if equations.iter().any(sums) {
-            derivation.sentence("A sum over earlier periods is gone once the equation of the period before is subtracted.");
+            derivation.sentence(
+                "Sums over earlier periods cancel when the equation of the period before is subtracted.",
+            );
         }
         derivation.constants(recurrence.constants(), decimal);
         derivation.solved(&Writer::new(recurrence), waves.len());
@@ -87,6 +89,19 @@ impl Derivation {
 
     pub(super) fn equations(&mut self, formulas: Vec<Formula>) {
         self.parts.push(Block::Equations(formulas, None));
+    }
+
+    /// Equations after a sentence, or with those that already stand there after the same.
+    pub(super) fn after(&mut self, sentence: &str, formulas: Vec<Formula>) {
+        match &mut self.parts[..] {
+            [.., Block::Sentence(told, _), Block::Equations(known, _)] if told == sentence => {
+                known.extend(formulas);
+            }
+            _ => {
+                self.sentence(sentence);
+                self.equations(formulas);
+            }
+        }
     }
 
     /// A sentence written in both notations, formulas between dollars.
@@ -227,29 +242,32 @@ impl Derivation {
     /// The recurrence, solved for one wave after another.
     fn solved(&mut self, writer: &Writer<'_>, shown: usize) {
         let recurrence = writer.recurrence;
-        let Statement { continuity, equations, .. } = recurrence.statement();
         let told = |wave| Told::of(recurrence, wave, shown);
-        let loads = equations.iter().map(|form| form.forcing_terms().reach()).max();
+        let together: Vec<usize> = (0..shown).filter(|wave| told(*wave) == Told::Result).collect();
         self.sentence("Solved for one wave after another:");
         let (equations, mut starts) = writer.solved(|wave| told(wave) == Told::Steps);
         self.parts.push(Block::Equations(equations, Some(RECURRENCE)));
-        if loads > Some(1) {
+        if !recurrence.coupled().is_empty() && together.is_empty() {
+            self.sentence(
+                "Modes are combinations of waves in which derivatives are no longer coupled.",
+            );
+        }
+        if recurrence.steps().iter().any(|step| step.equation.forcing_terms().reach() > 1) {
             self.tell(|n| {
-                format!(
-                    "A bracket $[n {} m]$ is 1 from period $m$ on, and 0 before.",
-                    n.choose(">=", "\\ge")
-                )
+                format!("$[n {} m]$ is 1 from period $m$ on, and 0 before.", n.choose(">=", "\\ge"))
             });
         }
-        let together: Vec<usize> = (0..shown).filter(|wave| told(*wave) == Told::Result).collect();
         if !together.is_empty() {
             self.tell(|n| {
-                let names = together.iter().map(|wave| format!("${}$", n.name(&recurrence.wave_name(*wave))));
-                let names = names.collect::<Vec<_>>().join(" and ");
-                format!("The equations of {names} are coupled by derivatives and have complex rates: they are solved together.")
+                let name = |wave: &usize| format!("${}$", n.name(&recurrence.wave_name(*wave)));
+                let names = together.iter().map(name).collect::<Vec<_>>().join(" and ");
+                format!(
+                    "The equations of {names} are coupled by derivatives and have complex rates: they are \
+                     solved together."
+                )
             });
             let of = |form: &LinearForm| form.operators().any(|(wave, _)| together.contains(&wave));
-            let others = continuity.iter().filter(|own| of(&own.form));
+            let others = recurrence.statement().continuity.iter().filter(|own| of(&own.form));
             starts.extend(others.map(|own| writer.start(&own.form, &own.start)));
         }
         if !starts.is_empty() {

@@ -10,19 +10,16 @@ use crate::export::notation::{Notation, both};
 use crate::export::tree::{Sign, Tree};
 use crate::export::writer::{write_flat, write_named};
 use crate::expression::{Expression, Fraction};
-use crate::recurrence::{Recurrence, Start, Statement};
+use crate::recurrence::{Recurrence, Start, Statement, WaveIndex};
 use crate::solution::{
-    EchoTemplate, Family, GeneralForm, Integration, Lesson, PieceSteps, SequenceStep, Solution,
-    Solved,
+    EchoTemplate, Family, GeneralForm, Integration, PeriodByPeriod, PieceSteps, SequenceStep,
+    Solution, Solved, solved_for_waves,
 };
 use std::sync::Arc;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// The most characters of what stands beside a constant on the left of its equation.
 const BESIDE: usize = 50;
-
-const SUBSTITUTION: &str = "By substitution:";
-const TOGETHER: &str = "Solved together, the coupled equations give";
 
 fn flat(value: &Fraction, n: Notation) -> String {
     write_flat(&arrange(&value.into(), None), n)
@@ -33,12 +30,16 @@ fn symbol(name: &str) -> Symbol {
 }
 
 impl Derivation {
-    /// The pieces of the first `shown` waves, and of those that were added to uncouple them.
-    pub fn pieces(&mut self, recurrence: &Recurrence, lesson: &Lesson<'_>, shown: usize) {
+    /// The pieces of the first `shown` waves on the periods `first … last`, and of the waves that were added to
+    /// uncouple them.
+    pub fn pieces(&mut self, recurrence: &Recurrence, first: usize, last: usize, shown: usize) {
         self.heading("The pieces, step by step");
-        let told = |solved: &Solved<'_>| Told::of(recurrence, solved.step.wave, shown);
-        let steps = |solved: &&Solved<'_>| told(solved) == Told::Steps;
-        if lesson.solved.iter().filter(steps).any(|solved| solved.step.start.is_some()) {
+        let told = |wave| Told::of(recurrence, wave, shown);
+        let all = solved_for_waves(recurrence);
+        let integrated = |solved: &Solved<'_>| {
+            solved.step.start.is_some() && told(solved.step.wave) == Told::Steps
+        };
+        if all.iter().any(integrated) {
             let [a, w, q] = [&["a", "b"], &["w", "y"], &["q", "h"]]
                 .map(|names: &[_; 2]| free_name(recurrence, names));
             self.tell(|n| {
@@ -53,51 +54,57 @@ impl Derivation {
                 )
             });
         }
-        for (n, steps) in &lesson.periods {
-            self.gap();
-            self.tell(|form| {
-                let at = |n: usize| {
-                    recurrence.statement().period.scale(&Rational::from_integer(n.into()))
-                };
-                let [begins, ends] = [at(*n), at(n + 1)].map(|time| flat(&time, form));
-                format!("Period {n}, from ${begins}$ to ${ends}$.")
-            });
-            // Equations with one sentence before them all.
-            let mut run = ("", Vec::new());
-            let mut number = 0;
-            for (solved, steps) in lesson.solved.iter().zip(steps) {
-                let piece = Piece { recurrence, solved, steps, n: *n };
-                number += usize::from(told(solved) == Told::Steps);
-                match (told(solved), &solved.step.start, &steps.integration) {
-                    (Told::Nothing, ..) => {}
-                    (Told::Result, ..) => {
-                        self.run(&mut run, TOGETHER);
-                        run.1.push(piece.result());
-                    }
-                    (Told::Steps, Some(start), Some(integration)) => {
-                        self.run(&mut run, "");
-                        piece.integrated(self, start, integration, number);
-                    }
-                    (Told::Steps, ..) => {
-                        self.run(&mut run, SUBSTITUTION);
-                        run.1.extend(piece.substituted());
-                    }
+        let mut solver = PeriodByPeriod::new(recurrence);
+        for n in 0..=last {
+            let shown = if n < first { &[][..] } else { &all };
+            let solved = solver.advance();
+            let steps = |()| {
+                shown
+                    .iter()
+                    .map(|solved| Ok((solved, solver.steps(solved, n)?)))
+                    .collect::<Result<Vec<_>, _>>()
+            };
+            match solved.and_then(steps) {
+                Ok(steps) if n >= first => self.period(recurrence, n, &steps, told),
+                Ok(_) => {}
+                Err(error) => {
+                    return self.sentence(format!("Further steps are not shown: {error}."));
                 }
             }
-            self.run(&mut run, "");
-        }
-        if let Some(error) = &lesson.stopped {
-            self.sentence(format!("Further steps are not shown: {error}."));
         }
     }
 
-    /// Tells the equations that were collected, unless the next belong to them.
-    fn run(&mut self, run: &mut (&'static str, Vec<Formula>), next: &'static str) {
-        if run.0 != next {
-            let (sentence, equations) = std::mem::replace(run, (next, Vec::new()));
-            if !equations.is_empty() {
-                self.sentence(sentence);
-                self.equations(equations);
+    fn period(
+        &mut self,
+        recurrence: &Recurrence,
+        n: usize,
+        steps: &[(&Solved<'_>, PieceSteps)],
+        told: impl Fn(WaveIndex) -> Told,
+    ) {
+        self.gap();
+        self.tell(|form| {
+            let at =
+                |n: usize| recurrence.statement().period.scale(&Rational::from_integer(n.into()));
+            let [begins, ends] = [at(n), at(n + 1)].map(|time| flat(&time, form));
+            format!("Period {n}, from ${begins}$ to ${ends}$.")
+        });
+        let mut number = 0;
+        for (solved, steps) in steps {
+            let piece = Piece { recurrence, solved, steps, n };
+            let told = told(solved.step.wave);
+            number += usize::from(told == Told::Steps);
+            match (told, &solved.step.start, &steps.integration) {
+                (Told::Nothing, ..) => {}
+                (Told::Result, ..) => {
+                    self.after("Solved together, the coupled equations give", vec![piece.result()]);
+                }
+                (Told::Steps, Some(start), Some(integration)) => {
+                    piece.integrated(self, start, integration, number);
+                }
+                (Told::Steps, ..) => {
+                    let equations = piece.equation().into_iter().chain([piece.result()]).collect();
+                    self.after("By substitution:", equations);
+                }
             }
         }
     }
@@ -136,10 +143,6 @@ impl Piece<'_> {
         let mut lags = right.operators().flat_map(|(_, operator)| operator.lags());
         let holds = lags.any(|lag| lag <= self.n);
         holds.then(|| self.writer(self.n).equation(&step.left(), right))
-    }
-
-    fn substituted(&self) -> Vec<Formula> {
-        self.equation().into_iter().chain([self.result()]).collect()
     }
 
     fn integrated(&self, to: &mut Derivation, start: &Start, steps: &Integration, number: usize) {
@@ -222,14 +225,14 @@ impl Piece<'_> {
 
 impl Derivation {
     /// The forms for every n of the first `shown` waves, and why they hold.
-    pub fn general_forms(&mut self, solution: &Solution, lesson: &Lesson<'_>, shown: usize) {
-        let recurrence = solution.recurrence();
-        let index = symbol("n");
+    pub fn general_forms(&mut self, solution: &Solution, shown: usize) {
+        let (recurrence, index) = (solution.recurrence(), symbol("n"));
         // The step from one echo to the next is explained once for all waves for which it is the same.
         let mut explained: Vec<&EchoTemplate> = Vec::new();
-        let waves = lesson.solved.iter().filter(|solved| solved.step.wave < shown);
-        let known =
-            waves.filter_map(|solved| Some((solved, solution.general(solved.step.wave).ok()?)));
+        let mut all = solved_for_waves(recurrence);
+        all.retain(|solved| solved.step.wave < shown);
+        all.sort_by_key(|solved| solved.step.wave);
+        let known = all.iter().filter_map(|of| Some((of, solution.general(of.step.wave).ok()?)));
         for (i, (solved, form)) in known.enumerate() {
             match i {
                 0 => self.heading("The form for every n"),
@@ -276,10 +279,11 @@ impl Derivation {
         let left = combination([(&one, echo(&next, "'")), (&template.rate, echo(&next, ""))]);
         let right = combination([(&by_slope, echo(k, "'")), (&by_value, echo(k, ""))]);
         let start = combination([(&one, echo(&next, "(0)"))]);
+        let alone = recurrence.wave_count() == 1;
+        let others = if alone { "The" } else { "With the other waves eliminated, the" };
         self.tell(|n| {
             format!(
-                "With the other waves eliminated, the recurrence gives each echo by the one before, from \
-                 ${} = {first}$ on:",
+                "{others} recurrence gives each echo by the one before, from ${} = {first}$ on:",
                 n.name(k)
             )
         });

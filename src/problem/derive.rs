@@ -11,7 +11,7 @@ use crate::language;
 use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::{Observable, Recurrence, WaveIndex};
 use crate::signal::{Arrival, arrivals};
-use crate::solution::{Lesson, ObserveError, ObservedStretch, Solution, Unknown};
+use crate::solution::{ObserveError, ObservedStretch, Solution, Unknown};
 
 /// How many periods an explanation tells after the first, where nothing is said.
 const FIRST_PIECES: usize = 2;
@@ -221,9 +221,8 @@ impl Problem {
             Kind::Equations(_) => Derivation::of_recurrence(recurrence, &decimal),
             Kind::Line { .. } => Derivation::of(self.network()?, recurrence, &decimal),
         };
-        let lesson = Lesson::of(recurrence, first, last);
-        derivation.pieces(recurrence, &lesson, waves.len());
-        derivation.general_forms(solution, &lesson, waves.len());
+        derivation.pieces(recurrence, first, last, waves.len());
+        derivation.general_forms(solution, waves.len());
         Ok(derivation)
     }
 

@@ -163,38 +163,3 @@ fn later_by(
     }
     Some(sum)
 }
-
-/// Pieces derived step by step.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Lesson<'a> {
-    pub solved: Vec<Solved<'a>>,
-    /// The periods with the steps of each solved equation.
-    pub periods: Vec<(usize, Vec<PieceSteps>)>,
-    /// Why it goes no further, where a piece has no exact form.
-    pub stopped: Option<SolveError>,
-}
-
-impl<'a> Lesson<'a> {
-    /// The periods `first … last`; those before are solved without telling how.
-    #[must_use]
-    pub fn of(recurrence: &'a Recurrence, first: usize, last: usize) -> Lesson<'a> {
-        let solved = solved_for_waves(recurrence);
-        let mut lesson = Lesson { solved, periods: Vec::new(), stopped: None };
-        let mut solver = PeriodByPeriod::new(recurrence);
-        for n in 0..=last {
-            let told = if n < first { &[][..] } else { &lesson.solved };
-            let steps = solver
-                .advance()
-                .and_then(|()| told.iter().map(|solved| solver.steps(solved, n)).collect());
-            match steps {
-                Ok(_) if n < first => {}
-                Ok(steps) => lesson.periods.push((n, steps)),
-                Err(error) => {
-                    lesson.stopped = Some(error);
-                    break;
-                }
-            }
-        }
-        lesson
-    }
-}
