@@ -20,7 +20,11 @@ pub(super) const RECURRENCE: &str = "recurrence";
 /// A part of a derivation.
 #[derive(Clone, PartialEq, Eq, Debug)]
 enum Block {
+    /// The question of an exercise, or the answer.
+    Part(&'static str),
     Heading(&'static str),
+    /// A text of the language as it stands.
+    Text(String),
     /// An empty line: a new paragraph.
     Gap,
     /// In text, and in LaTeX.
@@ -74,6 +78,17 @@ impl Derivation {
         derivation.constants(recurrence.constants(), decimal);
         derivation.solved(&Writer::new(recurrence), waves.len());
         derivation
+    }
+
+    /// The answer to an exercise, after its question: a text, with what is asked of it.
+    #[must_use]
+    pub fn as_exercise(mut self, text: &str, asked: impl Fn(Notation) -> String) -> Derivation {
+        let answer = std::mem::take(&mut self.parts);
+        self.parts.extend([Block::Part("Question"), Block::Text(text.trim_end().to_owned())]);
+        self.tell(asked);
+        self.parts.push(Block::Part("Answer"));
+        self.parts.extend(answer);
+        self
     }
 
     pub(super) fn heading(&mut self, heading: &'static str) {
@@ -280,11 +295,12 @@ impl Derivation {
         let mut out = String::new();
         for part in &self.parts {
             match part {
-                Block::Heading(heading) => {
+                Block::Heading(heading) | Block::Part(heading) => {
                     let gap = if out.is_empty() { "" } else { "\n" };
-                    let line = "-".repeat(heading.len());
-                    out.push_str(&format!("{gap}{heading}\n{line}\n"));
+                    let line = if matches!(part, Block::Part(_)) { "=" } else { "-" };
+                    out.push_str(&format!("{gap}{heading}\n{}\n", line.repeat(heading.len())));
                 }
+                Block::Text(text) => out.push_str(&format!("{text}\n\n")),
                 Block::Gap => out.push('\n'),
                 Block::Sentence(text, _) => out.push_str(&wrapped(text, width, "")),
                 Block::Equations(formulas, _) => {
@@ -301,7 +317,12 @@ impl Derivation {
         let mut out = String::new();
         for part in &self.parts {
             match part {
+                Block::Part(heading) => out.push_str(&format!("\\section*{{{heading}}}\n")),
                 Block::Heading(heading) => out.push_str(&format!("\\subsection*{{{heading}}}\n")),
+                Block::Text(text) => {
+                    out.push_str("{\\footnotesize\n\\begin{verbatim}\n");
+                    out.push_str(&format!("{text}\n\\end{{verbatim}}\n}}\n"));
+                }
                 Block::Gap => out.push('\n'),
                 Block::Sentence(_, latex) => out.push_str(&format!("{latex}\n")),
                 Block::Equations(formulas, label) => {

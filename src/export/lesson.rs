@@ -272,7 +272,11 @@ impl Derivation {
         let (k, next, first) = (k.name(), format!("{k}+1"), template.first.len());
         let (x, (by_slope, by_value)) = (&recurrence.statement().local, template.step());
         let echo = |index: &str, end: &str| {
-            both(|n| n.echo(wave, index, "").trim_end_matches("()").to_owned() + end)
+            both(|n| {
+                let echo = n.echo(wave, index, "").trim_end_matches("()").to_owned();
+                // In LaTeX a prime is a second superscript.
+                if n == Notation::Latex { format!("{{{echo}}}{end}") } else { echo + end }
+            })
         };
         let head = |right: Right| Head::both(|n| right.written(n).text().to_owned());
         let one = Fraction::one();

@@ -5,7 +5,7 @@ use super::bounds::{
 };
 use super::error::Missing;
 use super::{Kind, Problem, ProblemError};
-use crate::export::{self, Derivation, Formula, SourceForm};
+use crate::export::{self, Derivation, Formula, Notation, SourceForm};
 use crate::expression::{Expression, Fraction};
 use crate::language;
 use crate::network::{Network, Observed, ObservedValue};
@@ -197,10 +197,12 @@ impl Problem {
 
     /// How the recurrence follows from the bars and elements of a scene, how the pieces of these periods follow
     /// from it, step by step, and why general forms hold. Where no periods are asked for, three from `from` on.
+    /// An exercise has the question in front.
     pub fn explanation(
         &self,
         orders: Option<Orders>,
         from: usize,
+        exercise: bool,
     ) -> Result<Derivation, ProblemError> {
         if self.on_lattice() {
             return Err(ProblemError::NoPeriodsToExplain);
@@ -223,7 +225,22 @@ impl Problem {
         };
         derivation.pieces(recurrence, first, last, waves.len());
         derivation.general_forms(solution, waves.len());
-        Ok(derivation)
+        if !exercise {
+            return Ok(derivation);
+        }
+        let values = self.values.iter().map(|(name, value)| format!(" Let {name} be {value}."));
+        let values: String = values.collect();
+        let names = &recurrence.statement().waves[..waves.len()];
+        let asked = |n: Notation| {
+            let names: Vec<String> =
+                names.iter().map(|name| format!("${}$", n.name(name))).collect();
+            format!(
+                "Derive the recurrence between the waves of successive periods. Find {} for the periods \
+                 {first} to {last}, and for every $n$ where there is such a form.{values}",
+                names.join(", ")
+            )
+        };
+        Ok(derivation.as_exercise(self.source.text(), asked))
     }
 
     /// The formulas of what was derived, of one wave or observable after the other.

@@ -149,7 +149,7 @@ fn what_is_printed_was_computed() {
         let recurrence = problem.recurrence().expect("periods");
         let local = recurrence.statement().local.name();
         let orders = Some(Orders::Through(0, LAST));
-        let text = problem.explanation(orders, 0).expect(name).to_text(usize::MAX);
+        let text = problem.explanation(orders, 0, false).expect(name).to_text(usize::MAX);
         assert!(!text.contains("sqrt(-1)"), "{name}: a real scene without the imaginary unit");
         let steps = text.split("The pieces, step by step").nth(1).expect("pieces");
         let steps = steps.split("The form for every n").next().expect("pieces");
@@ -238,7 +238,7 @@ fn each_echo_follows_from_the_one_before() {
 #[test]
 fn latex_is_sound() {
     for (name, problem) in problems() {
-        let latex = problem.explanation(None, 0).expect(name).to_latex(LATEX_WIDTH);
+        let latex = problem.explanation(None, 0, true).expect(name).to_latex(LATEX_WIDTH);
         let mut prose = String::new();
         let mut rest = latex.as_str();
         while let Some((before, after)) = rest.split_once("\\begin{align}\n") {

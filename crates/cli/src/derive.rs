@@ -60,7 +60,7 @@ fn formulas(
     options: &Derive,
     orders: Option<Orders>,
 ) -> Result<String, Failure> {
-    if options.explain {
+    if options.explain || options.exercise {
         return explanation(problem, options);
     }
     let (derived, names) = derived(problem, options, orders)?;
@@ -69,11 +69,11 @@ fn formulas(
 
 fn explanation(problem: &Problem, options: &Derive) -> Result<String, Failure> {
     options.orders().map_or(Ok(()), refuse_empty)?;
-    let derivation = problem.explanation(options.orders(), options.from)?;
+    let derivation = problem.explanation(options.orders(), options.from, options.exercise)?;
     match options.format {
         Format::Latex => Ok(derivation.to_latex(options.width())),
         Format::Json => {
-            let remedy = "ask for --format text or latex, or leave out --explain";
+            let remedy = "ask for --format text or latex";
             Err(Failure::usage("a derivation is for reading, not for programs", remedy))
         }
         _ => Ok(derivation.to_text(options.width())),
