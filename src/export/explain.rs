@@ -228,9 +228,7 @@ impl Derivation {
     fn laws(&mut self, network: &Network, writer: &Writer<'_>) {
         self.heading("Laws at ends and joints");
         self.periods(writer.recurrence);
-        self.sentence(
-            "By the clock of each place, and with waves that are zero for $n < 0$, the laws are:",
-        );
+        self.sentence("Time is by the clock of each place, and waves are zero for $n < 0$.");
         for law in network.laws() {
             if matches!(law.rule, Rule::Integral(_)) {
                 continue;

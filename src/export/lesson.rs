@@ -242,9 +242,14 @@ impl Derivation {
             self.tell(|n| format!("For ${}$ it is", n.name(wave)));
             self.equations(general_form(recurrence, solved.step.wave, form));
             match form {
-                GeneralForm::Geometric(_) => {
+                GeneralForm::Geometric(form) => {
                     if let Some(step) = SequenceStep::of(solution, solved, &index) {
                         self.sequence(recurrence, solved, &step, &index);
+                        let since = form.first.len();
+                        self.tell(|n| {
+                            let every = n.choose("n >= ", "n \\ge ");
+                            format!("The sides agree, and so do the first values: the form holds for all ${every}{since}$.")
+                        });
                     }
                 }
                 GeneralForm::Echoes(template) if !template.terms.is_empty() => {
@@ -355,7 +360,6 @@ impl Derivation {
             side(&solved.step.left(), &step.left),
             side(&solved.right, &step.right),
         ]);
-        self.sentence("The sides agree, and so do the first values: the form holds for every $n$.");
     }
 }
 

@@ -228,16 +228,18 @@ impl Problem {
         if !exercise {
             return Ok(derivation);
         }
-        let values = self.values.iter().map(|(name, value)| format!(" Let {name} be {value}."));
-        let values: String = values.collect();
-        let names = &recurrence.statement().waves[..waves.len()];
+        let task = match &self.kind {
+            Kind::Equations(_) => "Solve the equations for one wave after another.",
+            Kind::Line { .. } => "Derive the recurrence between the waves of successive periods.",
+        };
         let asked = |n: Notation| {
-            let names: Vec<String> =
-                names.iter().map(|name| format!("${}$", n.name(name))).collect();
+            let name = |wave: &usize| format!("${}$", n.name(&recurrence.wave_name(*wave)));
+            let names = waves.iter().map(name).collect::<Vec<_>>().join(", ");
+            let value = |(of, value): (&String, &_)| format!(" Let ${} = {value}$.", n.name(of));
+            let values: String = self.values.iter().map(value).collect();
             format!(
-                "Derive the recurrence between the waves of successive periods. Find {} for the periods \
-                 {first} to {last}, and for every $n$ where there is such a form.{values}",
-                names.join(", ")
+                "{task} Find {names} on the periods {first} to {last}, and for every $n$ where there \
+                 is such a form.{values}"
             )
         };
         Ok(derivation.as_exercise(self.source.text(), asked))

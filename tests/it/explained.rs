@@ -141,46 +141,83 @@ fn a_wrong_sign_is_noticed() {
     assert_eq!(turned.len(), turns.len(), "{turned:?}");
 }
 
-/// Pieces, and values at the beginning of a period, as they are printed.
+fn read(text: &str) -> Expression {
+    let source = Source::new("printed", text).unwrap_or_else(|error| panic!("{text}: {error}"));
+    read_expression(&source).unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
+/// Whether a printed equation `head = right` is one of a step: then it must be true.
+fn printed(
+    step: (&Solved<'_>, &PieceSteps),
+    wave: &str,
+    x: &Symbol,
+    head: &str,
+    right: &str,
+) -> bool {
+    let (Solved { step, .. }, PieceSteps { right: known, integration, piece }) = step;
+    let (whole, start) = (format!("{wave}({x})"), format!("{wave}(0)"));
+    let (Some(rule), Some(steps)) = (&step.start, integration) else {
+        assert!(head != whole || read(right) == *piece, "{head} = {right}");
+        return head == whole;
+    };
+    // A symbol for the wave at the beginning.
+    let started = |text: &str| read(&text.replace(&start, "begin"));
+    let begin = Expression::symbol(&Symbol::new("begin").unwrap());
+    let factor = with_factor(&Expression::one(), &(&rule.rate * &Fraction::symbol(x)));
+    let product = head.strip_suffix(&format!("*{whole}"));
+    let slope = head.strip_suffix(&format!("*{wave})'")).and_then(|head| head.strip_prefix('('));
+    let holds = if right.contains(&start) {
+        product.is_none_or(|head| read(head) == factor)
+            && started(right) == &begin + &steps.integral
+    } else if let Some(head) = slope {
+        read(head) == factor && read(right) == steps.integrand
+    } else if head.starts_with(&format!("{wave}'")) && !right.contains('[') {
+        read(right) == *known
+    } else if head == start {
+        read(right) == steps.constant
+    } else if head.starts_with(&start) {
+        started(head) == &begin + &steps.beside && read(right) == steps.before
+    } else if head == whole {
+        read(right) == *piece
+    } else {
+        return false;
+    };
+    assert!(holds, "{head} = {right}");
+    true
+}
+
 #[test]
 fn what_is_printed_was_computed() {
-    let mut read = 0;
+    let mut found = 0;
     for (name, problem) in problems() {
         let recurrence = problem.recurrence().expect("periods");
-        let local = recurrence.statement().local.name();
+        let local = &recurrence.statement().local;
         let orders = Some(Orders::Through(0, LAST));
         let text = problem.explanation(orders, 0, false).expect(name).to_text(usize::MAX);
         assert!(!text.contains("sqrt(-1)"), "{name}: a real scene without the imaginary unit");
         let steps = text.split("The pieces, step by step").nth(1).expect("pieces");
         let steps = steps.split("The form for every n").next().expect("pieces");
-        each_step(recurrence, |_, (solved, steps_of, n)| {
-            let PieceSteps { piece, integration, .. } = steps_of;
+        let equations: Vec<_> =
+            steps.lines().filter_map(|line| line.strip_prefix("    ")?.split_once(" = ")).collect();
+        let mut seen = 0;
+        each_step(recurrence, |_, (solved, steps, n)| {
             let wave = format!("{}[{n}]", recurrence.wave_name(solved.step.wave));
-            let mut printed = vec![(format!("{wave}({local})"), piece)];
-            if let Some(Integration { constant, integrand, .. }) = integration {
-                printed.push((format!("{wave}(0)"), constant));
-                if solved.step.start.as_ref().is_some_and(|start| start.rate.is_one()) {
-                    printed.push((format!("(exp({local})*{wave})'"), integrand));
-                }
-            }
-            for (head, value) in printed {
-                let head = format!("    {head} = ");
-                for line in steps.lines().filter_map(|line| line.strip_prefix(&head)) {
-                    let source = Source::new("printed", line).expect("a text");
-                    let found = read_expression(&source).unwrap_or_else(|e| panic!("{line}: {e}"));
-                    assert_eq!(found, *value, "{name}: {head}");
-                    read += 1;
-                }
-            }
+            let of_step =
+                |(head, right): &&(&str, &str)| printed((solved, steps), &wave, local, head, right);
+            seen += equations.iter().filter(of_step).count();
         });
+        // The others are equations between waves.
+        let between =
+            equations.iter().filter(|(_, right)| right.contains('[') && !right.contains("(0)"));
+        assert_eq!(seen + between.count(), equations.len(), "{name}: {steps}");
         for wave in 0..recurrence.statement().waves.len() {
-            let head = format!("    {}[{LAST}]({local}) = ", recurrence.wave_name(wave));
-            let found = steps.lines().filter(|line| line.starts_with(&head)).count();
+            let head = format!("{}[{LAST}]({local})", recurrence.wave_name(wave));
             let told = !recurrence.wave_name(wave).starts_with("integral");
-            assert_eq!(found, usize::from(told), "{name}: {head}");
+            assert_eq!(equations.iter().any(|(of, _)| *of == head), told, "{name}: {head}");
         }
+        found += seen;
     }
-    assert!(read > 400, "{read}");
+    assert!(found > 500, "{found}");
 }
 
 // ---- The step from n to n + 1, and from k to k + 1 ---------------------------------------------
@@ -240,7 +277,7 @@ fn latex_is_sound() {
     for (name, problem) in problems() {
         let latex = problem.explanation(None, 0, true).expect(name).to_latex(LATEX_WIDTH);
         let mut prose = String::new();
-        let mut rest = latex.as_str();
+        let (_, mut rest) = latex.split_once("\\end{verbatim}").expect("the text of the scene");
         while let Some((before, after)) = rest.split_once("\\begin{align}\n") {
             let (equations, after) = after.split_once("\\end{align}\n").expect("an end");
             let lines = equations.lines().map(|line| match line.split_once(" \\label{") {
