@@ -13,7 +13,7 @@ use crate::expression::{Expression, Fraction};
 use crate::recurrence::{Recurrence, Start, Statement, WaveIndex};
 use crate::solution::{
     EchoTemplate, Family, GeneralForm, Integration, PeriodByPeriod, PieceSteps, SequenceStep,
-    Solution, Solved, solved_for_waves,
+    Solution, SolveError, Solved, solved_for_waves,
 };
 use std::sync::Arc;
 use wavestep_polynomial::{Rational, Symbol};
@@ -54,59 +54,54 @@ impl Derivation {
                 )
             });
         }
-        let mut solver = PeriodByPeriod::new(recurrence);
-        for n in 0..=last {
-            let shown = if n < first { &[][..] } else { &all };
-            let solved = solver.advance();
-            let steps = |()| {
-                shown
-                    .iter()
-                    .map(|solved| Ok((solved, solver.steps(solved, n)?)))
-                    .collect::<Result<Vec<_>, _>>()
-            };
-            match solved.and_then(steps) {
-                Ok(steps) if n >= first => self.period(recurrence, n, &steps, told),
-                Ok(_) => {}
-                Err(error) => {
-                    return self.sentence(format!("Further steps are not shown: {error}."));
-                }
-            }
+        if let Err(error) = self.each_period(recurrence, &all, first, last, told) {
+            self.sentence(format!("Further steps are not shown: {error}."));
         }
     }
 
-    fn period(
+    fn each_period(
         &mut self,
         recurrence: &Recurrence,
-        n: usize,
-        steps: &[(&Solved<'_>, PieceSteps)],
+        all: &[Solved<'_>],
+        first: usize,
+        last: usize,
         told: impl Fn(WaveIndex) -> Told,
-    ) {
-        self.gap();
-        self.tell(|form| {
-            let at =
-                |n: usize| recurrence.statement().period.scale(&Rational::from_integer(n.into()));
-            let [begins, ends] = [at(n), at(n + 1)].map(|time| flat(&time, form));
-            format!("Period {n}, from ${begins}$ to ${ends}$.")
-        });
-        let mut number = 0;
-        for (solved, steps) in steps {
-            let piece = Piece { recurrence, solved, steps, n };
-            let told = told(solved.step.wave);
-            number += usize::from(told == Told::Steps);
-            match (told, &solved.step.start, &steps.integration) {
-                (Told::Nothing, ..) => {}
-                (Told::Result, ..) => {
-                    self.after("Solved together, the coupled equations give", vec![piece.result()]);
-                }
-                (Told::Steps, Some(start), Some(integration)) => {
-                    piece.integrated(self, start, integration, number);
-                }
-                (Told::Steps, ..) => {
-                    let equations = piece.equation().into_iter().chain([piece.result()]).collect();
-                    self.after("By substitution:", equations);
+    ) -> Result<(), SolveError> {
+        let mut solver = PeriodByPeriod::new(recurrence);
+        (0..first).try_for_each(|_| solver.advance())?;
+        for n in first..=last {
+            solver.advance()?;
+            self.gap();
+            let Statement { period, .. } = recurrence.statement();
+            let [begins, ends] =
+                [n, n + 1].map(|n| period.scale(&Rational::from_integer(n.into())));
+            self.tell(|form| {
+                format!("Period {n}, from ${}$ to ${}$.", flat(&begins, form), flat(&ends, form))
+            });
+            let mut number = 0;
+            for solved in all {
+                let (told, steps) = (told(solved.step.wave), &solver.steps(solved, n)?);
+                let piece = Piece { recurrence, solved, steps, n };
+                number += usize::from(told == Told::Steps);
+                match (told, &solved.step.start, &steps.integration) {
+                    (Told::Nothing, ..) => {}
+                    (Told::Result, ..) => {
+                        self.after(
+                            "Solved together, the coupled equations give",
+                            vec![piece.result()],
+                        );
+                    }
+                    (Told::Steps, Some(start), Some(integration)) => {
+                        piece.integrated(self, start, integration, number);
+                    }
+                    (Told::Steps, ..) => {
+                        let equations = piece.equation().into_iter().chain([piece.result()]);
+                        self.after("By substitution:", equations.collect());
+                    }
                 }
             }
         }
+        Ok(())
     }
 }
 
@@ -243,13 +238,9 @@ impl Derivation {
             self.equations(general_form(recurrence, solved.step.wave, form));
             match form {
                 GeneralForm::Geometric(form) => {
-                    if let Some(step) = SequenceStep::of(solution, solved, &index) {
-                        self.sequence(recurrence, solved, &step, &index);
-                        let since = form.first.len();
-                        self.tell(|n| {
-                            let every = n.choose("n >= ", "n \\ge ");
-                            format!("The sides agree, and so do the first values: the form holds for all ${every}{since}$.")
-                        });
+                    let step = SequenceStep::of(solution, solved, &index);
+                    if let Some(step) = step.filter(|step| step.left == step.right) {
+                        self.sequence(recurrence, solved, &step, &index, form.first.len());
                     }
                 }
                 GeneralForm::Echoes(template) if !template.terms.is_empty() => {
@@ -279,8 +270,11 @@ impl Derivation {
         let echo = |index: &str, end: &str| {
             both(|n| {
                 let echo = n.echo(wave, index, "").trim_end_matches("()").to_owned();
-                // In LaTeX a prime is a second superscript.
-                if n == Notation::Latex { format!("{{{echo}}}{end}") } else { echo + end }
+                match (n, end) {
+                    // A prime would be a second superscript.
+                    (Notation::Latex, "'") => format!("{{{echo}}}'"),
+                    _ => echo + end,
+                }
             })
         };
         let head = |right: Right| Head::both(|n| right.written(n).text().to_owned());
@@ -304,16 +298,12 @@ impl Derivation {
             return self.sentence("The form satisfies this as before.");
         }
         self.tell(|n| {
-            let (x, y) = (n.symbol(x), n.symbol(&y));
+            let (local, y) = (n.symbol(x), n.symbol(&y));
             let Family::Laguerre(scale) = &template.family else {
-                let power = |k: &str| match n {
-                    Notation::Text => format!("{x}^({k})/({k})!"),
-                    Notation::Latex => format!("{x}^{{{k}}}/({k})!"),
-                };
+                let power = |k: &str, factorial| format!("{}/{factorial}", n.power(&local, k));
+                let (later, now) = (power(&next, format!("({next})!")), power(k, format!("{k}!")));
                 return format!(
-                    "The form satisfies this, since ${}$ has the derivative ${}$ and is 0 at ${x} = 0$.",
-                    power(&next),
-                    power(k)
+                    "The form satisfies this, since ${later}$ has the derivative ${now}$ and is 0 at ${local} = 0$."
                 );
             };
             let laguerre = |index: &str, prime: &str| match n {
@@ -321,11 +311,11 @@ impl Derivation {
                 Notation::Latex => format!("L_{{{index}}}{prime}({y})"),
             };
             let binomial = n.choose("binomial(k, p)*", "\\binom{k}{p} ").replace('k', k);
-            let argument = flat(&(scale * &Fraction::symbol(&recurrence.statement().local)), n);
+            let argument = flat(&(scale * &Fraction::symbol(x)), n);
             let all = if template.terms.len() > 1 { ", and the same for other indices" } else { "" };
             format!(
                 "With the form put in and ${y} = {argument}$ this is ${} = {} - {}${all}. It is Pascal's rule for \
-                 the coefficients ${binomial}(-1)^p/p!$ of ${y}^p$ in ${}$; at ${x} = 0$ all polynomials are 1.",
+                 the coefficients ${binomial}(-1)^p/p!$ of ${y}^p$ in ${}$; at ${local} = 0$ all polynomials are 1.",
                 laguerre(&next, "'"),
                 laguerre(k, "'"),
                 laguerre(k, ""),
@@ -341,6 +331,7 @@ impl Derivation {
         solved: &Solved<'_>,
         step: &SequenceStep,
         n: &Symbol,
+        first: usize,
     ) {
         let writer = Writer::at(recurrence, Place::General(step.later));
         let power = |(stand_in, ratio): &(Symbol, Expression)| {
@@ -360,6 +351,10 @@ impl Derivation {
             side(&solved.step.left(), &step.left),
             side(&solved.right, &step.right),
         ]);
+        self.tell(|n| {
+            let all = n.choose("n >= ", "n \\ge ");
+            format!("The sides agree, and so do the first values: the form holds for all ${all}{first}$.")
+        });
     }
 }
 
