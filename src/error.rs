@@ -335,7 +335,6 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
         ProblemError::NothingArrives(_) => "ask for a larger order",
         ProblemError::EchoesOfObservable(_) => "derive the echoes of its waves",
         ProblemError::NoCommonMeasure(_) => "ask for the echoes of waves, or evaluate",
-        ProblemError::NothingToExplain => "explain a scene of bars and elements",
         ProblemError::NoPeriodsToExplain => "derive its echoes",
         ProblemError::NoSourceForm => "add a statement such as `written f in V/c, s as mu*z/L`",
         ProblemError::NoGeneralSourceForm => "ask for single orders, or for another form",

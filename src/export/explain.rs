@@ -1,25 +1,36 @@
 //! The derivation of a scene's recurrence as a text to be read: sentences and equations.
 
 use crate::export::arrangement::arrange;
-use crate::export::forms::Writer;
-use crate::export::formula::{Formula, Head, Right, latex, text};
+use crate::export::forms::{Told, Writer};
+use crate::export::formula::{Formula, Head, Right, numbered, text};
+use crate::export::general::free_name;
 use crate::export::notation::{Notation, both};
 use crate::export::prose::{capitalised, wrapped};
 use crate::export::tree::{Sign, Term};
 use crate::export::writer::write_flat;
 use crate::expression::{Constant, Definition, Expression, Fraction, Root};
 use crate::network::{Law, Network, Role, Rule};
-use crate::recurrence::Recurrence;
+use crate::recurrence::{LinearForm, Recurrence, Statement};
 use crate::scene::ElementIndex;
 use wavestep_polynomial::Symbol;
+
+/// The label of the equations of a recurrence in LaTeX.
+pub(super) const RECURRENCE: &str = "recurrence";
 
 /// A part of a derivation.
 #[derive(Clone, PartialEq, Eq, Debug)]
 enum Block {
+    /// The question of an exercise, or the answer.
+    Part(&'static str),
     Heading(&'static str),
+    /// A text of the language as it stands.
+    Text(String),
+    /// An empty line: a new paragraph.
+    Gap,
     /// In text, and in LaTeX.
     Sentence(String, String),
-    Equations(Vec<Formula>),
+    /// With a label in LaTeX, where they are referred to.
+    Equations(Vec<Formula>, Option<&'static str>),
 }
 
 /// How a scene becomes a recurrence: its waves, the laws at its nodes, its scales, the recurrence.
@@ -37,72 +48,134 @@ impl Derivation {
     ) -> Derivation {
         let writer = Writer::new(recurrence);
         let mut derivation = Derivation { parts: Vec::new() };
-        derivation.scales(network, recurrence.constants(), decimal);
+        derivation.scales(network, decimal);
         derivation.waves(network);
         derivation.laws(network, &writer);
-        derivation.recurrence(network, &writer);
+        derivation.heading("The recurrence");
+        let known = &network.model().constants;
+        let rates = recurrence.constants().iter().filter(|constant| !known.contains(constant));
+        derivation.constants(&rates.cloned().collect::<Vec<_>>(), decimal);
+        derivation.solved(&writer, network.waves().len());
         derivation
     }
 
-    pub fn add(&mut self, heading: &'static str, formulas: Vec<Formula>) {
-        self.parts.push(Block::Heading(heading));
-        self.parts.push(Block::Equations(formulas));
+    /// The derivation of what a stated recurrence leads to.
+    pub fn of_recurrence(
+        recurrence: &Recurrence,
+        decimal: &dyn Fn(&Definition) -> Option<String>,
+    ) -> Derivation {
+        let mut derivation = Derivation { parts: Vec::new() };
+        let Statement { waves, equations, .. } = recurrence.statement();
+        derivation.heading("The recurrence");
+        derivation.periods(recurrence);
+        derivation.sentence("Waves are zero for $n < 0$.");
+        let sums = |form: &LinearForm| *form != form.without_sums();
+        if equations.iter().any(sums) {
+            derivation.sentence(
+                "Sums over earlier periods cancel when the equation of the period before is subtracted.",
+            );
+        }
+        derivation.constants(recurrence.constants(), decimal);
+        derivation.solved(&Writer::new(recurrence), waves.len());
+        derivation
     }
 
-    fn sentence(&mut self, sentence: impl AsRef<str>) {
-        self.sentence_with(sentence.as_ref(), None);
+    /// The answer to an exercise, after its question: a text, with what is asked of it.
+    #[must_use]
+    pub fn as_exercise(mut self, text: &str, asked: impl Fn(Notation) -> String) -> Derivation {
+        let answer = std::mem::take(&mut self.parts);
+        self.parts.extend([Block::Part("Question"), Block::Text(text.trim_end().to_owned())]);
+        self.tell(asked);
+        self.parts.push(Block::Part("Answer"));
+        self.parts.extend(answer);
+        self
+    }
+
+    pub(super) fn heading(&mut self, heading: &'static str) {
+        self.parts.push(Block::Heading(heading));
+    }
+
+    /// A new paragraph.
+    pub(super) fn gap(&mut self) {
+        if !matches!(self.parts.last(), Some(Block::Heading(_))) {
+            self.parts.push(Block::Gap);
+        }
+    }
+
+    pub(super) fn equations(&mut self, formulas: Vec<Formula>) {
+        self.parts.push(Block::Equations(formulas, None));
+    }
+
+    /// Equations after a sentence, or with those that already stand there after the same.
+    pub(super) fn after(&mut self, sentence: &str, formulas: Vec<Formula>) {
+        match &mut self.parts[..] {
+            [.., Block::Sentence(told, _), Block::Equations(known, _)] if told == sentence => {
+                known.extend(formulas);
+            }
+            _ => {
+                self.sentence(sentence);
+                self.equations(formulas);
+            }
+        }
+    }
+
+    /// A sentence written in both notations, formulas between dollars.
+    pub(super) fn tell(&mut self, write: impl Fn(Notation) -> String) {
+        let (text, latex) = both(write);
+        self.parts.push(Block::Sentence(text.replace('$', ""), prose(&latex)));
+    }
+
+    pub(super) fn sentence(&mut self, sentence: impl AsRef<str>) {
+        self.tell(|_| sentence.as_ref().to_owned());
     }
 
     /// A sentence, with a value in place of `{}`.
     fn sentence_with(&mut self, sentence: &str, value: Option<&Fraction>) {
         let terms = value.map(|value| arrange(&value.clone().into(), None)).unwrap_or_default();
-        let (text, latex) = both(|n| write_flat(&terms, n));
-        let text = sentence.replace("{}", &text);
-        let latex = prose(sentence).replace("{}", &format!("${latex}$"));
-        self.parts.push(Block::Sentence(text, latex));
+        self.tell(|n| sentence.replace("{}", &format!("${}$", write_flat(&terms, n))));
     }
 
     /// In which units the scene is written, and the constants that got names.
-    fn scales(
-        &mut self,
-        network: &Network,
-        constants: &[Constant],
-        decimal: &dyn Fn(&Definition) -> Option<String>,
-    ) {
+    fn scales(&mut self, network: &Network, decimal: &dyn Fn(&Definition) -> Option<String>) {
         let (scene, model) = (network.scene(), network.model());
+        let constants = &*model.constants;
         let name = |element: Option<ElementIndex>| {
             element.map_or("the scene", |element| &scene.elements[element].name)
         };
         if scene.dimensional {
-            self.parts.push(Block::Heading("Scales"));
+            self.heading("Scales");
             let (of, moving) = (name(model.scale.reference), name(model.scale.moving));
             let mut units = vec![("Z", "kg/s", &model.scale.impedance, "impedance", of)];
             units.push(("T", "s", &model.scale.time, "time", of));
             units.push(("V", "m/s", &model.scale.velocity, "velocity", moving));
             for (symbol, unit, value, what, of) in units {
                 let number = decimal(&value.clone().into());
-                let number = number.map_or(String::new(), |n| format!(" = {n} {unit}"));
-                self.sentence(format!("The unit of {what} is {symbol}{number}, from `{of}`."));
+                let number = number.map_or(String::new(), |n| format!(" $= {n}$ {unit}"));
+                self.sentence(format!("The unit of {what} is ${symbol}${number}, from `{of}`."));
             }
-            self.sentence("Forces are in Z V, displacements in V T.");
+            self.sentence("Forces are in $Z V$, displacements in $V T$.");
         }
-        if !constants.is_empty() {
-            let constants = constants.iter().map(|constant| {
-                let head = Head::both(|n| n.symbol(&constant.symbol));
-                let right = definition(&constant.value);
-                let number = decimal(&constant.value).map(|number| format!("= {number}"));
-                let remark = number.map(|number| (number.clone(), String::new()));
-                Formula { head, right, remark }
-            });
-            let constants = constants.collect();
-            self.sentence("In these units, what is no rational number has a name:");
-            self.parts.push(Block::Equations(constants));
+        self.constants(constants, decimal);
+    }
+
+    /// The definitions of constants that got names.
+    fn constants(&mut self, all: &[Constant], decimal: &dyn Fn(&Definition) -> Option<String>) {
+        if all.is_empty() {
+            return;
         }
+        let formula = |constant: &Constant| {
+            let head = Head::both(|n| n.symbol(&constant.symbol));
+            let number = decimal(&constant.value);
+            let remark = number.map(|number| (format!("= {number}"), format!("\\approx {number}")));
+            Formula { remark, ..Formula::of(head, definition(&constant.value)) }
+        };
+        self.sentence("Numbers that are not rational have names:");
+        self.equations(all.iter().map(formula).collect());
     }
 
     /// The waves in each bar, and what else is followed.
     fn waves(&mut self, network: &Network) {
-        self.parts.push(Block::Heading("Waves"));
+        self.heading("Waves");
         let scene = network.scene();
         let wave = |role: Role| network.waves().iter().find(|wave| wave.role == role);
         for element in &scene.line.elements {
@@ -120,59 +193,99 @@ impl Derivation {
             force.extend(negated(&(&g * &impedance)));
             let name = &scene.elements[*element].name;
             let way = match &data.travel {
-                None => "goes on for ever, and nothing returns from there",
-                Some(_) => "is passed in {}",
+                None => "The bar `{name}` has no end from which waves return.",
+                Some(_) => "A wave crosses the bar `{name}` in {}.",
             };
-            self.sentence_with(
-                &format!("The bar `{name}` {way}. Its velocity v and compressive force X are"),
-                data.travel.as_ref(),
-            );
+            let way = way.replace("{name}", name);
+            self.sentence_with(&way, data.travel.as_ref());
+            self.sentence("Its velocity $v$ and compressive force $X$ are");
             let equation = |head: &str, terms: Vec<Term>| {
                 Formula::of(Head::both(|_| head.to_owned()), Right::Terms(terms))
             };
             let equations = vec![equation("v", velocity), equation("X", force)];
-            self.parts.push(Block::Equations(equations));
+            self.equations(equations);
         }
         for wave in network.waves() {
             let (name, what) = match wave.role {
                 Role::Compression(e) => (e, "the compression of the spring"),
                 Role::Displacement(e) => (e, "the displacement of the support"),
                 Role::Velocity(..) => {
-                    self.sentence(format!("{} is a velocity that no bar tells.", wave.name));
+                    self.tell(|n| {
+                        format!(
+                            "${}$ is the velocity of a part that touches no bar.",
+                            n.name(&wave.name)
+                        )
+                    });
                     continue;
                 }
                 _ => continue,
             };
             let name = &scene.elements[name].name;
-            self.sentence(format!("{} is {what} `{name}`.", wave.name));
+            self.tell(|n| format!("${}$ is {what} `{name}`.", n.name(&wave.name)));
         }
     }
 
     fn laws(&mut self, network: &Network, writer: &Writer<'_>) {
-        self.parts.push(Block::Heading("Laws at ends and joints"));
-        self.sentence_with(
-            "A period lasts D = {}. On the n-th, from n D to (n+1) D by the clock of each place, the laws are, \
-             with waves that are zero for n < 0:",
-            Some(&writer.recurrence.statement().period),
-        );
+        self.heading("Laws at ends and joints");
+        self.periods(writer.recurrence);
+        self.sentence("Time is by the clock of each place, and waves are zero for $n < 0$.");
         for law in network.laws() {
             if matches!(law.rule, Rule::Integral(_)) {
                 continue;
             }
             self.sentence(told(network, &law));
-            self.parts.push(Block::Equations(vec![writer.equation(&law.left, &law.right)]));
+            self.equations(vec![writer.equation(&law.left, &law.right)]);
         }
     }
 
+    /// What a period is.
+    fn periods(&mut self, recurrence: &Recurrence) {
+        let Statement { period, local, time, .. } = recurrence.statement();
+        let (lasts, d) = (arrange(&period.into(), None), free_name(recurrence, &["D", "P"]));
+        self.tell(|n| {
+            let [s, t, d] = [local, time, &d].map(|symbol| n.symbol(symbol));
+            format!(
+                "Period $n$ lasts from ${t} = n {d}$ to ${t} = (n+1) {d}$ with ${d} = {}$; its local time is \
+                 ${s} = {t} - n {d}$.",
+                write_flat(&lasts, n)
+            )
+        });
+    }
+
     /// The recurrence, solved for one wave after another.
-    fn recurrence(&mut self, network: &Network, writer: &Writer<'_>) {
-        self.parts.push(Block::Heading("The recurrence"));
+    fn solved(&mut self, writer: &Writer<'_>, shown: usize) {
+        let recurrence = writer.recurrence;
+        let told = |wave| Told::of(recurrence, wave, shown);
+        let together: Vec<usize> = (0..shown).filter(|wave| told(*wave) == Told::Result).collect();
         self.sentence("Solved for one wave after another:");
-        let (equations, starts) = writer.solved(network.waves().len());
-        self.parts.push(Block::Equations(equations));
+        let (equations, mut starts) = writer.solved(|wave| told(wave) == Told::Steps);
+        self.parts.push(Block::Equations(equations, Some(RECURRENCE)));
+        if !recurrence.coupled().is_empty() && together.is_empty() {
+            self.sentence(
+                "Modes are combinations of waves in which derivatives are no longer coupled.",
+            );
+        }
+        if recurrence.steps().iter().any(|step| step.equation.forcing_terms().reach() > 1) {
+            self.tell(|n| {
+                format!("$[n {} m]$ is 1 from period $m$ on, and 0 before.", n.choose(">=", "\\ge"))
+            });
+        }
+        if !together.is_empty() {
+            self.tell(|n| {
+                let name = |wave: &usize| format!("${}$", n.name(&recurrence.wave_name(*wave)));
+                let names = together.iter().map(name).collect::<Vec<_>>().join(" and ");
+                format!(
+                    "The equations of {names} are coupled by derivatives and have complex rates: they are \
+                     solved together."
+                )
+            });
+            let of = |form: &LinearForm| form.operators().any(|(wave, _)| together.contains(&wave));
+            let others = recurrence.statement().continuity.iter().filter(|own| of(&own.form));
+            starts.extend(others.map(|own| writer.start(&own.form, &own.start)));
+        }
         if !starts.is_empty() {
             self.sentence("These are continuous from period to period, and start at");
-            self.parts.push(Block::Equations(starts));
+            self.equations(starts);
         }
     }
 
@@ -180,13 +293,15 @@ impl Derivation {
         let mut out = String::new();
         for part in &self.parts {
             match part {
-                Block::Heading(heading) => {
+                Block::Heading(heading) | Block::Part(heading) => {
                     let gap = if out.is_empty() { "" } else { "\n" };
-                    let line = "-".repeat(heading.len());
-                    out.push_str(&format!("{gap}{heading}\n{line}\n"));
+                    let line = if matches!(part, Block::Part(_)) { "=" } else { "-" };
+                    out.push_str(&format!("{gap}{heading}\n{}\n", line.repeat(heading.len())));
                 }
+                Block::Text(text) => out.push_str(&format!("{text}\n\n")),
+                Block::Gap => out.push('\n'),
                 Block::Sentence(text, _) => out.push_str(&wrapped(text, width, "")),
-                Block::Equations(formulas) => {
+                Block::Equations(formulas, _) => {
                     let lines = text(formulas, width.saturating_sub(4));
                     lines.lines().for_each(|line| out.push_str(&format!("    {line}\n")));
                 }
@@ -195,14 +310,22 @@ impl Derivation {
         out
     }
 
-    /// LaTeX: sections, sentences and `align*` environments.
+    /// LaTeX: sections, sentences and numbered equations in `align` environments.
     pub fn to_latex(&self, width: usize) -> String {
         let mut out = String::new();
         for part in &self.parts {
             match part {
+                Block::Part(heading) => out.push_str(&format!("\\section*{{{heading}}}\n")),
                 Block::Heading(heading) => out.push_str(&format!("\\subsection*{{{heading}}}\n")),
+                Block::Text(text) => {
+                    out.push_str("{\\footnotesize\n\\begin{verbatim}\n");
+                    out.push_str(&format!("{text}\n\\end{{verbatim}}\n}}\n"));
+                }
+                Block::Gap => out.push('\n'),
                 Block::Sentence(_, latex) => out.push_str(&format!("{latex}\n")),
-                Block::Equations(formulas) => out.push_str(&latex(formulas, width)),
+                Block::Equations(formulas, label) => {
+                    out.push_str(&numbered(formulas, *label, width))
+                }
             }
         }
         out
@@ -291,20 +414,24 @@ fn root(value: &Root) -> Right {
     })
 }
 
+/// A sentence in LaTeX: element names between backticks, formulas between dollars.
 fn prose(sentence: &str) -> String {
     let mut out = String::new();
-    let mut quoted = false;
+    let (mut quoted, mut formula) = (false, false);
     for character in sentence.chars() {
         match character {
+            '$' => {
+                out.push('$');
+                formula = !formula;
+            }
+            other if formula => out.push(other),
             '`' => {
                 out.push_str(if quoted { "}" } else { "\\texttt{" });
                 quoted = !quoted;
             }
             '_' => out.push_str("\\_"),
-            '<' => out.push_str("$<$"),
-            '^' => out.push_str("\\^{}"),
             other => out.push(other),
         }
     }
-    out.replace("$<$=", "$\\le$")
+    out
 }

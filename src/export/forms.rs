@@ -6,21 +6,57 @@ use crate::export::names::{Name, Names};
 use crate::export::notation::{Notation, both};
 use crate::export::tree::Term;
 use crate::expression::{Expression, Fraction};
-use crate::recurrence::{LinearForm, Recurrence, Statement};
+use crate::recurrence::{LinearForm, Recurrence, Statement, WaveIndex};
+use crate::solution::{Solved, solved_for_waves};
 use std::sync::Arc;
 use wavestep_polynomial::{Rational, Symbol};
 
-/// Writes forms in waves with their index on the n-th period.
+/// On which period a form is written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Place {
+    /// The n-th, or one by so much later.
+    General(usize),
+    /// This one.
+    Period(usize),
+}
+
+/// How much is told of the way to a wave.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Told {
+    Steps,
+    /// Only what is found: its equation is solved together with others, in complex numbers.
+    Result,
+    Nothing,
+}
+
+impl Told {
+    /// For the first `shown` waves, and those that were added to uncouple them.
+    pub fn of(recurrence: &Recurrence, wave: WaveIndex, shown: usize) -> Told {
+        let (added, coupled) = (wave >= recurrence.statement().waves.len(), recurrence.coupled());
+        let unit = Symbol::square_root(-1).expect("the imaginary unit");
+        let complex = coupled.iter().any(|of| of.rates.iter().any(|rate| rate.contains(&unit)));
+        match added || coupled.iter().any(|of| of.waves.contains(&wave)) {
+            _ if wave >= shown && !added => Told::Nothing,
+            true if complex && added => Told::Nothing,
+            true if complex => Told::Result,
+            _ => Told::Steps,
+        }
+    }
+}
+
+/// Writes forms in waves with their index on a period.
 pub(crate) struct Writer<'a> {
     pub recurrence: &'a Recurrence,
     names: Arc<Names>,
+    /// The last lag of which anything is there.
+    last: usize,
 }
 
 /// The equations of a recurrence, solved for one wave after another, waves that are given by others
 /// put in; then what is continuous from period to period, with the value at which it starts.
 #[must_use]
 pub fn solved_equations(recurrence: &Recurrence) -> (Vec<Formula>, Vec<Formula>) {
-    Writer::new(recurrence).solved(recurrence.statement().waves.len())
+    Writer::new(recurrence).solved(|_| true)
 }
 
 /// A linear form in the waves of a recurrence on the n-th period, as text; sums over earlier periods are
@@ -32,7 +68,18 @@ pub fn form_text(recurrence: &Recurrence, form: &LinearForm) -> String {
 }
 
 impl<'a> Writer<'a> {
+    /// Writes on the n-th period.
     pub fn new(recurrence: &'a Recurrence) -> Writer<'a> {
+        Writer::at(recurrence, Place::General(0))
+    }
+
+    pub fn at(recurrence: &'a Recurrence, place: Place) -> Writer<'a> {
+        let index = |lag: usize| match place {
+            Place::Period(n) => n.saturating_sub(lag).to_string(),
+            Place::General(later) if later > lag => format!("n+{}", later - lag),
+            Place::General(later) if later == lag => "n".to_owned(),
+            Place::General(later) => format!("n-{}", lag - later),
+        };
         let mut names = Names::new();
         let forms = recurrence.steps().iter().flat_map(|step| {
             let continuous = step.start.as_ref().map(|start| &start.continuous);
@@ -49,9 +96,8 @@ impl<'a> Writer<'a> {
             for lag in 0..=most {
                 for slope in [false, true] {
                     let name = recurrence.wave_name(wave);
-                    let index = if lag == 0 { "n".to_owned() } else { format!("n-{lag}") };
                     let prime = if slope { "'" } else { "" };
-                    let written = both(|n| format!("{}{prime}", n.indexed(&name, &index)));
+                    let written = both(|n| format!("{}{prime}", n.indexed(&name, &index(lag))));
                     names.insert(stand_in(wave, lag, slope), Name::plain(written));
                 }
             }
@@ -60,7 +106,8 @@ impl<'a> Writer<'a> {
             let written = both(|n| format!("[n{}{lag}]", n.choose(">=", " \\ge ")));
             names.insert(from_period(lag), Name::plain(written));
         }
-        Writer { recurrence, names: Arc::new(names) }
+        let last = if let Place::Period(n) = place { n } else { usize::MAX };
+        Writer { recurrence, names: Arc::new(names), last }
     }
 
     /// A form as terms, slopes first and newest first.
@@ -71,72 +118,50 @@ impl<'a> Writer<'a> {
             for lag in 0..reach.max().unwrap_or(0) {
                 for (wave, operator) in form.operators() {
                     let row = if slope { &operator.slope } else { &operator.value };
-                    let Some(factor) = row.get(lag) else { continue };
+                    let Some(factor) = row.get(lag).filter(|_| lag <= self.last) else { continue };
                     let symbol = Expression::symbol(&stand_in(wave, lag, slope));
                     terms.extend(arrange(&(&symbol * factor), None));
                 }
             }
         }
-        for (lag, function) in form.forcing_terms().iter() {
-            let Statement { time, period, .. } = self.recurrence.statement();
+        let Statement { time, period, .. } = self.recurrence.statement();
+        let mut together = Expression::zero();
+        for (lag, function) in form.forcing_terms().up_to(self.last) {
             let late = period.scale(&Rational::from_integer(lag.into()));
             let function = function.substitute(time, &(&Fraction::symbol(time) - &late));
             let function = function.expect("no denominator of a load holds the time");
-            let function = match lag {
-                0 => function,
-                _ => &function * &Expression::symbol(&from_period(lag)),
-            };
-            terms.extend(arrange(&function, Some(time)));
+            match lag {
+                _ if self.last < usize::MAX => together += &function,
+                0 => terms.extend(arrange(&function, Some(time))),
+                _ => {
+                    let late = &function * &Expression::symbol(&from_period(lag));
+                    terms.extend(arrange(&late, Some(time)));
+                }
+            }
         }
+        terms.extend(arrange(&together, Some(time)));
         terms
     }
 
-    /// The recurrence solved for one wave after another, and what is continuous with its start, of
-    /// the first `shown` waves and those that were added to uncouple them.
-    pub fn solved(&self, shown: usize) -> (Vec<Formula>, Vec<Formula>) {
+    /// The recurrence solved for one wave after another, and what is continuous with its start.
+    pub fn solved(&self, told: impl Fn(WaveIndex) -> bool) -> (Vec<Formula>, Vec<Formula>) {
         let mut equations = Vec::new();
         let mut starts = Vec::new();
-        let mut explicit: Vec<(usize, LinearForm)> = Vec::new();
-        let time = &self.recurrence.statement().time;
-        for step in self.recurrence.steps() {
-            let added = step.wave >= self.recurrence.statement().waves.len();
-            if step.wave >= shown && !added {
-                continue;
-            }
-            // Waves that are given by others are put in.
-            let mut equation = step.equation.clone();
-            for (wave, solved) in explicit.iter().rev() {
-                let mut put_in = equation.clone();
-                if put_in.replace(*wave, solved, time) {
-                    equation = put_in;
-                }
-            }
-            let (mut left, mut right) = (LinearForm::zero(), -&equation);
-            let own = match &step.start {
-                None => vec![(LinearForm::wave(step.wave, 0), Expression::one())],
-                Some(start) => vec![
-                    (LinearForm::slope(step.wave, 0), Expression::one()),
-                    (LinearForm::wave(step.wave, 0), start.rate.clone().into()),
-                ],
-            };
-            for (form, factor) in own {
-                left.add_scaled(&form, &factor, 0);
-                right.add_scaled(&form, &factor, 0);
-            }
-            if step.start.is_none() && !right.operators().any(|(wave, _)| wave == step.wave) {
-                explicit.push((step.wave, right.clone()));
-            }
-            equations.push(self.equation(&left, &right));
+        let all = solved_for_waves(self.recurrence).into_iter();
+        for Solved { step, right } in all.filter(|solved| told(solved.step.wave)) {
+            equations.push(self.equation(&step.left(), &right));
             if let Some(start) = &step.start {
-                let head = self.written(&start.continuous);
-                let right = Right::Terms(arrange(&start.initial, None));
-                starts.push(Formula::of(head, right));
+                starts.push(self.start(&start.continuous, &start.initial));
             }
         }
         (equations, starts)
     }
 
-    fn right(&self, form: &LinearForm) -> Right {
+    pub fn start(&self, form: &LinearForm, value: &Expression) -> Formula {
+        Formula::of(self.written(form), Right::Terms(arrange(value, None)))
+    }
+
+    pub fn right(&self, form: &LinearForm) -> Right {
         Right::Named(self.terms(form), self.names.clone())
     }
 
@@ -145,7 +170,7 @@ impl<'a> Writer<'a> {
     }
 
     /// A form as the left side of an equation.
-    fn written(&self, form: &LinearForm) -> Head {
+    pub fn written(&self, form: &LinearForm) -> Head {
         let whole = self.right(form);
         Head::both(|n| whole.written(n).text().to_owned())
     }

@@ -181,7 +181,8 @@ impl Formula {
     }
 
     /// Writes the lines of the formula in an `align*` environment, without the environment.
-    fn write_latex(&self, width: usize, out: &mut String) {
+    /// `end` stands before what ends a line within the formula.
+    fn write_latex(&self, width: usize, end: &str, out: &mut String) {
         let head = &self.head.latex;
         let used = Latex.width(head) + 3;
         let right = self.right.written(Latex);
@@ -189,13 +190,16 @@ impl Formula {
         for (i, line) in lines.iter().enumerate() {
             match i {
                 0 => out.extend([head, " &= ", line]),
-                _ => out.extend([" \\\\\n&\\quad {}", line]),
+                _ => out.extend([end, " \\\\\n&\\quad {}", line]),
             }
         }
         let remark = self.remark.as_ref().filter(|(_, latex)| !latex.is_empty());
         if let (Some((_, remark)), Some(last)) = (remark, lines.last()) {
             let fits = used + 2 + Latex.width(last) + Latex.width(remark) < width;
-            out.push_str(if fits { ", \\qquad " } else { ", \\\\\n&\\qquad " });
+            match fits {
+                true => out.push_str(", \\qquad "),
+                false => out.extend([",", end, " \\\\\n&\\qquad "]),
+            }
             out.push_str(remark);
         }
     }
@@ -234,10 +238,21 @@ pub fn latex(formulas: &[Formula], width: usize) -> String {
         if i > 0 {
             out.push_str(" \\\\\n");
         }
-        formula.write_latex(width, &mut out);
+        formula.write_latex(width, "", &mut out);
     }
     out.push_str("\n\\end{align*}\n");
     out
+}
+
+/// Formulas in an `align` environment, each with a number; with labels that are counted where one is given.
+pub(crate) fn numbered(formulas: &[Formula], label: Option<&str>, width: usize) -> String {
+    let line = |(i, formula): (usize, &Formula)| {
+        let mut out = String::new();
+        formula.write_latex(width, " \\nonumber", &mut out);
+        out + &label.map_or(String::new(), |label| format!(" \\label{{{label}-{}}}", i + 1))
+    };
+    let lines: Vec<String> = formulas.iter().enumerate().map(line).collect();
+    format!("\\begin{{align}}\n{}\n\\end{{align}}\n", lines.join(" \\\\\n"))
 }
 
 /// Formulas with remarks as the cases of one function, `name(variable) = …`.

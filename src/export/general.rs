@@ -14,7 +14,7 @@ use num_traits::{One, Zero};
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
 /// The first of these names that has no meaning in the recurrence.
-fn free_name(recurrence: &Recurrence, names: &[&str]) -> Symbol {
+pub(super) fn free_name(recurrence: &Recurrence, names: &[&str]) -> Symbol {
     let numbered = (1..).map(|i| format!("{}{i}", names[0]));
     let mut candidates = names.iter().map(ToString::to_string).chain(numbered);
     let free =
@@ -23,7 +23,7 @@ fn free_name(recurrence: &Recurrence, names: &[&str]) -> Symbol {
 }
 
 /// The number of an echo.
-fn echo_index(recurrence: &Recurrence) -> Symbol {
+pub(super) fn echo_index(recurrence: &Recurrence) -> Symbol {
     free_name(recurrence, &["k", "j", "m", "i", "l"])
 }
 
@@ -102,7 +102,7 @@ fn geometric_term(term: &GeometricTerm, n: &Symbol) -> Term {
 
 /// A ratio as the base of a power, without a sign in front where a sum can take it:
 /// `(r - 1)/(r + 1)` rather than `-(1 - r)/(1 + r)`.
-fn ratio_tree(ratio: &Expression) -> Tree {
+pub(super) fn ratio_tree(ratio: &Expression) -> Tree {
     let terms = arrange(ratio, None);
     match &terms[..] {
         [(Sign::Minus, Tree::Quotient(top, bottom))] => match &**top {
@@ -158,7 +158,7 @@ fn sum_of_echoes(recurrence: &Recurrence, wave: &str) -> Formula {
 }
 
 /// `ρ^k e^{−bx} Σ_i c_i T_{k−i}(x)`.
-fn template_terms(template: &EchoTemplate, x: &Symbol, k: &Symbol) -> Vec<Term> {
+pub(super) fn template_terms(template: &EchoTemplate, x: &Symbol, k: &Symbol) -> Vec<Term> {
     let mut sum = Vec::new();
     for (lag, coefficient) in &template.terms {
         let index = &Polynomial::symbol(k) - &Polynomial::integer(*lag);

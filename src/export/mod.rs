@@ -11,6 +11,7 @@ mod forms;
 mod formula;
 mod general;
 mod impact;
+mod lesson;
 pub mod lines;
 mod names;
 mod notation;

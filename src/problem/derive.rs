@@ -5,7 +5,7 @@ use super::bounds::{
 };
 use super::error::Missing;
 use super::{Kind, Problem, ProblemError};
-use crate::export::{self, Derivation, Formula, SourceForm};
+use crate::export::{self, Derivation, Formula, Notation, SourceForm};
 use crate::expression::{Expression, Fraction};
 use crate::language;
 use crate::network::{Network, Observed, ObservedValue};
@@ -13,7 +13,7 @@ use crate::recurrence::{Observable, Recurrence, WaveIndex};
 use crate::signal::{Arrival, arrivals};
 use crate::solution::{ObserveError, ObservedStretch, Solution, Unknown};
 
-/// The periods that an explanation ends with.
+/// How many periods an explanation tells after the first, where nothing is said.
 const FIRST_PIECES: usize = 2;
 
 /// How many orders are derived after the first, where nothing is said.
@@ -195,32 +195,54 @@ impl Problem {
         found.map_err(|error| self.explained(error))
     }
 
-    /// How the recurrence follows from the bars and elements of a scene, with the first pieces.
-    pub fn explanation(&self) -> Result<Derivation, ProblemError> {
-        if let Kind::Equations(_) = &self.kind {
-            return Err(ProblemError::NothingToExplain);
-        }
-        let network = self.network()?;
+    /// How the recurrence follows from the bars and elements of a scene, how the pieces of these periods follow
+    /// from it, step by step, and why general forms hold. Where no periods are asked for, three from `from` on.
+    /// An exercise has the question in front.
+    pub fn explanation(
+        &self,
+        orders: Option<Orders>,
+        from: usize,
+        exercise: bool,
+    ) -> Result<Derivation, ProblemError> {
         if self.on_lattice() {
             return Err(ProblemError::NoPeriodsToExplain);
         }
         let solution = self.solution()?;
         let recurrence = solution.recurrence();
-        let decimal = |value: &_| super::constants::decimal(recurrence.constants(), value);
-        let mut derivation = Derivation::of(network, recurrence, &decimal);
-        let local = &recurrence.statement().local;
-        let mut formulas = Vec::new();
-        for (wave, named) in network.waves().iter().enumerate() {
-            // What has no exact form is left out; a derivation of this wave says why.
-            let pieces = solution.pieces(wave, 0, FIRST_PIECES).unwrap_or_default();
-            for (n, piece) in pieces.iter().enumerate() {
-                formulas.push(Formula::piece(&named.name, n, piece, local));
+        let waves = self.waves_to_derive(ToDerive::Waves)?;
+        let (first, last) = match orders {
+            Some(orders) => orders.ends(),
+            None => {
+                let (_, last) = self.first_orders(ToDerive::Waves, from).0.ends();
+                (from, last.min(from + FIRST_PIECES))
             }
+        };
+        self.refuse_explosion(recurrence, Orders::Through(first, last), Form::Period, &waves)?;
+        let decimal = |value: &_| super::constants::decimal(recurrence.constants(), value);
+        let mut derivation = match &self.kind {
+            Kind::Equations(_) => Derivation::of_recurrence(recurrence, &decimal),
+            Kind::Line { .. } => Derivation::of(self.network()?, recurrence, &decimal),
+        };
+        derivation.pieces(recurrence, first, last, waves.len());
+        derivation.general_forms(solution, waves.len());
+        if !exercise {
+            return Ok(derivation);
         }
-        if !formulas.is_empty() {
-            derivation.add("The first pieces", formulas);
-        }
-        Ok(derivation)
+        let task = match &self.kind {
+            Kind::Equations(_) => "Solve the equations for one wave after another.",
+            Kind::Line { .. } => "Derive the recurrence between the waves of successive periods.",
+        };
+        let asked = |n: Notation| {
+            let name = |wave: &usize| format!("${}$", n.name(&recurrence.wave_name(*wave)));
+            let names = waves.iter().map(name).collect::<Vec<_>>().join(", ");
+            let value = |(of, value): (&String, &_)| format!(" Let ${} = {value}$.", n.name(of));
+            let values: String = self.values.iter().map(value).collect();
+            format!(
+                "{task} Find {names} on the periods {first} to {last}, and for every $n$ where there \
+                 is such a form.{values}"
+            )
+        };
+        Ok(derivation.as_exercise(self.source.text(), asked))
     }
 
     /// The formulas of what was derived, of one wave or observable after the other.

@@ -102,8 +102,6 @@ pub enum ProblemError {
     UnknownOrder(String),
     #[error("the travel times have no common measure, so there {0}")]
     NoCommonMeasure(Missing),
-    #[error("a recurrence is its own explanation: nothing was derived to get it")]
-    NothingToExplain,
     #[error(
         "the travel times have no common measure, or too fine a one: there are no periods to explain \
          this scene by"

@@ -11,6 +11,7 @@ use crate::recurrence::form::LinearForm;
 use crate::recurrence::naming::Naming;
 use crate::recurrence::statement::{Clause, Continuity, Fault, InvalidRecurrence, Statement};
 use std::collections::BTreeSet;
+use wavestep_polynomial::Symbol;
 
 /// The equation of one wave on the n-th period.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -34,6 +35,23 @@ pub struct Start {
     pub continuous: LinearForm,
     /// The value of that form at `t = 0+`.
     pub initial: Expression,
+}
+
+impl Step {
+    /// The left side of the equation solved for the wave: `w' + a w`, or `w`.
+    pub(crate) fn left(&self) -> LinearForm {
+        let Some(start) = &self.start else { return LinearForm::wave(self.wave, 0) };
+        let mut left = LinearForm::slope(self.wave, 0);
+        left.add_scaled(&LinearForm::wave(self.wave, 0), &start.rate.clone().into(), 0);
+        left
+    }
+}
+
+impl Start {
+    /// The exponent `a x` of the integrating factor.
+    pub(crate) fn exponent(&self, x: &Symbol) -> Fraction {
+        &self.rate * &Fraction::symbol(x)
+    }
 }
 
 type Outcome<T> = Result<T, InvalidRecurrence>;

@@ -18,6 +18,7 @@ mod period;
 mod rise;
 mod solved;
 mod step;
+mod steps;
 mod table;
 mod template;
 
@@ -33,6 +34,7 @@ pub use period::PeriodByPeriod;
 pub use rise::Rise;
 pub use solved::Solution;
 pub(crate) use step::{FieldForm, FieldStep};
+pub use steps::{Integration, PieceSteps, SequenceStep, Solved, solved_for_waves};
 pub(crate) use table::EchoRow;
 pub use table::EchoTable;
 pub use template::{EchoTemplate, Family};

@@ -20,7 +20,7 @@ use wavestep_polynomial::{Rational, Symbol};
 
 /// The solution of a recurrence, period by period.
 pub struct PeriodByPeriod<'a> {
-    recurrence: &'a Recurrence,
+    pub(super) recurrence: &'a Recurrence,
     /// `waves[wave][n]`, the pieces in the local variable, `w(nD + s)` for `0 ≤ s < D`.
     waves: Vec<Vec<Expression>>,
     /// `ends[wave][n]`, the limits at the end of each period, where they were needed.
@@ -98,15 +98,25 @@ impl<'a> PeriodByPeriod<'a> {
 
     /// `w = −Σ (d_i v_i' + a_i v_i) − q`.
     fn read_off(&self, step: &Step, n: usize) -> Result<Expression, Unsolvable> {
-        let mut piece = -&self.forcing(&step.equation, n)?;
-        for earlier in self.earlier(&step.equation, step.wave, n) {
-            piece.add_scaled(earlier.piece, &-&earlier.value);
-            if !earlier.slope.is_zero() {
-                let derivative = earlier.piece.derivative(&self.recurrence.statement().local);
-                piece.add_scaled(&derivative, &-&earlier.slope);
+        let mut right = -&step.equation;
+        right.add_scaled(&step.left(), &Expression::one(), 0);
+        self.value_of(&right, n)
+    }
+
+    /// The value of a form in known pieces on the n-th period.
+    pub(super) fn value_of(&self, form: &LinearForm, n: usize) -> Result<Expression, Unsolvable> {
+        let mut value = self.forcing(form, n)?;
+        for (wave, operator) in form.operators() {
+            for lag in operator.lags().filter(|lag| *lag <= n) {
+                let piece = &self.waves[wave][n - lag];
+                value.add_scaled(piece, &operator.value_at(lag));
+                let slope = operator.slope_at(lag);
+                if !slope.is_zero() {
+                    value.add_scaled(&piece.derivative(&self.recurrence.statement().local), &slope);
+                }
             }
         }
-        Ok(piece)
+        Ok(value)
     }
 
     fn integrate(
@@ -156,7 +166,7 @@ impl<'a> PeriodByPeriod<'a> {
     }
 
     /// The form at the start of the n-th period, without `wave` at lag 0.
-    fn start_of_form(
+    pub(super) fn start_of_form(
         &self,
         form: &LinearForm,
         wave: WaveIndex,
@@ -174,7 +184,11 @@ impl<'a> PeriodByPeriod<'a> {
     }
 
     /// The form at the end of the n-th period.
-    fn end_of_form(&mut self, form: &LinearForm, n: usize) -> Result<Expression, Unsolvable> {
+    pub(super) fn end_of_form(
+        &mut self,
+        form: &LinearForm,
+        n: usize,
+    ) -> Result<Expression, Unsolvable> {
         let mut sum = self.forcing_at(form, n, &self.arrival(n + 1))?;
         for (wave, operator) in form.operators() {
             for (lag, value) in operator.value.up_to(n) {

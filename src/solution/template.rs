@@ -52,6 +52,21 @@ pub struct EchoTemplate {
 }
 
 impl EchoTemplate {
+    /// `v` and `u` of the step from `k = first.len()` on, with the rate `b`,
+    ///
+    /// ```text
+    /// φ_{k+1}' + b φ_{k+1} = v φ_k' + u φ_k,        φ_{k+1}(0) = v φ_k(0)
+    /// ```
+    ///
+    /// On the coefficients of Laguerre polynomials, after division by `ρ^{k+1} e^{−bx}`, it is Pascal's rule.
+    #[must_use]
+    pub fn step(&self) -> (Fraction, Fraction) {
+        match &self.family {
+            Family::Laguerre(c) => (self.ratio.clone(), &self.ratio * &(&self.rate - c)),
+            Family::Power => (Fraction::zero(), self.ratio.clone()),
+        }
+    }
+
     /// The k-th echo as a function of `x`. O(k) operations on coefficients.
     pub fn echo(&self, k: usize, x: &Symbol) -> Expression {
         if let Some(echo) = self.first.get(k) {

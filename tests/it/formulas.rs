@@ -253,7 +253,7 @@ fn breakable(line: &str) -> bool {
     !quotient && parts.iter().any(|i| line[..*i].ends_with(' '))
 }
 
-fn assert_sound_latex(latex: &str) {
+pub fn assert_sound_latex(latex: &str) {
     for bad in ["1 \\cdot", "+ -", "- -", "+ +", "{}{", "  ", "^{1}", "\\frac{0}", "--"] {
         assert!(!latex.contains(bad), "{bad:?} in\n{latex}");
     }

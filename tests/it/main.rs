@@ -10,6 +10,7 @@ mod entering_waves;
 mod errors;
 mod evaluate;
 mod examples;
+mod explained;
 mod export;
 mod expression;
 mod facade;

@@ -60,7 +60,7 @@ fn formulas(
     options: &Derive,
     orders: Option<Orders>,
 ) -> Result<String, Failure> {
-    if options.explain {
+    if options.explain || options.exercise {
         return explanation(problem, options);
     }
     let (derived, names) = derived(problem, options, orders)?;
@@ -68,11 +68,12 @@ fn formulas(
 }
 
 fn explanation(problem: &Problem, options: &Derive) -> Result<String, Failure> {
-    let derivation = problem.explanation()?;
+    options.orders().map_or(Ok(()), refuse_empty)?;
+    let derivation = problem.explanation(options.orders(), options.from, options.exercise)?;
     match options.format {
         Format::Latex => Ok(derivation.to_latex(options.width())),
         Format::Json => {
-            let remedy = "ask for --format text or latex, or leave out --explain";
+            let remedy = "ask for --format text or latex";
             Err(Failure::usage("a derivation is for reading, not for programs", remedy))
         }
         _ => Ok(derivation.to_text(options.width())),
@@ -125,12 +126,7 @@ fn derived(
         }
         orders
     });
-    if let Orders::Through(first, last) = orders
-        && first > last
-    {
-        let message = format!("no period lies from {first} through {last}");
-        return Err(Failure::usage(message, "give --through N with N at least --from"));
-    }
+    refuse_empty(orders)?;
     if symbols == Symbols::Source {
         let formulas = problem.source_form(what, orders)?;
         return match options.format {
@@ -139,6 +135,16 @@ fn derived(
         };
     }
     written(problem, &problem.functions(what, orders, options.form)?, options)
+}
+
+fn refuse_empty(orders: Orders) -> Result<(), Failure> {
+    match orders {
+        Orders::Through(first, last) if first > last => {
+            let message = format!("no period lies from {first} through {last}");
+            Err(Failure::usage(message, "give --through N with N at least --from"))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn source_form_as_json() -> Failure {

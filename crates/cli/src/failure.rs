@@ -218,9 +218,6 @@ fn usual(cause: &ProblemError) -> Option<&'static str> {
         ProblemError::NoCommonMeasure(_) => {
             "ask for the echoes of waves, with --wave NAME and --through N, or evaluate"
         }
-        ProblemError::NothingToExplain => {
-            "ask for --explain with a scene of bars and elements, or leave it out"
-        }
         ProblemError::NoSourceForm => {
             "add a statement such as `written f in V/c, s as mu*z/L`, or leave out --source-form"
         }

@@ -45,7 +45,7 @@ pub fn by_echoes(recurrence: &Recurrence, through: usize) -> Vec<Vec<Expression>
 }
 
 /// A stated form on the n-th period, as a function of local time.
-fn form_on_period(
+pub fn form_on_period(
     recurrence: &Recurrence,
     form: &LinearForm,
     pieces: &[Vec<Expression>],

@@ -48,14 +48,16 @@ pub struct Derive {
     /// for pieces of waves, and with --general for waves that are sequences; in text and LaTeX
     #[arg(long, conflicts_with_all = ["observable", "form"])]
     pub source_form: bool,
-    /// Say how the recurrence follows from the bars and elements of a scene: scales, waves, laws at
-    /// ends and joints, the recurrence, and its first pieces
-    #[arg(long, conflicts_with_all = ["wave", "observable", "general", "form", "source_form",
-          "through", "from", "piece"])]
+    /// Say how everything follows: the recurrence from the bars and elements of a scene, the pieces from it
+    /// step by step [default: periods 0 … 2], and why general forms hold
+    #[arg(long, conflicts_with_all = ["wave", "observable", "general", "form", "source_form"])]
     pub explain: bool,
+    /// Print an exercise: the scene with what is asked, and apart from it the answer as --explain tells it
+    #[arg(long, conflicts_with_all = ["wave", "observable", "general", "form", "source_form"])]
+    pub exercise: bool,
     /// Derive a simpler model too, below the exact formulas: `rigid` (no bar yields), `third` (bars are springs with a
     /// third of their mass), or another change of the scene, as `find --minus` takes it
-    #[arg(long, value_name = "MODEL", conflicts_with_all = ["explain", "source_form"])]
+    #[arg(long, value_name = "MODEL", conflicts_with_all = ["explain", "exercise", "source_form"])]
     pub model: Option<String>,
     /// Written how
     #[arg(long, default_value = "text", value_parser = named([

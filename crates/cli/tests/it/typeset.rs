@@ -101,12 +101,14 @@ fn tex_typesets_every_derivation() {
     }
     let directory = folder("typeset-tex-derivations");
     let margins = "\\usepackage[a4paper,margin=2cm]{geometry}";
-    for scene in ["mass-on-fixed-bar", "cushioned-impact", "pile", "hopkinson", "percussive-drill"]
-    {
+    let built = ["mass-on-fixed-bar", "cushioned-impact", "pile", "hopkinson", "percussive-drill"];
+    for scene in SCENES.into_iter().chain(built) {
         let (code, text, err) =
-            run(anywhere(), &["derive", scene, "--explain", "--format", "latex"]);
+            run(anywhere(), &["derive", scene, "--exercise", "--format", "latex"]);
         assert_eq!(code, 0, "{scene}: {err}");
         typeset(&directory, scene, margins, &text).unwrap_or_else(|log| panic!("{log}"));
+        let log = fs::read_to_string(directory.join(format!("{scene}.log"))).expect("a log");
+        assert!(!log.contains("Overfull") && !log.contains("multiply defined"), "{log}");
     }
 }
 
