@@ -3,6 +3,7 @@
 use crate::export::arrangement::arrange;
 use crate::export::forms::Writer;
 use crate::export::formula::{Formula, Head, Right, latex, text};
+use crate::export::mathml::element;
 use crate::export::notation::{Notation, both};
 use crate::export::prose::{capitalised, wrapped};
 use crate::export::tree::{Sign, Term};
@@ -259,17 +260,16 @@ fn definition(value: &Definition) -> Right {
         Definition::ComplexZero { polynomial, imaginary, .. } => {
             let part = if *imaginary { "imaginary" } else { "real" };
             let (text, latex) = both(|n| write_flat(&polynomial_in_x(polynomial), n));
-            Right::Written(
-                format!("the {part} part of an x with {text} = 0"),
-                format!("\\text{{the {part} part of an }} x \\text{{ with }} {latex} = 0"),
-            )
+            let plain = format!("the {part} part of an x with {text} = 0");
+            let latex =
+                format!("\\text{{the {part} part of an }} x \\text{{ with }} {latex} = 0");
+            Right::Written([plain.clone(), latex, element("mtext", &[&plain])])
         }
         Definition::Zero { polynomial, between: [lower, upper] } => {
             let (text, latex) = both(|n| write_flat(&polynomial_in_x(polynomial), n));
-            Right::Written(
-                format!("the x between {lower} and {upper} with {text} = 0"),
-                format!("x \\in ({lower}, {upper}),\\ {latex} = 0"),
-            )
+            let plain = format!("the x between {lower} and {upper} with {text} = 0");
+            let latex = format!("x \\in ({lower}, {upper}),\\ {latex} = 0");
+            Right::Written([plain.clone(), latex, element("mtext", &[&plain])])
         }
     }
 }
@@ -285,7 +285,7 @@ fn root(value: &Root) -> Right {
         let front = match (n, value.factor().is_one()) {
             (_, true) => String::new(),
             (Notation::Text, false) => format!("({front})*"),
-            (Notation::Latex, false) => front,
+            (Notation::Latex | Notation::MathMl, false) => front,
         };
         front + &n.root_of(&under)
     })
