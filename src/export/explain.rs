@@ -261,8 +261,7 @@ fn definition(value: &Definition) -> Right {
             let part = if *imaginary { "imaginary" } else { "real" };
             let (text, latex) = both(|n| write_flat(&polynomial_in_x(polynomial), n));
             let plain = format!("the {part} part of an x with {text} = 0");
-            let latex =
-                format!("\\text{{the {part} part of an }} x \\text{{ with }} {latex} = 0");
+            let latex = format!("\\text{{the {part} part of an }} x \\text{{ with }} {latex} = 0");
             Right::Written([plain.clone(), latex, element("mtext", &[&plain])])
         }
         Definition::Zero { polynomial, between: [lower, upper] } => {

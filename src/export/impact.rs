@@ -134,7 +134,9 @@ fn holds(own: &Symbols, until: &[(&str, &Fraction)], n: Notation) -> String {
     let times = until.iter().map(|(_, time)| write_flat(&[of(time)], n)).collect::<Vec<_>>();
     let names = until.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(" or ");
     match (n, &times[..]) {
-        (Notation::Text | Notation::MathMl, []) => format!("{range}; nothing returns to the contact"),
+        (Notation::Text | Notation::MathMl, []) => {
+            format!("{range}; nothing returns to the contact")
+        }
         (Notation::Latex, []) => range,
         (Notation::Text | Notation::MathMl, _) => format!(
             "{range}, as long as {t} <= {}: then a wave may return through {names}",

@@ -34,6 +34,7 @@ mod output;
 mod picture;
 mod plot;
 mod progress;
+mod report;
 mod rows;
 mod share;
 mod validity;
@@ -69,6 +70,7 @@ pub fn run() -> ExitCode {
         Subcommand::Events(options) => events::run(options),
         Subcommand::Export(options) => export::run(options),
         Subcommand::Plot(options) => plot::run(options),
+        Subcommand::Report(options) => report::run(options),
         Subcommand::Field(options) => field::run(options),
         Subcommand::Find(options) => find::run(options),
         Subcommand::Advise(options) => advise::run(options),

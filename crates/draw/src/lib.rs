@@ -46,4 +46,5 @@ pub use frontier::frontier;
 pub use map::Map;
 pub use page::{Listing, Row, Section, Table, page};
 pub use png::png;
+pub use text::escape;
 pub use work_precision::{Method, Point, WorkPrecision};

@@ -10,6 +10,7 @@ pub mod estimates;
 pub mod figures;
 pub mod hertz;
 pub mod picture;
+pub mod report;
 pub mod study;
 
 use wavestep_polynomial::Rational;

@@ -15,6 +15,7 @@ pub use against_time::{Course, against_time};
 pub use along::along_the_line;
 pub use courses::{courses, usual_end};
 pub use error::PictureError;
+pub(crate) use lagrange::Places;
 pub use lagrange::lagrange;
 pub use prefix::Prefixed;
 pub use sampled::{Sampled, sampled};
