@@ -140,5 +140,5 @@ pub(super) fn width(markup: &str) -> usize {
 }
 
 /// Multiplication without a sign.
-pub(super) const TIMES: &str = "\u{2062}";
+pub(super) const TIMES: &str = "<mo rspace=\"0.15em\">\u{2062}</mo>";
 const TIMES_CHARACTER: char = '\u{2062}';

@@ -130,7 +130,8 @@ impl Figures<'_> {
         let half = |i: usize| halves.as_ref().map_or(HALF / 2.0, |halves| halves[i]);
         let fixed = |i: usize| match &self.scene.elements[line.elements[i]].kind {
             Kind::Bar(bar) if bar.is_endless() => ENDLESS,
-            Kind::Bar(_) | Kind::Support(_) | Kind::Load(_) => 0.0,
+            Kind::Bar(_) | Kind::Load(_) => 0.0,
+            Kind::Support(_) => 44.0,
             Kind::Mass(_) => 44.0,
             Kind::Spring(_) => 58.0,
             Kind::Hertz(_) => 30.0,
@@ -141,7 +142,7 @@ impl Figures<'_> {
         let scale = (WIDTH - 2.0 * MARGIN - taken) / if total > 0.0 { total } else { 1.0 };
         let mut out = String::new();
         let mut x = MARGIN + if total > 0.0 { 0.0 } else { (WIDTH - 2.0 * MARGIN - taken) / 2.0 };
-        let mut names: Vec<(f64, &str)> = Vec::new();
+        let mut names: Vec<(f64, f64, &str)> = Vec::new();
         if line.left == End::Fixed {
             out += &wall(x, -1.0);
         }
@@ -167,12 +168,14 @@ impl Figures<'_> {
                     low = 14.0;
                 }
                 Kind::Support(own) => {
-                    out += &spring([x, AXIS], 40.0, own, 90.0);
+                    let _ =
+                        write!(out, "<path class=\"wire\" d=\"M{} {AXIS}h{}\"/>", px(x), px(wide));
+                    out += &spring([middle, AXIS], 40.0, own, 90.0);
                     let ground = wall(0.0, 1.0);
                     let _ = write!(
                         out,
                         "<g transform=\"translate({} {}) rotate(90) translate(0 {})\">{ground}</g>",
-                        px(x),
+                        px(middle),
                         px(AXIS + 40.0),
                         px(-AXIS)
                     );
@@ -201,7 +204,7 @@ impl Figures<'_> {
                     28.0 * moving.signum(),
                 );
             }
-            names.push((middle, &element.name));
+            names.push((middle, low, &element.name));
             x += wide;
         }
         x += gap(count);
@@ -209,25 +212,26 @@ impl Figures<'_> {
             out += &wall(x, 1.0);
         }
         let mut rows: Vec<f64> = Vec::new();
-        for (middle, name) in names {
+        let lowest = names.iter().map(|(_, low, _)| *low).fold(HALF, f64::max);
+        for (middle, low, name) in names {
             let wide = 7.6 * name.chars().count() as f64;
             let left = (middle - wide / 2.0).clamp(4.0, WIDTH - wide - 4.0);
             let row = rows.iter().position(|end| *end + 8.0 <= left).unwrap_or(rows.len());
             rows.resize(rows.len().max(row + 1), 0.0);
             rows[row] = left + wide;
-            let y = AXIS + 76.0 + 16.0 * row as f64;
+            let y = AXIS + lowest + 22.0 + 16.0 * row as f64;
             let _ = write!(
                 out,
                 "<path class=\"lead\" d=\"M{0} {1}V{2}\"/><text x=\"{3}\" y=\"{4}\" text-anchor=\"middle\">{5}</text>",
                 px(middle),
-                px(AXIS + 60.0),
+                px(AXIS + low + 3.0),
                 px(y - 11.0),
                 px(left + wide / 2.0),
                 px(y),
                 escape(name)
             );
         }
-        let height = AXIS + 90.0 + 16.0 * rows.len() as f64;
+        let height = AXIS + lowest + 24.0 + 16.0 * rows.len() as f64;
         let note = match &measured {
             Some((_, dimension)) if total > 0.0 => {
                 out += &self.ruler(total / 5.0, scale, *dimension, height);

@@ -130,34 +130,36 @@ fn scene(problem: &Problem) -> String {
 /// The recurrence solved for one wave after another, and pieces.
 fn formulas(problem: &Problem) -> String {
     let mut out = String::new();
+    // What constants are is told of those that occur.
+    let mut text = String::new();
+    let mut show = |out: &mut String, sentence: &str, formulas: &[Formula]| {
+        text.extend(formulas.iter().map(|formula| formula.to_line() + "\n"));
+        *out += &(paragraph(sentence) + &mathematics(formulas));
+    };
     match problem.recurrence() {
         Err(error) if problem.local_contact().is_some() => return left_out(&error),
         Err(error) => out += &left_out(&error),
         Ok(recurrence) => {
-            let (equations, starts) = solved_equations(recurrence);
-            out += &paragraph(
-                "Waves on the n-th period, solved for one after another; they are zero for n < 0:",
-            );
-            out += &mathematics(&equations);
+            let (equations, starts) = solved_equations(recurrence, problem.waves().len());
+            let sentence =
+                "Waves on the n-th period, solved for one after another; they are zero for n < 0:";
+            show(&mut out, sentence, &equations);
             if !starts.is_empty() {
-                out += &paragraph("Continuous from period to period, these start at");
-                out += &mathematics(&starts);
+                show(&mut out, "Continuous from period to period, these start at", &starts);
             }
         }
     }
     let orders = Orders::Through(0, LAST_PIECE);
     let derived = problem.functions(ToDerive::Waves, orders, Form::Period);
-    let found = derived.and_then(|derived| problem.formulas(&derived, Form::Piecewise));
-    match found {
+    match derived.and_then(|derived| problem.formulas(&derived, Form::Piecewise)) {
         Ok(found) => {
             let all: Vec<Formula> = found.into_iter().flat_map(|(_, formulas)| formulas).collect();
-            out +=
-                &paragraph("The first pieces, in local time s, with the times at which they hold:");
-            out += &mathematics(&all);
+            let sentence = "The first pieces, in local time s, with the times at which they hold:";
+            show(&mut out, sentence, &all);
         }
         Err(error) => out += &left_out(&format!("the first pieces: {error}")),
     }
-    match problem.constants(None) {
+    match problem.constants(Some(&text)) {
         Ok(constants) if !constants.is_empty() => out + &list(&constants),
         _ => out,
     }
@@ -171,7 +173,8 @@ fn mathematics(formulas: &[Formula]) -> String {
             return left_out(&format!("{name}, which has {} characters", line.len()));
         }
         let remark = formula.remark.as_ref().map_or(String::new(), |(text, _)| {
-            let text = text.replace("<=", "≤").replace(">=", "≥").replace('*', "·");
+            let text =
+                text.replace("<=", "≤").replace(">=", "≥").replace('*', "·").replace('-', "−");
             format!("<span class=\"remark\">{}</span>", escape(&text))
         });
         format!(

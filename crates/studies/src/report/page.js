@@ -21,7 +21,8 @@ function prepare(figure) {
   let inner = [];
   for (const child of [...svg.children]) {
     if (child.matches('path,line')) inner.push(child);
-    if (!child.matches('rect.frame')) continue;
+    // The frame of a scale of colours comes second.
+    if (!child.matches('rect.frame') || (!across && frames.length)) continue;
     const frame = { x: number(child, 'x'), y: number(child, 'y'), w: number(child, 'width'), h: number(child, 'height') };
     const upright = path => /^M([-\d.]+) [-\d.]+L\1 /.test(path.getAttribute('d'));
     for (const path of inner.filter(path => path.matches('.tick') || (path.matches('.grid') && upright(path) === across))) old.push(path);

@@ -25,7 +25,8 @@ fn value(problem: &Problem, value: &Value, dimension: Dimension) -> String {
         Value::Exact(value) if problem.has_units() => in_decimals(value),
         other => other.to_text(DIGITS),
     };
-    let unit = if problem.has_units() { dimension.unit() } else { String::new() };
+    let unit =
+        if problem.has_units() { dimension.unit().replace('*', "·") } else { String::new() };
     format!("{text} {unit}").trim_end().to_owned()
 }
 
