@@ -16,7 +16,7 @@ use wavestep_polynomial::Symbol;
 
 /// A part of a derivation.
 #[derive(Clone, PartialEq, Eq, Debug)]
-enum Block {
+pub enum Block {
     Heading(&'static str),
     /// In text, and in LaTeX.
     Sentence(String, String),
@@ -43,6 +43,11 @@ impl Derivation {
         derivation.laws(network, &writer);
         derivation.recurrence(network, &writer);
         derivation
+    }
+
+    /// Its parts in their order.
+    pub fn parts(&self) -> &[Block] {
+        &self.parts
     }
 
     pub fn add(&mut self, heading: &'static str, formulas: Vec<Formula>) {

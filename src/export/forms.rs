@@ -17,11 +17,10 @@ pub(crate) struct Writer<'a> {
 }
 
 /// The equations of a recurrence, solved for one wave after another, waves that are given by others
-/// put in; then what is continuous from period to period, with the value at which it starts. Of the first
-/// `shown` waves, and those that were added to uncouple them.
+/// put in; then what is continuous from period to period, with the value at which it starts.
 #[must_use]
-pub fn solved_equations(recurrence: &Recurrence, shown: usize) -> (Vec<Formula>, Vec<Formula>) {
-    Writer::new(recurrence).solved(shown)
+pub fn solved_equations(recurrence: &Recurrence) -> (Vec<Formula>, Vec<Formula>) {
+    Writer::new(recurrence).solved(recurrence.statement().waves.len())
 }
 
 /// A linear form in the waves of a recurrence on the n-th period, as text; sums over earlier periods are

@@ -10,12 +10,16 @@ use wavestep_studies::report::{Request, page};
 
 pub fn run(options: &Report) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;
-    let request =
-        Request { version: env!("CARGO_PKG_VERSION").to_owned(), command: command(options) };
     let progress = progress::spinner("making the page");
-    let page = page(&problem, &request, |last| {
-        derivation(&problem).into_iter().chain(pulling(&problem, last)).collect()
-    })?;
+    let page = page(
+        &problem,
+        &Request {
+            version: env!("CARGO_PKG_VERSION"),
+            command: &command(options),
+            notes: &|last| derivation(&problem).into_iter().chain(pulling(&problem, last)).collect(),
+            progress: &|part| progress.set_message(part),
+        },
+    );
     drop(progress);
     output::written(page, Some(&options.output))
 }

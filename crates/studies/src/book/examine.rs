@@ -159,8 +159,7 @@ fn derived_for(
             return Ok(formulas);
         }
     }
-    let recurrence = stage.solution().recurrence();
-    let (equations, starts) = solved_equations(recurrence, recurrence.statement().waves.len());
+    let (equations, starts) = solved_equations(stage.solution().recurrence());
     let starts = starts.into_iter().map(|mut formula| {
         let text = "at the start, and continuous from period to period";
         formula.remark = Some((text.to_owned(), format!("\\text{{{text}}}")));

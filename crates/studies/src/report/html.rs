@@ -1,28 +1,38 @@
 //! Markup: escaped texts, tables, sections.
 
-use std::fmt::Write as _;
 pub use wavestep_draw::escape;
+
+/// A text with the signs of print in the place of those of a terminal.
+pub fn typeset(text: &str) -> String {
+    let signs = [("->", "→"), ("<=", "≤"), (">=", "≥"), ("*", "·"), (" -", " −"), ("(-", "(−")];
+    let text = signs.iter().fold(text.to_owned(), |text, (plain, sign)| text.replace(plain, sign));
+    text.strip_prefix('-').map_or_else(|| text.clone(), |rest| format!("−{rest}"))
+}
+
+fn set(text: &str) -> String {
+    escape(&typeset(text))
+}
 
 /// A table with a caption; the first cell of a row is its heading.
 pub fn table(caption: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
-    let head: String =
-        heads.iter().map(|head| format!("<th scope=\"col\">{}</th>", escape(head))).collect();
-    let mut body = String::new();
-    for row in rows {
-        let cells = row.iter().enumerate().map(|(i, text)| match i {
-            0 => format!("<th scope=\"row\">{}</th>", escape(text)),
-            _ => format!("<td>{}</td>", escape(text)),
-        });
-        let _ = writeln!(body, "<tr>{}</tr>", cells.collect::<String>());
-    }
+    let head = |text: &&str| match text.is_empty() {
+        true => "<td></td>".to_owned(),
+        false => format!("<th scope=\"col\">{}</th>", set(text)),
+    };
+    let row = |row: &Vec<String>| {
+        let [first, rest @ ..] = &row[..] else { return String::new() };
+        let cells: String = rest.iter().map(|text| format!("<td>{}</td>", set(text))).collect();
+        format!("<tr><th scope=\"row\">{}</th>{cells}</tr>\n", escape(first))
+    };
     format!(
-        "<div class=\"wide\" role=\"region\" aria-label=\"{0}\" tabindex=\"0\"><table>\
-         <caption>{0}</caption>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table></div>\n",
-        escape(caption)
+        "<div class=\"wide\" role=\"group\" aria-label=\"{0}\" tabindex=\"0\"><table>\
+         <caption>{0}</caption>\n<thead><tr>{1}</tr></thead>\n<tbody>\n{2}</tbody></table></div>\n",
+        set(caption),
+        heads.iter().map(head).collect::<String>(),
+        rows.iter().map(row).collect::<String>()
     )
 }
 
-/// A section with its heading.
 pub fn section(id: &str, heading: &str, contents: &str) -> String {
     let heading = escape(heading);
     format!(
@@ -31,7 +41,7 @@ pub fn section(id: &str, heading: &str, contents: &str) -> String {
 }
 
 pub fn paragraph(text: &str) -> String {
-    format!("<p>{}</p>\n", escape(text))
+    format!("<p>{}</p>\n", set(text))
 }
 
 /// A sentence from the message of an error, which begins in lower case and ends without a stop.
@@ -40,6 +50,6 @@ pub fn left_out(reason: &impl ToString) -> String {
 }
 
 pub fn list(items: &[String]) -> String {
-    let items = items.iter().map(|item| format!("<li>{}</li>\n", escape(item)));
+    let items = items.iter().map(|item| format!("<li>{}</li>\n", set(item)));
     format!("<ul>\n{}</ul>\n", items.collect::<String>())
 }

@@ -1,4 +1,4 @@
-//! One page about a scene: its line, its formulas, events, diagrams, signals, extrema.
+//! One page about a scene: its line, its derivation, events, diagrams, signals, extrema.
 //!
 //! The page is complete in itself: nothing is loaded, and the same scene gives the same bytes. What a scene
 //! has no meaning for is left out with one line that says why. Values under a pointer are doubles nearest to
@@ -10,106 +10,98 @@ mod numbers;
 mod told;
 
 use crate::picture::{PictureError, against_time, courses, lagrange, usual_end};
-use html::{escape, left_out, list, paragraph, section};
+use html::{escape, left_out, list, paragraph, section, typeset};
 use serde_json::Value as Json;
-use std::fmt::Write as _;
-use wavestep::export::{Formula, TEXT_WIDTH, assumed_factors, solved_equations};
+use wavestep::ball::in_decimals;
+use wavestep::export::{Block, Formula, assumed_factors, solved_equations};
 use wavestep::field::Quantity;
-use wavestep::problem::{Form, Orders, Problem, ToDerive};
+use wavestep::problem::{Form, Orders, Problem, ProblemError, ToDerive};
+use wavestep::scene::Joint;
 use wavestep_draw::{Caption, Chart as _};
 use wavestep_polynomial::Rational;
 
-/// The last period whose pieces are shown.
+/// The last period whose pieces are shown of equations that are stated.
 const LAST_PIECE: usize = 2;
 
 /// The width of a line of a formula, and the longest formula that is shown, both in characters.
-const WIDTH: usize = 84;
+const WIDTH: usize = 72;
 const LONGEST: usize = 4_000;
-
-/// What a page says beside what it finds.
-#[derive(Clone, Debug, Default)]
-pub struct Request {
-    pub version: String,
-    /// The command that makes the page again.
-    pub command: String,
-}
-
-/// The page. `notes` tells how long closed contacts are right up to a time.
-pub fn page(
-    problem: &Problem,
-    request: &Request,
-    notes: impl Fn(&Rational) -> Vec<String>,
-) -> Result<String, PictureError> {
-    let zero = Rational::default();
-    let end = usual_end(problem, &zero);
-    let names = problem.observables();
-    let mut body = section("scene", "The scene", &scene(problem));
-    body += &section("equations", "The recurrence and its first pieces", &formulas(problem));
-    let opens = problem.scaled().is_ok_and(|scaled| scaled.scene().contacts_open);
-    body += &section("events", "Events at contacts", &told::events(problem, opens));
-    let mut assumed = Vec::new();
-    match &end {
-        Err(error) => {
-            let reason = left_out(error);
-            body += &section("signals", "Observables, diagram and extrema", &reason);
-        }
-        Ok(to) => {
-            let window = [&zero, to];
-            let shown = |found: Result<String, PictureError>| {
-                found.unwrap_or_else(|error| left_out(&error))
-            };
-            body += &section(
-                "signals",
-                "Observables against time",
-                &shown(signals(problem, &names, to)),
-            );
-            body += &section("diagram", "Place and time", &shown(diagram(problem, to)));
-            let found = match names.is_empty() {
-                true => Err(PictureError::NothingObserved),
-                false => told::extrema(problem, &names, window),
-            };
-            body += &section("extrema", "Largest and smallest values", &shown(found));
-            body +=
-                &section("energies", "Energies", &shown(told::energies(problem, &names, window)));
-            let last = wavestep::ball::in_decimals(to);
-            let unit = problem.time_unit();
-            assumed.push(
-                format!("Values are shown for 0 ≤ t ≤ {last} {unit}").trim_end().to_owned() + ".",
-            );
-            assumed.extend(notes(to));
-        }
-    }
-    assumed.extend(problem.assumptions().iter().map(|one| format!("It is assumed that {one}.")));
-    assumed.extend(general_assumptions(problem, opens));
-    body += &section("assumptions", "What is assumed", &list(&assumed));
-    let _ = write!(
-        body,
-        "<footer><p>Made by wavestep {}. The command that makes this page again:</p>\n<pre>{}</pre></footer>\n",
-        escape(&request.version),
-        escape(&request.command)
-    );
-    let title = escape(problem.title());
-    Ok(format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n\
-         <style>{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n{body}</main>\n\
-         <script>{SCRIPT}</script>\n</body>\n</html>\n"
-    ))
-}
 
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
+
+/// What a page says beside what it finds.
+pub struct Request<'a> {
+    pub version: &'a str,
+    /// The command that makes the page again.
+    pub command: &'a str,
+    /// Until when closed contacts are right, where values are shown up to a time.
+    pub notes: &'a dyn Fn(&Rational) -> Vec<String>,
+    /// Is told what is worked out.
+    pub progress: &'a dyn Fn(&'static str),
+}
+
+/// The page about a problem. It costs what the answers cost that stand on it.
+pub fn page(problem: &Problem, request: &Request<'_>) -> String {
+    let zero = Rational::default();
+    let names = problem.observables();
+    let opens = problem.scaled().is_ok_and(|scaled| scaled.scene().contacts_open);
+    let end = usual_end(problem, &zero);
+    let on_window = |show: &dyn Fn(&Rational) -> Result<String, PictureError>| match &end {
+        Ok(to) => show(to).unwrap_or_else(|error| left_out(&error)),
+        Err(error) => left_out(error),
+    };
+    let observed = |show: &dyn Fn(&Rational) -> Result<String, PictureError>| {
+        on_window(&|to| match names.is_empty() {
+            true => Err(PictureError::NothingObserved),
+            false => show(to),
+        })
+    };
+    let mut body = String::new();
+    let mut add = |id: &str, heading: &'static str, contents: &dyn Fn() -> String| {
+        (request.progress)(heading);
+        body += &section(id, heading, &contents());
+    };
+    add("scene", "The scene", &|| scene(problem));
+    add("derivation", "Derivation", &|| derivation(problem));
+    add("events", "Events at contacts", &|| told::events(problem, opens));
+    add("signals", "Observables against time", &|| observed(&|to| signals(problem, &names, to)));
+    add("diagrams", "Place and time", &|| on_window(&|to| diagrams(problem, to)));
+    add("extrema", "Largest and smallest values", &|| {
+        observed(&|to| told::extrema(problem, &names, [&zero, to]))
+    });
+    add("energies", "Energies", &|| {
+        observed(&|to| told::energies(problem, &names, [&zero, to]))
+    });
+    let window = end.as_ref().ok();
+    let mut all: Vec<String> = window.map(|to| until(problem, to)).into_iter().collect();
+    all.extend(window.into_iter().flat_map(|to| (request.notes)(to)));
+    add("assumptions", "What is assumed", &|| {
+        let assumed = assumptions(problem, opens);
+        list(&all.iter().cloned().chain(assumed).collect::<Vec<_>>())
+    });
+    let title = escape(problem.title());
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n\
+         <style>{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n{body}\
+         <footer><p>Made by wavestep {}. The command that makes this page again:</p>\n\
+         <pre tabindex=\"0\">{}</pre></footer>\n</main>\n<script>{SCRIPT}</script>\n</body>\n</html>\n",
+        escape(request.version),
+        escape(request.command)
+    )
+}
 
 /// What the text says of itself, the line, and the text.
 fn scene(problem: &Problem) -> String {
     let text = problem.source().text();
     let comment = text.lines().take_while(|line| line.starts_with('#'));
     let about: Vec<&str> = comment.map(|line| line.trim_start_matches('#').trim()).collect();
-    let mut out = String::new();
-    if !about.is_empty() {
-        out += &paragraph(&about.join(" "));
-    }
+    let mut out = match about.is_empty() {
+        true => String::new(),
+        false => paragraph(&about.join(" ")),
+    };
     let values: Vec<String> =
         problem.values().iter().map(|(name, value)| format!("{name} = {value}")).collect();
     if !values.is_empty() {
@@ -119,49 +111,62 @@ fn scene(problem: &Problem) -> String {
         Ok(scaled) => line::drawn(scaled),
         Err(_) => left_out(&"the picture of the line, since equations state no bars and elements"),
     };
-    let _ = write!(
-        out,
-        "<details open><summary>The text of the scene</summary>\n<pre tabindex=\"0\">{}</pre></details>\n",
-        text.lines().map(escape).collect::<Vec<_>>().join("\n")
-    );
-    out
+    let lines = text.lines().map(escape).collect::<Vec<_>>().join("\n");
+    out + &format!(
+        "<details open><summary>The text of the scene</summary>\n<pre tabindex=\"0\">{lines}</pre></details>\n"
+    )
 }
 
-/// The recurrence solved for one wave after another, and pieces.
-fn formulas(problem: &Problem) -> String {
-    let mut out = String::new();
-    // What constants are is told of those that occur.
-    let mut text = String::new();
-    let mut show = |out: &mut String, sentence: &str, formulas: &[Formula]| {
-        text.extend(formulas.iter().map(|formula| formula.to_line() + "\n"));
-        *out += &(paragraph(sentence) + &mathematics(formulas));
-    };
-    match problem.recurrence() {
-        Err(error) if problem.local_contact().is_some() => return left_out(&error),
-        Err(error) => out += &left_out(&error),
-        Ok(recurrence) => {
-            let (equations, starts) = solved_equations(recurrence, problem.waves().len());
-            let sentence =
-                "Waves on the n-th period, solved for one after another; they are zero for n < 0:";
-            show(&mut out, sentence, &equations);
-            if !starts.is_empty() {
-                show(&mut out, "Continuous from period to period, these start at", &starts);
-            }
-        }
+/// How a scene becomes a recurrence, with its first pieces; of equations that are stated these alone.
+fn derivation(problem: &Problem) -> String {
+    match problem.explanation() {
+        Ok(derivation) => derivation.parts().iter().map(part).collect(),
+        Err(ProblemError::NothingToExplain) => stated(problem),
+        Err(error) if problem.local_contact().is_some() => left_out(&error),
+        Err(error) => left_out(&error) + &pieces(problem),
     }
+}
+
+fn part(part: &Block) -> String {
+    match part {
+        Block::Heading(text) => format!("<h3>{}</h3>\n", escape(text)),
+        Block::Sentence(text, _) => {
+            // Names stand between backquotes.
+            let parts = text.split('`').enumerate().map(|(i, part)| match i % 2 {
+                0 => escape(&typeset(part)),
+                _ => format!("<code>{}</code>", escape(part)),
+            });
+            format!("<p>{}</p>\n", parts.collect::<String>())
+        }
+        Block::Equations(formulas) => mathematics(formulas),
+    }
+}
+
+fn stated(problem: &Problem) -> String {
+    let Ok(recurrence) = problem.recurrence() else { return pieces(problem) };
+    let (equations, starts) = solved_equations(recurrence);
+    let mut out = paragraph("On the n-th period, solved for one wave after another; waves are zero for n < 0:");
+    out += &mathematics(&equations);
+    if !starts.is_empty() {
+        out += &paragraph("These are continuous from period to period, and start at");
+        out += &mathematics(&starts);
+    }
+    out + &pieces(problem)
+}
+
+fn pieces(problem: &Problem) -> String {
     let orders = Orders::Through(0, LAST_PIECE);
     let derived = problem.functions(ToDerive::Waves, orders, Form::Period);
     match derived.and_then(|derived| problem.formulas(&derived, Form::Piecewise)) {
         Ok(found) => {
             let all: Vec<Formula> = found.into_iter().flat_map(|(_, formulas)| formulas).collect();
-            let sentence = "The first pieces, in local time s, with the times at which they hold:";
-            show(&mut out, sentence, &all);
+            let text: String = all.iter().map(|formula| formula.to_line() + "\n").collect();
+            let constants = problem.constants(Some(&text)).unwrap_or_default();
+            let constants =
+                if constants.is_empty() { String::new() } else { list(&constants) };
+            "<h3>The first pieces</h3>\n".to_owned() + &mathematics(&all) + &constants
         }
-        Err(error) => out += &left_out(&format!("the first pieces: {error}")),
-    }
-    match problem.constants(Some(&text)) {
-        Ok(constants) if !constants.is_empty() => out + &list(&constants),
-        _ => out,
+        Err(error) => left_out(&format!("the first pieces: {error}")),
     }
 }
 
@@ -173,14 +178,9 @@ fn mathematics(formulas: &[Formula]) -> String {
             return left_out(&format!("{name}, which has {} characters", line.len()));
         }
         let remark = formula.remark.as_ref().map_or(String::new(), |(text, _)| {
-            let text =
-                text.replace("<=", "≤").replace(">=", "≥").replace('*', "·").replace('-', "−");
-            format!("<span class=\"remark\">{}</span>", escape(&text))
+            format!("<span class=\"remark\">{}</span>", escape(&typeset(text)))
         });
-        format!(
-            "<div class=\"formula\">{}{remark}</div>\n",
-            formula.to_mathml(WIDTH.min(TEXT_WIDTH))
-        )
+        format!("<div class=\"formula\">{}{remark}</div>\n", formula.to_mathml(WIDTH))
     };
     let all: String = formulas.iter().map(one).collect();
     format!(
@@ -195,51 +195,46 @@ fn signals(problem: &Problem, names: &[&str], to: &Rational) -> Result<String, P
     let ends = (0.0, crate::nearest(to));
     let figure = against_time("", &courses, problem.has_units(), ends, Caption::default())?;
     let samples = numbers::samples(problem, names, to)?;
-    let svg = figure.svg_named("observables");
-    Ok(explored("observables", &svg, &samples, (to, problem.has_units()), "x"))
+    Ok(explored("observables", &figure.svg_named("observables"), &samples, "x"))
 }
 
-/// The diagram of place and time, with values of the field at a node that is pointed at.
-fn diagram(problem: &Problem, to: &Rational) -> Result<String, PictureError> {
+/// Diagrams of place and time, with values of the field at a node that is pointed at.
+fn diagrams(problem: &Problem, to: &Rational) -> Result<String, PictureError> {
     let zero = Rational::default();
     let evaluator = problem.field_evaluator(to)?;
-    let mut out = String::new();
-    for quantity in [Quantity::Velocity, Quantity::Force] {
-        let diagram = lagrange(&evaluator, quantity, [&zero, to], Caption::default())?.titled("");
-        let fields = numbers::fields(&evaluator, quantity, to)?;
+    let quantities = [Quantity::Velocity, Quantity::Force];
+    let data = numbers::fields(&evaluator, &quantities, to)?;
+    let figure = |(quantity, data): (&Quantity, &Json)| -> Result<String, PictureError> {
+        let diagram = lagrange(&evaluator, *quantity, [&zero, to], Caption::default())?.titled("");
         let name = format!("field-{}", quantity.name());
-        let svg = diagram.svg_named(&name);
-        out += &explored(&name, &svg, &fields, (to, problem.has_units()), "y");
-    }
-    Ok(out)
+        Ok(explored(&name, &diagram.svg_named(&name), data, "y"))
+    };
+    quantities.iter().zip(&data).map(figure).collect()
 }
 
 /// A picture that can be pointed at and zoomed along its axis of time, with its data.
-fn explored(
-    name: &str,
-    svg: &str,
-    data: &Json,
-    (to, dimensional): (&Rational, bool),
-    axis: &str,
-) -> String {
-    let (end, factor) = numbers::shown(to, dimensional);
+fn explored(name: &str, svg: &str, data: &Json, axis: &str) -> String {
     // No text of the data ends the element.
     let data = data.to_string().replace('<', "\\u003c");
     format!(
-        "<figure class=\"explored\" data-axis=\"{axis}\" data-end=\"{end}\" data-factor=\"{factor}\">\n{svg}\
+        "<figure class=\"explored\" data-axis=\"{axis}\">\n{svg}\
          <script type=\"application/json\" id=\"{name}-data\">{data}</script>\n</figure>\n"
     )
 }
 
-fn general_assumptions(problem: &Problem, opens: bool) -> Vec<String> {
-    let mut all = Vec::new();
+fn until(problem: &Problem, to: &Rational) -> String {
+    let shown = format!("Values are shown for 0 <= t <= {} {}", in_decimals(to), problem.time_unit());
+    shown.trim_end().to_owned() + "; where one jumps, the limit from later times."
+}
+
+fn assumptions(problem: &Problem, opens: bool) -> Vec<String> {
+    let found = problem.assumptions();
+    let mut all: Vec<String> = found.iter().map(|one| format!("It is assumed that {one}.")).collect();
     if let Ok(scaled) = problem.scaled() {
-        let contact = wavestep::scene::Joint::Contact;
-        if scaled.scene().line.joints.contains(&contact) && !opens {
-            all.push("Contacts are kept closed, also where they would pull.".to_owned());
-        }
         if opens {
             all.push("Contacts carry compression only: they open, and close again.".to_owned());
+        } else if scaled.scene().line.joints.contains(&Joint::Contact) {
+            all.push("Contacts are kept closed, also where they would pull.".to_owned());
         }
         all.push(
             "Bars are uniform and carry plane longitudinal waves without dispersion; displacement and \
@@ -253,8 +248,5 @@ fn general_assumptions(problem: &Problem, opens: bool) -> Vec<String> {
             all.push(format!("Taken to be non-zero: {}.", factors.join(", ")));
         }
     }
-    all.push(format!(
-        "Pieces are shown up to n = {LAST_PIECE}. Where a value jumps, the limit from later times is shown."
-    ));
     all
 }

@@ -3,8 +3,8 @@
 
 use crate::picture::{PictureError, Places, Prefixed};
 use serde_json::{Value as Json, json};
-use wavestep::ball::{Ball, in_decimals};
-use wavestep::field::{FieldEvaluator, Mesh, Quantity};
+use wavestep::ball::in_decimals;
+use wavestep::field::{FieldEvaluator, Fields, Mesh, Quantity};
 use wavestep::limits::VALUE_BITS;
 use wavestep::problem::{Digits, Problem};
 use wavestep::scene::End;
@@ -31,6 +31,17 @@ pub fn times(to: &Rational, parts: i64) -> Vec<Rational> {
     times
 }
 
+/// What figures share: times as short decimals, the end of the window, and the factor of shown times.
+fn over_time(times: &[Rational], to: &Rational, dimensional: bool) -> Json {
+    let end = crate::nearest(to);
+    json!({
+        "times": times.iter().map(in_decimals).collect::<Vec<_>>(),
+        "unit": if dimensional { "s" } else { "" },
+        "end": end,
+        "factor": Prefixed::in_scene(dimensional, "s", end).factor,
+    })
+}
+
 /// The values of observables at times, by name; a quantity whose values are not proven has none.
 pub fn samples(problem: &Problem, names: &[&str], to: &Rational) -> Result<Json, PictureError> {
     let times = times(to, PARTS);
@@ -42,61 +53,49 @@ pub fn samples(problem: &Problem, names: &[&str], to: &Rational) -> Result<Json,
         let values = found.map(|found| found.values.iter().map(Value::to_f64).collect::<Vec<_>>());
         Ok(json!({ "name": name, "unit": wanted.unit(), "values": values }))
     };
-    let quantities = names.iter().map(quantity).collect::<Result<Vec<_>, _>>()?;
-    Ok(json!({
-        "times": times.iter().map(in_decimals).collect::<Vec<_>>(),
-        "unit": problem.time_unit(),
-        "quantities": quantities,
-    }))
+    let mut data = over_time(&times, to, problem.has_units());
+    data["quantities"] = names.iter().map(quantity).collect::<Result<_, _>>()?;
+    Ok(data)
 }
 
-/// The values of a field at the nodes of bars, with the places of these nodes in a diagram.
+/// The values of fields at the nodes of bars, with the places of these nodes in a diagram.
 pub fn fields(
     evaluator: &FieldEvaluator<'_>,
-    quantity: Quantity,
+    quantities: &[Quantity],
     to: &Rational,
-) -> Result<Json, PictureError> {
+) -> Result<Vec<Json>, PictureError> {
     let network = evaluator.network();
     let scene = network.scene();
-    let zero = Rational::default();
-    let bars = evaluator.waves([&zero, to], 2)?;
+    let bars = evaluator.waves([&Rational::default(), to], 2)?;
     let places = Places::of(network, bars.iter().map(|bar| bar.length))?;
     let largest = places.window.0.abs().max(places.window.1);
-    let metre = Prefixed::in_scene(scene.dimensional, "m", largest);
-    let names: Vec<&str> = evaluator.bars().collect();
+    let factor = Prefixed::in_scene(scene.dimensional, "m", largest).factor;
     let mirrored = |bar: usize| bar == 0 && scene.line.left == End::Endless;
     let times = times(to, PARTS_OF_FIELDS);
     let mesh = Mesh::new(CELLS)?;
-    let mut rows = Vec::with_capacity(times.len());
-    for time in &times {
-        let fields = evaluator.at(time, &mesh)?;
-        let row = fields.bars.iter().enumerate().flat_map(|(bar, own)| {
+    let states = times.iter().map(|time| evaluator.at(time, &mesh)).collect::<Result<Vec<_>, _>>()?;
+    let row = |state: &Fields, quantity: Quantity| -> Vec<Json> {
+        let bars = state.bars.iter().enumerate();
+        let nodes = bars.flat_map(|(bar, own)| {
             let left = places.lefts[bar];
             let place = move |x: f64| if mirrored(bar) { -x } else { left + x };
             own.x.iter().zip(own.of(quantity)).map(move |(x, value)| {
-                let shown = place(*x) * metre.factor;
-                json!([bar, x, (shown * 1e4).round() / 1e4, value.value])
+                let shown = (place(*x) * factor * 1e4).round() / 1e4;
+                json!([bar, x, shown, value.value])
             })
         });
-        rows.push(row.collect::<Vec<Json>>());
-    }
-    let dimensional = |unit: String| if scene.dimensional { unit } else { String::new() };
-    let [low, high] = [places.window.0, places.window.1].map(|x| x * metre.factor);
-    Ok(json!({
-        "times": times.iter().map(in_decimals).collect::<Vec<_>>(),
-        "unit": dimensional("s".to_owned()),
-        "quantity": quantity.name(),
-        "own": dimensional(quantity.dimension().unit()),
-        "place": dimensional("m".to_owned()),
-        "across": [low, high],
-        "bars": names,
-        "rows": rows,
-    }))
-}
-
-/// A time in shown units.
-pub fn shown(to: &Rational, dimensional: bool) -> (f64, f64) {
-    let seconds = Ball::from_rational(to, 64).to_double().0;
-    let unit = Prefixed::in_scene(dimensional, "s", seconds);
-    (seconds * unit.factor, unit.factor)
+        nodes.collect()
+    };
+    let data = |quantity: &Quantity| {
+        let unit = |unit: String| if scene.dimensional { unit } else { String::new() };
+        let mut data = over_time(&times, to, scene.dimensional);
+        data["quantity"] = quantity.name().into();
+        data["own"] = unit(quantity.dimension().unit()).into();
+        data["place"] = unit("m".to_owned()).into();
+        data["across"] = json!([places.window.0 * factor, places.window.1 * factor]);
+        data["bars"] = evaluator.bars().collect();
+        data["rows"] = states.iter().map(|state| row(state, *quantity)).collect();
+        data
+    };
+    Ok(quantities.iter().map(data).collect())
 }
