@@ -194,8 +194,8 @@ impl Formula {
                 0 => (mathml::tokens(&head), "<mo>=</mo>"),
                 _ => (String::new(), "<mspace width=\"3em\"/>"),
             };
-            let line = mathml::tokens(line);
-            rows += &format!("<mtr><mtd>{head}</mtd><mtd>{front}{line}</mtd></mtr>");
+            let line = mathml::tokens(&format!("{front}{line}"));
+            rows += &format!("<mtr><mtd>{head}</mtd><mtd>{line}</mtd></mtr>");
         }
         format!("<math display=\"block\"><mtable displaystyle=\"true\">{rows}</mtable></math>")
     }

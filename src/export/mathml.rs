@@ -102,6 +102,10 @@ pub(super) fn tokens(markup: &str) -> String {
         match first {
             '<' => out.push_str(token),
             ' ' => {}
+            // The sign of what follows, not a difference.
+            '-' if ["=</mo>", "(</mo>", "<mrow>"].iter().any(|end| out.ends_with(end)) => {
+                out.push_str("<mo form=\"prefix\">−</mo>");
+            }
             '-' => out.push_str("<mo>−</mo>"),
             '\'' => out.push_str("<mo>′</mo>"),
             '(' | ')' | '[' | ']' => {

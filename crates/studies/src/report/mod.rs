@@ -9,14 +9,16 @@ mod line;
 mod numbers;
 mod told;
 
-use crate::picture::{PictureError, against_time, courses, lagrange, usual_end};
+use crate::picture::{PictureError, against_time, course, lagrange, usual_end};
 use html::{escape, left_out, list, paragraph, section, typeset};
 use serde_json::Value as Json;
 use wavestep::ball::in_decimals;
 use wavestep::export::{Block, Formula, assumed_factors, solved_equations};
 use wavestep::field::Quantity;
-use wavestep::problem::{Form, Orders, Problem, ProblemError, ToDerive};
+use wavestep::planner::Purpose;
+use wavestep::problem::{Form, Orders, Problem, ProblemError, ToDerive, Wanted};
 use wavestep::scene::Joint;
+use wavestep::signal::Signal;
 use wavestep_draw::{Caption, Chart as _};
 use wavestep_polynomial::Rational;
 
@@ -41,21 +43,26 @@ pub struct Request<'a> {
     pub progress: &'a dyn Fn(&'static str),
 }
 
+/// An observable, followed once for all that is told of it.
+struct Observed<'a> {
+    wanted: Wanted,
+    signal: Box<dyn Signal + 'a>,
+}
+
 /// The page about a problem. It costs what the answers cost that stand on it.
 pub fn page(problem: &Problem, request: &Request<'_>) -> String {
-    let zero = Rational::default();
-    let names = problem.observables();
     let opens = problem.scaled().is_ok_and(|scaled| scaled.scene().contacts_open);
+    let zero = Rational::default();
     let end = usual_end(problem, &zero);
-    let on_window = |show: &dyn Fn(&Rational) -> Result<String, PictureError>| match &end {
-        Ok(to) => show(to).unwrap_or_else(|error| left_out(&error)),
-        Err(error) => left_out(error),
-    };
-    let observed = |show: &dyn Fn(&Rational) -> Result<String, PictureError>| {
-        on_window(&|to| match names.is_empty() {
-            true => Err(PictureError::NothingObserved),
-            false => show(to),
-        })
+    let observed = end.as_ref().ok().map(|to| observed(problem, [&zero, to]));
+    let seen = |show: &dyn Fn(&[Observed<'_>], &Rational) -> Result<String, PictureError>| {
+        match (&end, &observed) {
+            (Ok(to), Some(Ok(observed))) => {
+                show(observed, to).unwrap_or_else(|error| left_out(&error))
+            }
+            (Err(error), _) | (_, Some(Err(error))) => left_out(error),
+            (Ok(_), None) => String::new(),
+        }
     };
     let mut body = String::new();
     let mut add = |id: &str, heading: &'static str, contents: &dyn Fn() -> String| {
@@ -65,20 +72,19 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
     add("scene", "The scene", &|| scene(problem));
     add("derivation", "Derivation", &|| derivation(problem));
     add("events", "Events at contacts", &|| told::events(problem, opens));
-    add("signals", "Observables against time", &|| observed(&|to| signals(problem, &names, to)));
-    add("diagrams", "Place and time", &|| on_window(&|to| diagrams(problem, to)));
+    add("signals", "Observables against time", &|| seen(&|all, to| signals(problem, all, to)));
+    add("diagrams", "Place and time", &|| match &end {
+        Ok(to) => diagrams(problem, to).unwrap_or_else(|error| left_out(&error)),
+        Err(error) => left_out(error),
+    });
     add("extrema", "Largest and smallest values", &|| {
-        observed(&|to| told::extrema(problem, &names, [&zero, to]))
+        seen(&|all, to| told::extrema(problem, all, [&zero, to]))
     });
-    add("energies", "Energies", &|| {
-        observed(&|to| told::energies(problem, &names, [&zero, to]))
-    });
-    let window = end.as_ref().ok();
-    let mut all: Vec<String> = window.map(|to| until(problem, to)).into_iter().collect();
-    all.extend(window.into_iter().flat_map(|to| (request.notes)(to)));
+    add("energies", "Energies", &|| seen(&|all, to| told::energies(problem, all, [&zero, to])));
     add("assumptions", "What is assumed", &|| {
-        let assumed = assumptions(problem, opens);
-        list(&all.iter().cloned().chain(assumed).collect::<Vec<_>>())
+        let of_window = |to| [until(problem, to)].into_iter().chain((request.notes)(to));
+        let all = end.iter().flat_map(of_window).chain(assumptions(problem, opens));
+        list(&all.collect::<Vec<_>>())
     });
     let title = escape(problem.title());
     format!(
@@ -91,6 +97,19 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
         escape(request.version),
         escape(request.command)
     )
+}
+
+fn observed<'a>(
+    problem: &'a Problem,
+    window: [&Rational; 2],
+) -> Result<Vec<Observed<'a>>, PictureError> {
+    let observed = |name| -> Result<Observed<'a>, PictureError> {
+        let wanted = problem.wanted(name)?;
+        let signal = problem.signal_on(&wanted, window, Purpose::Search)?;
+        Ok(Observed { wanted, signal })
+    };
+    let all: Vec<_> = problem.observables().into_iter().map(observed).collect::<Result<_, _>>()?;
+    if all.is_empty() { Err(PictureError::NothingObserved) } else { Ok(all) }
 }
 
 /// What the text says of itself, the line, and the text.
@@ -189,12 +208,16 @@ fn mathematics(formulas: &[Formula]) -> String {
 }
 
 /// Observables as curves, with values at a time that is pointed at.
-fn signals(problem: &Problem, names: &[&str], to: &Rational) -> Result<String, PictureError> {
-    let zero = Rational::default();
-    let courses = courses(problem, &[], [&zero, to])?;
-    let ends = (0.0, crate::nearest(to));
-    let figure = against_time("", &courses, problem.has_units(), ends, Caption::default())?;
-    let samples = numbers::samples(problem, names, to)?;
+fn signals(
+    problem: &Problem,
+    observed: &[Observed<'_>],
+    to: &Rational,
+) -> Result<String, PictureError> {
+    let drawn = |one: &Observed<'_>| course(problem, &one.wanted, &*one.signal);
+    let courses = observed.iter().map(drawn).collect::<Result<Vec<_>, _>>()?;
+    let (ends, dimensional) = ((0.0, crate::nearest(to)), problem.has_units());
+    let figure = against_time("", &courses, dimensional, ends, Caption::default())?;
+    let samples = numbers::samples(observed, to, dimensional);
     Ok(explored("observables", &figure.svg_named("observables"), &samples, "x"))
 }
 

@@ -1,14 +1,14 @@
 //! Values that the page shows under a pointer: doubles nearest to the exact values, at times that are
 //! short decimals, so that `eval` and `field` give the same for what is shown.
 
+use super::Observed;
 use crate::picture::{PictureError, Places, Prefixed};
 use serde_json::{Value as Json, json};
 use wavestep::ball::in_decimals;
 use wavestep::field::{FieldEvaluator, Fields, Mesh, Quantity};
 use wavestep::limits::VALUE_BITS;
-use wavestep::problem::{Digits, Problem};
 use wavestep::scene::End;
-use wavestep::signal::{Limit, Value};
+use wavestep::signal::{Limit, digits};
 use wavestep_polynomial::Rational;
 
 /// Into how many parts the window is cut for observables, and for fields; and each bar.
@@ -42,20 +42,18 @@ fn over_time(times: &[Rational], to: &Rational, dimensional: bool) -> Json {
     })
 }
 
-/// The values of observables at times, by name; a quantity whose values are not proven has none.
-pub fn samples(problem: &Problem, names: &[&str], to: &Rational) -> Result<Json, PictureError> {
+/// The values of observables at times, by name; one whose digits are not all proven has none.
+pub fn samples(observed: &[Observed<'_>], to: &Rational, dimensional: bool) -> Json {
     let times = times(to, PARTS);
-    let digits =
-        Digits { count: DIGITS, max_bits: VALUE_BITS, limit: Limit::Right, count_echoes: false };
-    let quantity = |name: &&str| -> Result<Json, PictureError> {
-        let wanted = problem.wanted(name)?;
-        let found = problem.proven(&wanted, &times, digits, &|| ()).ok();
-        let values = found.map(|found| found.values.iter().map(Value::to_f64).collect::<Vec<_>>());
-        Ok(json!({ "name": name, "unit": wanted.unit(), "values": values }))
+    let quantity = |Observed { wanted, signal }: &Observed<'_>| {
+        let value = |time| digits(&**signal, time, Limit::Right, DIGITS, VALUE_BITS);
+        let values: Result<Vec<f64>, _> =
+            times.iter().map(|time| value(time).map(|value| value.to_f64())).collect();
+        json!({ "name": wanted.name, "unit": wanted.unit(), "values": values.ok() })
     };
-    let mut data = over_time(&times, to, problem.has_units());
-    data["quantities"] = names.iter().map(quantity).collect::<Result<_, _>>()?;
-    Ok(data)
+    let mut data = over_time(&times, to, dimensional);
+    data["quantities"] = observed.iter().map(quantity).collect();
+    data
 }
 
 /// The values of fields at the nodes of bars, with the places of these nodes in a diagram.

@@ -1,14 +1,14 @@
 //! Events, extrema and energies of a scene.
 
+use super::Observed;
 use super::html::{escape, left_out, list, paragraph, table, typeset};
 use crate::picture::PictureError;
 use crate::told::Teller;
 use wavestep::history::Ending;
 use wavestep::limits::{SEARCH_BITS, VALUE_BITS};
-use wavestep::planner::Purpose;
-use wavestep::problem::{Digits, Problem, Wanted};
+use wavestep::problem::Problem;
 use wavestep::scene::Measure;
-use wavestep::signal::{Goal, Limit, Place, Search, Value};
+use wavestep::signal::{Goal, Limit, Place, Search, Value, digits};
 use wavestep_polynomial::Rational;
 
 /// Significant digits of what is told.
@@ -42,15 +42,13 @@ pub fn events(problem: &Problem, opens: bool) -> String {
 /// The largest and the smallest value of each observable on a window, and where they are.
 pub fn extrema(
     problem: &Problem,
-    names: &[&str],
+    observed: &[Observed<'_>],
     window: [&Rational; 2],
 ) -> Result<String, PictureError> {
     let teller = Teller { problem, digits: DIGITS };
     let mut rows = Vec::new();
-    for name in names {
-        let wanted = problem.wanted(name)?;
-        let signal = problem.signal_on(&wanted, window, Purpose::Search)?;
-        let search = Search::new(&*signal)?;
+    for Observed { wanted, signal } in observed {
+        let search = Search::new(&**signal)?;
         for (word, goal) in [("largest", Goal::Largest), ("smallest", Goal::Smallest)] {
             let [value, places] = match search.extremum(goal, DIGITS, SEARCH_BITS) {
                 Ok(found) => [
@@ -59,7 +57,7 @@ pub fn extrema(
                 ],
                 Err(error) => ["not found".to_owned(), error.to_string()],
             };
-            rows.push(vec![(*name).to_owned(), word.to_owned(), value, places]);
+            rows.push(vec![wanted.name.clone(), word.to_owned(), value, places]);
         }
     }
     let [from, to] = window.map(|time| teller.time(&Value::Exact(time.clone())));
@@ -67,16 +65,20 @@ pub fn extrema(
     Ok(table(&caption, &["observable", "", "value", "where"], &rows))
 }
 
-/// Places, plateaus as one where they follow one another.
+/// Places, with plateaus as one where they follow one another, and with the value at their ends.
 fn joined(places: &[Place]) -> Vec<Place> {
     let mut all: Vec<Place> = Vec::new();
     for place in places {
-        match (all.last_mut(), place) {
-            (
-                Some(Place::Plateau { to, closed, .. }),
-                Place::Plateau { from, to: end, closed: own },
-            ) if to == from => (*to, *closed) = (end.clone(), *own),
-            _ => all.push(place.clone()),
+        let Some(Place::Plateau { to, closed, .. }) = all.last_mut() else {
+            all.push(place.clone());
+            continue;
+        };
+        match place {
+            Place::Plateau { from, to: end, closed: own } if from == to => {
+                (*to, *closed) = (end.clone(), *own);
+            }
+            Place::Arrival { time, after: true, .. } if time == to => *closed = true,
+            other => all.push(other.clone()),
         }
     }
     all
@@ -92,31 +94,26 @@ fn places(teller: &Teller<'_>, places: &[Place]) -> String {
 /// Energies at the beginning and the end of a window.
 pub fn energies(
     problem: &Problem,
-    names: &[&str],
+    observed: &[Observed<'_>],
     window: [&Rational; 2],
 ) -> Result<String, PictureError> {
     let teller = Teller { problem, digits: DIGITS };
-    let times = window.map(Clone::clone);
-    let energy = |name: &&str| -> Option<Wanted> {
-        let wanted = problem.wanted(name).ok()?;
-        (problem.measure(&wanted) == Some(Measure::Energy)).then_some(wanted)
-    };
     let mut rows = Vec::new();
-    for wanted in names.iter().filter_map(energy) {
-        let digits = Digits {
-            count: DIGITS,
-            max_bits: VALUE_BITS,
-            limit: Limit::Right,
-            count_echoes: false,
-        };
-        let found = problem.proven(&wanted, &times, digits, &|| ())?;
-        let values = found.values.iter().map(|value| teller.value(value, wanted.dimension));
-        rows.push([wanted.name.clone()].into_iter().chain(values).collect());
+    for Observed { wanted, signal } in observed {
+        if problem.measure(wanted) == Some(Measure::Energy) {
+            let mut row = vec![wanted.name.clone()];
+            for time in window {
+                let energy = digits(&**signal, time, Limit::Right, DIGITS, VALUE_BITS)?;
+                row.push(teller.value(&energy, wanted.dimension));
+            }
+            rows.push(row);
+        }
     }
     if rows.is_empty() {
         let reason = "no energy is observed; `observe energy = energy(line)` would show it";
         return Ok(left_out(&reason));
     }
-    let heads = times.map(|time| format!("at t = {}", teller.time(&Value::Exact(time))));
+    let heads =
+        window.map(|time| format!("at t = {}", teller.time(&Value::Exact(time.clone()))));
     Ok(table("Energies at the ends of the window", &["energy", &heads[0], &heads[1]], &rows))
 }
