@@ -59,7 +59,11 @@ struct Told<'a> {
 
 impl Told<'_> {
     fn text(&self) -> String {
-        let teller = Teller { problem: self.problem, digits: self.options.digits };
+        let teller = Teller {
+            problem: self.problem,
+            digits: self.options.digits,
+            longest_fraction: usize::MAX,
+        };
         let mut text = format!("{}\n", self.problem.title());
         for (sentence, lines) in teller.history(self.history) {
             let _ = write!(text, "\n{sentence}");

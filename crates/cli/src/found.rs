@@ -30,7 +30,7 @@ impl Told<'_> {
     }
 
     fn teller(&self) -> Teller<'_> {
-        Teller { problem: self.problem, digits: self.options.digits }
+        Teller { problem: self.problem, digits: self.options.digits, longest_fraction: usize::MAX }
     }
 
     fn time(&self, time: &Value) -> String {

@@ -16,7 +16,7 @@ pub fn run(options: &Report) -> Result<String, Failure> {
         &Request {
             version: env!("CARGO_PKG_VERSION"),
             command: &command(options),
-            notes: &|last| derivation(&problem).into_iter().chain(pulling(&problem, last)).collect(),
+            closed: &|last| derivation(&problem).or_else(|| pulling(&problem, last)),
             progress: &|part| progress.set_message(part),
         },
     );

@@ -16,6 +16,8 @@ const BOUND_DIGITS: usize = 20;
 pub struct Teller<'a> {
     pub problem: &'a Problem,
     pub digits: usize,
+    /// How many characters a fraction has at most that is told beside its digits.
+    pub longest_fraction: usize,
 }
 
 impl Teller<'_> {
@@ -24,6 +26,9 @@ impl Teller<'_> {
         let dimensional = self.problem.has_units();
         let text = match value {
             Value::Exact(value) if dimensional => in_decimals(value),
+            Value::Exact(fraction) if fraction.to_string().len() > self.longest_fraction => {
+                value.decimal(self.digits).0.to_string()
+            }
             other => other.to_text(self.digits),
         };
         match dimensional {
@@ -94,7 +99,10 @@ impl Teller<'_> {
             let impulse = self.value(impulse, Dimension::MOMENTUM);
             match duration {
                 Some(duration) => {
-                    format!("closed for {}, impulse {impulse}", self.value(duration, Dimension::TIME))
+                    format!(
+                        "closed for {}, impulse {impulse}",
+                        self.value(duration, Dimension::TIME)
+                    )
                 }
                 None => format!("closed still, impulse so far {impulse}"),
             }
@@ -104,9 +112,10 @@ impl Teller<'_> {
             lines.push("no force until the end".to_owned());
         }
         let restitution = contact.restitution.as_ref();
-        lines.extend(restitution.map(|ratio| {
-            format!("coefficient of restitution {}", ratio.to_text(self.digits))
-        }));
+        lines.extend(
+            restitution
+                .map(|ratio| format!("coefficient of restitution {}", ratio.to_text(self.digits))),
+        );
         let [left, right] = &contact.between;
         (format!("Between {left} and {right}"), lines)
     }

@@ -3,14 +3,19 @@
 pub use wavestep_draw::escape;
 
 /// A text with the signs of print in the place of those of a terminal.
-pub fn typeset(text: &str) -> String {
+fn typeset(text: &str) -> String {
     let signs = [("->", "→"), ("<=", "≤"), (">=", "≥"), ("*", "·"), (" -", " −"), ("(-", "(−")];
     let text = signs.iter().fold(text.to_owned(), |text, (plain, sign)| text.replace(plain, sign));
     text.strip_prefix('-').map_or_else(|| text.clone(), |rest| format!("−{rest}"))
 }
 
-fn set(text: &str) -> String {
-    escape(&typeset(text))
+/// Markup for a text in which names stand between backquotes.
+pub fn set(text: &str) -> String {
+    let parts = text.split('`').enumerate().map(|(i, part)| match i % 2 {
+        0 => escape(&typeset(part)),
+        _ => format!("<code>{}</code>", escape(part)),
+    });
+    parts.collect()
 }
 
 /// A table with a caption; the first cell of a row is its heading.

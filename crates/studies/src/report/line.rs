@@ -170,8 +170,7 @@ impl Figure<'_> {
         let middle = x + long / 2.0;
         let (low, velocity) = match &element.kind {
             Kind::Bar(bar) if bar.is_endless() => {
-                let path =
-                    format!("M{ENDLESS} {0}H0V{1}H{ENDLESS}", px(-half), px(half));
+                let path = format!("M{ENDLESS} {0}H0V{1}H{ENDLESS}", px(-half), px(half));
                 let (x, turned) = if is_left { (x + long, "scale(-1 1)") } else { (x, "") };
                 *out += &sign("bar", &path, x, AXIS, turned);
                 *out += &sign("dots", &format!("M{} 0h17", ENDLESS + 8.0), x, AXIS, turned);

@@ -10,7 +10,7 @@ mod numbers;
 mod told;
 
 use crate::picture::{PictureError, against_time, course, lagrange, usual_end};
-use html::{escape, left_out, list, paragraph, section, typeset};
+use html::{escape, left_out, list, paragraph, section, set};
 use serde_json::Value as Json;
 use wavestep::ball::in_decimals;
 use wavestep::export::{Block, Formula, assumed_factors, solved_equations};
@@ -37,8 +37,8 @@ pub struct Request<'a> {
     pub version: &'a str,
     /// The command that makes the page again.
     pub command: &'a str,
-    /// Until when closed contacts are right, where values are shown up to a time.
-    pub notes: &'a dyn Fn(&Rational) -> Vec<String>,
+    /// Until when closed contacts are right, where values are shown up to a time; nothing without contacts.
+    pub closed: &'a dyn Fn(&Rational) -> Option<String>,
     /// Is told what is worked out.
     pub progress: &'a dyn Fn(&'static str),
 }
@@ -51,18 +51,16 @@ struct Observed<'a> {
 
 /// The page about a problem. It costs what the answers cost that stand on it.
 pub fn page(problem: &Problem, request: &Request<'_>) -> String {
-    let opens = problem.scaled().is_ok_and(|scaled| scaled.scene().contacts_open);
+    let contacts = contacts(problem);
     let zero = Rational::default();
     let end = usual_end(problem, &zero);
     let observed = end.as_ref().ok().map(|to| observed(problem, [&zero, to]));
-    let seen = |show: &dyn Fn(&[Observed<'_>], &Rational) -> Result<String, PictureError>| {
-        match (&end, &observed) {
-            (Ok(to), Some(Ok(observed))) => {
-                show(observed, to).unwrap_or_else(|error| left_out(&error))
-            }
-            (Err(error), _) | (_, Some(Err(error))) => left_out(error),
-            (Ok(_), None) => String::new(),
-        }
+    let seen = |show: &dyn Fn(&[Observed<'_>], &Rational) -> Result<String, PictureError>| match (
+        &end, &observed,
+    ) {
+        (Ok(to), Some(Ok(observed))) => show(observed, to).unwrap_or_else(|error| left_out(&error)),
+        (Err(error), _) | (_, Some(Err(error))) => left_out(error),
+        (Ok(_), None) => String::new(),
     };
     let mut body = String::new();
     let mut add = |id: &str, heading: &'static str, contents: &dyn Fn() -> String| {
@@ -71,7 +69,7 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
     };
     add("scene", "The scene", &|| scene(problem));
     add("derivation", "Derivation", &|| derivation(problem));
-    add("events", "Events at contacts", &|| told::events(problem, opens));
+    add("events", "Events at contacts", &|| told::events(problem, contacts == Contacts::Closed));
     add("signals", "Observables against time", &|| seen(&|all, to| signals(problem, all, to)));
     add("diagrams", "Place and time", &|| match &end {
         Ok(to) => diagrams(problem, to).unwrap_or_else(|error| left_out(&error)),
@@ -82,8 +80,11 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
     });
     add("energies", "Energies", &|| seen(&|all, to| told::energies(problem, all, [&zero, to])));
     add("assumptions", "What is assumed", &|| {
-        let of_window = |to| [until(problem, to)].into_iter().chain((request.notes)(to));
-        let all = end.iter().flat_map(of_window).chain(assumptions(problem, opens));
+        let of_window = |to| {
+            let closed = (request.closed)(to).map(|note| format!("With contacts closed, {note}."));
+            [until(problem, to)].into_iter().chain(closed)
+        };
+        let all = end.iter().flat_map(of_window).chain(assumptions(problem, contacts));
         list(&all.collect::<Vec<_>>())
     });
     let title = escape(problem.title());
@@ -97,6 +98,23 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
         escape(request.version),
         escape(request.command)
     )
+}
+
+/// What contacts of a scene do, local ones apart.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Contacts {
+    None,
+    Closed,
+    Open,
+}
+
+fn contacts(problem: &Problem) -> Contacts {
+    let Ok(scaled) = problem.scaled() else { return Contacts::None };
+    match scaled.scene() {
+        scene if !scene.line.joints.contains(&Joint::Contact) => Contacts::None,
+        scene if scene.contacts_open => Contacts::Open,
+        _ => Contacts::Closed,
+    }
 }
 
 fn observed<'a>(
@@ -149,14 +167,7 @@ fn derivation(problem: &Problem) -> String {
 fn part(part: &Block) -> String {
     match part {
         Block::Heading(text) => format!("<h3>{}</h3>\n", escape(text)),
-        Block::Sentence(text, _) => {
-            // Names stand between backquotes.
-            let parts = text.split('`').enumerate().map(|(i, part)| match i % 2 {
-                0 => escape(&typeset(part)),
-                _ => format!("<code>{}</code>", escape(part)),
-            });
-            format!("<p>{}</p>\n", parts.collect::<String>())
-        }
+        Block::Sentence(text, _) => paragraph(text),
         Block::Equations(formulas) => mathematics(formulas),
     }
 }
@@ -164,7 +175,9 @@ fn part(part: &Block) -> String {
 fn stated(problem: &Problem) -> String {
     let Ok(recurrence) = problem.recurrence() else { return pieces(problem) };
     let (equations, starts) = solved_equations(recurrence);
-    let mut out = paragraph("On the n-th period, solved for one wave after another; waves are zero for n < 0:");
+    let mut out = paragraph(
+        "On the n-th period, solved for one wave after another; waves are zero for n < 0:",
+    );
     out += &mathematics(&equations);
     if !starts.is_empty() {
         out += &paragraph("These are continuous from period to period, and start at");
@@ -181,8 +194,7 @@ fn pieces(problem: &Problem) -> String {
             let all: Vec<Formula> = found.into_iter().flat_map(|(_, formulas)| formulas).collect();
             let text: String = all.iter().map(|formula| formula.to_line() + "\n").collect();
             let constants = problem.constants(Some(&text)).unwrap_or_default();
-            let constants =
-                if constants.is_empty() { String::new() } else { list(&constants) };
+            let constants = if constants.is_empty() { String::new() } else { list(&constants) };
             "<h3>The first pieces</h3>\n".to_owned() + &mathematics(&all) + &constants
         }
         Err(error) => left_out(&format!("the first pieces: {error}")),
@@ -197,7 +209,7 @@ fn mathematics(formulas: &[Formula]) -> String {
             return left_out(&format!("{name}, which has {} characters", line.len()));
         }
         let remark = formula.remark.as_ref().map_or(String::new(), |(text, _)| {
-            format!("<span class=\"remark\">{}</span>", escape(&typeset(text)))
+            format!("<span class=\"remark\">{}</span>", set(text))
         });
         format!("<div class=\"formula\">{}{remark}</div>\n", formula.to_mathml(WIDTH))
     };
@@ -246,19 +258,26 @@ fn explored(name: &str, svg: &str, data: &Json, axis: &str) -> String {
 }
 
 fn until(problem: &Problem, to: &Rational) -> String {
-    let shown = format!("Values are shown for 0 <= t <= {} {}", in_decimals(to), problem.time_unit());
+    let shown =
+        format!("Values are shown for 0 <= t <= {} {}", in_decimals(to), problem.time_unit());
     shown.trim_end().to_owned() + "; where one jumps, the limit from later times."
 }
 
-fn assumptions(problem: &Problem, opens: bool) -> Vec<String> {
+fn assumptions(problem: &Problem, contacts: Contacts) -> Vec<String> {
     let found = problem.assumptions();
-    let mut all: Vec<String> = found.iter().map(|one| format!("It is assumed that {one}.")).collect();
-    if let Ok(scaled) = problem.scaled() {
-        if opens {
-            all.push("Contacts carry compression only: they open, and close again.".to_owned());
-        } else if scaled.scene().line.joints.contains(&Joint::Contact) {
-            all.push("Contacts are kept closed, also where they would pull.".to_owned());
-        }
+    let mut all: Vec<String> =
+        found.iter().map(|one| format!("It is assumed that {one}.")).collect();
+    if problem.scaled().is_ok() {
+        all.extend(
+            match contacts {
+                Contacts::None => None,
+                Contacts::Open => {
+                    Some("Contacts carry compression only: they open, and close again.")
+                }
+                Contacts::Closed => Some("Contacts are kept closed, also where they would pull."),
+            }
+            .map(str::to_owned),
+        );
         all.push(
             "Bars are uniform and carry plane longitudinal waves without dispersion; displacement and \
              velocity are positive to the right, forces where they compress, strains where they pull."

@@ -71,7 +71,8 @@ pub fn fields(
     let mirrored = |bar: usize| bar == 0 && scene.line.left == End::Endless;
     let times = times(to, PARTS_OF_FIELDS);
     let mesh = Mesh::new(CELLS)?;
-    let states = times.iter().map(|time| evaluator.at(time, &mesh)).collect::<Result<Vec<_>, _>>()?;
+    let states =
+        times.iter().map(|time| evaluator.at(time, &mesh)).collect::<Result<Vec<_>, _>>()?;
     let row = |state: &Fields, quantity: Quantity| -> Vec<Json> {
         let bars = state.bars.iter().enumerate();
         let nodes = bars.flat_map(|(bar, own)| {

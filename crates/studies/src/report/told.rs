@@ -1,7 +1,7 @@
 //! Events, extrema and energies of a scene.
 
 use super::Observed;
-use super::html::{escape, left_out, list, paragraph, table, typeset};
+use super::html::{left_out, list, paragraph, set, table};
 use crate::picture::PictureError;
 use crate::told::Teller;
 use wavestep::history::Ending;
@@ -17,8 +17,12 @@ const DIGITS: usize = 10;
 /// At how many places an extremum is told.
 const MOST_PLACES: usize = 3;
 
+fn teller(problem: &Problem) -> Teller<'_> {
+    Teller { problem, digits: DIGITS, longest_fraction: DIGITS }
+}
+
 /// The events of contacts in their order, and what became of each contact.
-pub fn events(problem: &Problem, opens: bool) -> String {
+pub fn events(problem: &Problem, kept_closed: bool) -> String {
     let history = match problem.history(None, DIGITS) {
         Ok(history) => history,
         Err(error) => return left_out(&error),
@@ -28,15 +32,18 @@ pub fn events(problem: &Problem, opens: bool) -> String {
     }
     let item = |(sentence, lines): (String, Vec<String>)| {
         let lines = if lines.is_empty() { String::new() } else { list(&lines) };
-        format!("<li>{}{lines}</li>\n", escape(&typeset(&sentence)))
+        format!("<li>{}{lines}</li>\n", set(&sentence))
     };
-    let told = Teller { problem, digits: DIGITS }.history(&history);
-    let about = match opens {
-        true => "",
-        false => " The rest of the page keeps contacts closed; here they open where they would pull.",
+    let told = teller(problem).history(&history);
+    let about = match kept_closed {
+        true => " All other sections keep contacts closed; here they open where they would pull.",
+        false => "",
     };
     paragraph(&format!("It is proven that no event is missed.{about}"))
-        + &format!("<ol class=\"events\">\n{}</ol>\n", told.into_iter().map(item).collect::<String>())
+        + &format!(
+            "<ol class=\"events\">\n{}</ol>\n",
+            told.into_iter().map(item).collect::<String>()
+        )
 }
 
 /// The largest and the smallest value of each observable on a window, and where they are.
@@ -45,7 +52,7 @@ pub fn extrema(
     observed: &[Observed<'_>],
     window: [&Rational; 2],
 ) -> Result<String, PictureError> {
-    let teller = Teller { problem, digits: DIGITS };
+    let teller = teller(problem);
     let mut rows = Vec::new();
     for Observed { wanted, signal } in observed {
         let search = Search::new(&**signal)?;
@@ -97,7 +104,7 @@ pub fn energies(
     observed: &[Observed<'_>],
     window: [&Rational; 2],
 ) -> Result<String, PictureError> {
-    let teller = Teller { problem, digits: DIGITS };
+    let teller = teller(problem);
     let mut rows = Vec::new();
     for Observed { wanted, signal } in observed {
         if problem.measure(wanted) == Some(Measure::Energy) {
@@ -113,7 +120,6 @@ pub fn energies(
         let reason = "no energy is observed; `observe energy = energy(line)` would show it";
         return Ok(left_out(&reason));
     }
-    let heads =
-        window.map(|time| format!("at t = {}", teller.time(&Value::Exact(time.clone()))));
+    let heads = window.map(|time| format!("at t = {}", teller.time(&Value::Exact(time.clone()))));
     Ok(table("Energies at the ends of the window", &["energy", &heads[0], &heads[1]], &rows))
 }
