@@ -9,7 +9,7 @@ use serde_json::{Value as Json, json};
 use wavestep::ball::{Ball, Number};
 use wavestep::problem::{Problem, Size, Wanted};
 use wavestep::signal::{Extremum, Goal, Place, Root, Roots, Value};
-use wavestep_studies::told::{Teller, enclosed};
+use wavestep_studies::told::Teller;
 
 /// Digits of bounds and of roots that stay undecided.
 const BOUND_DIGITS: usize = 20;
@@ -156,6 +156,11 @@ pub fn distances(
         "set": options.scene.set, "from": from, "to": to, "distances": rows,
     });
     (format!("{document}\n"), undecided)
+}
+
+fn enclosed(from: &BigRational, to: &BigRational) -> Ball {
+    let sum = from + to;
+    Ball::between(from, to, 64 + sum.numer().bits() + sum.denom().bits())
 }
 
 fn root_line(root: &Root, told: &Told<'_>) -> String {

@@ -1,15 +1,14 @@
 //! Events and extrema in words, for a terminal and for a page.
 
-use wavestep::ball::{Ball, in_decimals};
+use wavestep::ball::{Bound, Decimal, in_decimals};
 use wavestep::export::expression_text;
 use wavestep::history::{Body, ContactSummary, Ending, Event, EventKind, History};
 use wavestep::problem::Problem;
 use wavestep::scene::Dimension;
 use wavestep::signal::{Place, Value};
-use wavestep_polynomial::Rational;
 
-/// Digits of intervals that stay undecided.
-const BOUND_DIGITS: usize = 20;
+/// Digits of the ends of an interval somewhere in which an extremum may be.
+const PLACE_DIGITS: usize = 6;
 
 /// Tells what was found in a problem, in so many significant digits.
 #[derive(Clone, Copy)]
@@ -153,16 +152,11 @@ impl Teller<'_> {
                 format!("for {} <= t {relation} {} (constant)", self.time(from), self.time(to))
             }
             Place::Undecided { from, to } => {
-                let time = enclosed(from, to).to_decimal(BOUND_DIGITS);
+                let bound = |time, side| Decimal::bound(time, PLACE_DIGITS, side).to_string();
+                let (from, to) = (bound(from, Bound::Lower), bound(to, Bound::Upper));
                 let second = if self.problem.has_units() { " s" } else { "" };
-                format!("at t = {time}{second}? (undecided)")
+                format!("somewhere in {from}{second} <= t <= {to}{second} (undecided)")
             }
         }
     }
-}
-
-/// The ball between two numbers.
-pub fn enclosed(from: &Rational, to: &Rational) -> Ball {
-    let sum = from + to;
-    Ball::between(from, to, 64 + sum.numer().bits() + sum.denom().bits())
 }
