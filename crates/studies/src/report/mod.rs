@@ -32,6 +32,8 @@ const LONGEST: usize = 4_000;
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 
+type Outcome<T> = Result<T, PictureError>;
+
 /// What a page says beside what it finds.
 pub struct Request<'a> {
     pub version: &'a str,
@@ -55,13 +57,14 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
     let zero = Rational::default();
     let end = usual_end(problem, &zero);
     let observed = end.as_ref().ok().map(|to| observed(problem, [&zero, to]));
-    let seen = |show: &dyn Fn(&[Observed<'_>], &Rational) -> Result<String, PictureError>| match (
-        &end, &observed,
-    ) {
-        (Ok(to), Some(Ok(observed))) => show(observed, to).unwrap_or_else(|error| left_out(&error)),
-        (Err(error), _) | (_, Some(Err(error))) => left_out(error),
-        (Ok(_), None) => String::new(),
-    };
+    let seen =
+        |show: &dyn Fn(&[Observed<'_>], &Rational) -> Outcome<String>| match (&end, &observed) {
+            (Ok(to), Some(Ok(observed))) => {
+                show(observed, to).unwrap_or_else(|error| left_out(&error))
+            }
+            (Err(error), _) | (_, Some(Err(error))) => left_out(error),
+            (Ok(_), None) => String::new(),
+        };
     let mut body = String::new();
     let mut add = |id: &str, heading: &'static str, contents: &dyn Fn() -> String| {
         (request.progress)(heading);
@@ -117,11 +120,8 @@ fn contacts(problem: &Problem) -> Contacts {
     }
 }
 
-fn observed<'a>(
-    problem: &'a Problem,
-    window: [&Rational; 2],
-) -> Result<Vec<Observed<'a>>, PictureError> {
-    let observed = |name| -> Result<Observed<'a>, PictureError> {
+fn observed<'a>(problem: &'a Problem, window: [&Rational; 2]) -> Outcome<Vec<Observed<'a>>> {
+    let observed = |name| -> Outcome<Observed<'a>> {
         let wanted = problem.wanted(name)?;
         let signal = problem.signal_on(&wanted, window, Purpose::Search)?;
         Ok(Observed { wanted, signal })
@@ -156,11 +156,14 @@ fn scene(problem: &Problem) -> String {
 
 /// How a scene becomes a recurrence, with its first pieces; of equations that are stated these alone.
 fn derivation(problem: &Problem) -> String {
-    match problem.explanation() {
-        Ok(derivation) => derivation.parts().iter().map(part).collect(),
-        Err(ProblemError::NothingToExplain) => stated(problem),
-        Err(error) if problem.local_contact().is_some() => left_out(&error),
-        Err(error) => left_out(&error) + &pieces(problem),
+    match (problem.explanation(), problem.first_contact()) {
+        (Ok(derivation), _) => derivation.parts().iter().map(part).collect(),
+        (Err(ProblemError::NothingToExplain), _) => stated(problem),
+        (Err(error), Ok(Some(formulas))) => {
+            left_out(&error) + &with_constants(problem, "The first contact", &formulas)
+        }
+        (Err(error), Err(reason)) => left_out(&error) + &left_out(&reason),
+        (Err(error), Ok(None)) => left_out(&error) + &pieces(problem),
     }
 }
 
@@ -192,13 +195,18 @@ fn pieces(problem: &Problem) -> String {
     match derived.and_then(|derived| problem.formulas(&derived, Form::Piecewise)) {
         Ok(found) => {
             let all: Vec<Formula> = found.into_iter().flat_map(|(_, formulas)| formulas).collect();
-            let text: String = all.iter().map(|formula| formula.to_line() + "\n").collect();
-            let constants = problem.constants(Some(&text)).unwrap_or_default();
-            let constants = if constants.is_empty() { String::new() } else { list(&constants) };
-            "<h3>The first pieces</h3>\n".to_owned() + &mathematics(&all) + &constants
+            with_constants(problem, "The first pieces", &all)
         }
         Err(error) => left_out(&format!("the first pieces: {error}")),
     }
+}
+
+/// Formulas with what the constants in them are.
+fn with_constants(problem: &Problem, heading: &str, formulas: &[Formula]) -> String {
+    let text: String = formulas.iter().map(|formula| formula.to_line() + "\n").collect();
+    let constants = problem.constants(Some(&text)).unwrap_or_default();
+    let constants = if constants.is_empty() { String::new() } else { list(&constants) };
+    format!("<h3>{heading}</h3>\n{}{constants}", mathematics(formulas))
 }
 
 fn mathematics(formulas: &[Formula]) -> String {
@@ -220,11 +228,7 @@ fn mathematics(formulas: &[Formula]) -> String {
 }
 
 /// Observables as curves, with values at a time that is pointed at.
-fn signals(
-    problem: &Problem,
-    observed: &[Observed<'_>],
-    to: &Rational,
-) -> Result<String, PictureError> {
+fn signals(problem: &Problem, observed: &[Observed<'_>], to: &Rational) -> Outcome<String> {
     let drawn = |one: &Observed<'_>| course(problem, &one.wanted, &*one.signal);
     let courses = observed.iter().map(drawn).collect::<Result<Vec<_>, _>>()?;
     let (ends, dimensional) = ((0.0, crate::nearest(to)), problem.has_units());
@@ -234,12 +238,12 @@ fn signals(
 }
 
 /// Diagrams of place and time, with values of the field at a node that is pointed at.
-fn diagrams(problem: &Problem, to: &Rational) -> Result<String, PictureError> {
+fn diagrams(problem: &Problem, to: &Rational) -> Outcome<String> {
     let zero = Rational::default();
     let evaluator = problem.field_evaluator(to)?;
     let quantities = [Quantity::Velocity, Quantity::Force];
     let data = numbers::fields(&evaluator, &quantities, to)?;
-    let figure = |(quantity, data): (&Quantity, &Json)| -> Result<String, PictureError> {
+    let figure = |(quantity, data): (&Quantity, &Json)| -> Outcome<String> {
         let diagram = lagrange(&evaluator, *quantity, [&zero, to], Caption::default())?.titled("");
         let name = format!("field-{}", quantity.name());
         Ok(explored(&name, &diagram.svg_named(&name), data, "y"))
