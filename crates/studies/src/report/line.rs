@@ -3,8 +3,8 @@
 use crate::picture::Prefixed;
 use wavestep::enclosure::Numbers;
 use wavestep::expression::Fraction;
-use wavestep::network::ScaledScene;
-use wavestep::scene::{Bar, Body, Dimension, Element, End, Joint, Kind, Scene, Spring};
+use wavestep::network::{ModelBar, ScaledScene};
+use wavestep::scene::{Body, Dimension, Element, End, Joint, Kind, Spring};
 use wavestep_draw::escape;
 
 /// The least width of the picture, and of it what bars with an end take.
@@ -34,16 +34,18 @@ const ARROW: &str = "M-14 0h28l-6-4m6 4l-6 4";
 
 /// The picture of the line, with its scale.
 pub fn drawn(scaled: &ScaledScene) -> String {
-    let (scene, numbers) = (scaled.scene(), Numbers::new(&scaled.model().constants));
-    let figure = Figure { numbers, scene };
+    let scene = scaled.scene();
+    let figure = Figure { numbers: Numbers::new(&scaled.model().constants), scaled };
     let elements: Vec<&Element> =
         scene.line.elements.iter().map(|place| &scene.elements[*place]).collect();
-    let measure = figure.measure(&elements);
+    let (lengths, dimension) = figure.lengths(&elements);
+    let sizes: Vec<f64> = scene.line.elements.iter().map(|place| figure.size(*place)).collect();
+    let stoutest = sizes.iter().copied().fold(0.0, f64::max);
     let gaps = scene.line.joints.iter().filter(|joint| **joint == Joint::Contact).count();
     let taken = elements.iter().map(|element| width(element)).sum::<f64>() + GAP * gaps as f64;
     let wide = (2.0 * MARGIN + taken + BARS).max(WIDTH);
     let room = wide - 2.0 * MARGIN - taken;
-    let total: f64 = measure.lengths.iter().sum();
+    let total: f64 = lengths.iter().sum();
     let scale = if total > 0.0 { room / total } else { 0.0 };
     let mut x = MARGIN + if total > 0.0 { 0.0 } else { room / 2.0 };
     let (mut out, mut names) = (String::new(), Vec::new());
@@ -53,9 +55,10 @@ pub fn drawn(scaled: &ScaledScene) -> String {
     let gap = |joint: usize| if scene.line.joints[joint] == Joint::Contact { GAP } else { 0.0 };
     for (i, element) in elements.iter().enumerate() {
         x += gap(i);
-        let long = width(element) + measure.lengths[i] * scale;
+        let long = width(element) + lengths[i] * scale;
+        let half = (HALF * sizes[i] / stoutest).max(2.0);
         let is_left = i == 0 && scene.line.left == End::Endless;
-        let low = figure.element(element, [x, long, measure.halves[i]], is_left, &mut out);
+        let low = figure.element(element, [x, long, half], is_left, &mut out);
         names.push((x + long / 2.0, low, element.name.as_str()));
         x += long;
     }
@@ -63,16 +66,19 @@ pub fn drawn(scaled: &ScaledScene) -> String {
         out += &sign("wire", WALL, x + gap(elements.len()), AXIS, "");
     }
     let mut y = named(&names, wide, &mut out);
-    let mut note = "Not to scale: lengths are symbols, of two kinds, or endless.".to_owned();
-    if let Some(dimension) = measure.dimension.filter(|_| total > 0.0) {
-        out += &figure.ruler(total / 5.0, scale, dimension, y);
-        y += 16.0;
-        note = match dimension == Dimension::TIME {
-            true => "Lengths are to the scale of travel times, heights are roots of impedances.",
-            false => "Lengths are to scale; heights are roots of areas, to a scale of their own.",
+    let note = match dimension.filter(|_| total > 0.0) {
+        None => "Not to scale: lengths are symbols, of two kinds, or endless.",
+        Some(dimension) => {
+            out += &figure.ruler(total / 5.0, scale, dimension, y);
+            y += 16.0;
+            match dimension == Dimension::TIME {
+                true => {
+                    "Lengths are to the scale of travel times, heights are roots of impedances."
+                }
+                false => "Lengths are to scale, heights are roots of impedances.",
+            }
         }
-        .to_owned();
-    }
+    };
     let words: Vec<&str> = elements.iter().map(|element| element.name.as_str()).collect();
     let [left, right] = [scene.line.left, scene.line.right].map(|end| match end {
         End::Free => "free",
@@ -104,20 +110,10 @@ fn width(element: &Element) -> f64 {
     }
 }
 
-/// Sizes of the elements of a line.
-struct Measured {
-    /// Lengths of bars that have one; zero for all else. All of them one where they cannot be compared.
-    lengths: Vec<f64>,
-    /// Of these lengths, where they are to scale.
-    dimension: Option<Dimension>,
-    /// Half the heights of bars.
-    halves: Vec<f64>,
-}
-
 /// A scene and its constants as numbers.
 struct Figure<'a> {
     numbers: Numbers,
-    scene: &'a Scene,
+    scaled: &'a ScaledScene,
 }
 
 impl Figure<'_> {
@@ -126,37 +122,31 @@ impl Figure<'_> {
         self.numbers.enclose(value, 64).ok().map(|ball| ball.to_double().0)
     }
 
-    fn measure(&self, elements: &[&Element]) -> Measured {
+    /// Lengths of bars that have one, zero for all else, with their dimension; all are one, and have none, where they
+    /// cannot be compared.
+    fn lengths(&self, elements: &[&Element]) -> (Vec<f64>, Option<Dimension>) {
         let bar = |element: &&Element| match &element.kind {
-            Kind::Bar(bar) => Some(bar.clone()),
+            Kind::Bar(bar) => bar
+                .extent()
+                .map(|extent| (matches!(bar.body, Body::Solid { .. }), self.number(extent))),
             _ => None,
         };
-        let bars: Vec<Option<Bar>> = elements.iter().map(bar).collect();
-        let is_solid = |bar: &Bar| matches!(bar.body, Body::Solid { .. });
-        let finite = || bars.iter().flatten().filter(|bar| !bar.is_endless());
-        let solid = finite().any(is_solid);
-        let lengths: Option<Vec<f64>> = bars
-            .iter()
-            .map(|bar| bar.as_ref().and_then(Bar::extent).map_or(Some(0.0), |x| self.number(x)))
-            .collect();
-        let lengths = lengths.filter(|_| finite().all(|bar| is_solid(bar) == solid));
-        let dimension = if solid { Dimension::LENGTH } else { Dimension::TIME };
-        let dimension = lengths.is_some().then_some(dimension);
-        let one = |bar: &Option<Bar>| match bar {
-            Some(bar) if !bar.is_endless() => 1.0,
-            _ => 0.0,
-        };
-        let lengths = lengths.unwrap_or_else(|| bars.iter().map(one).collect());
-        let size = |bar: &Option<Bar>| match bar.as_ref().map(|bar| &bar.body) {
-            None => Some(0.0),
-            Some(Body::Solid { area, .. }) => self.number(area).map(f64::sqrt),
-            Some(Body::Impedance { impedance, .. }) => self.number(impedance).map(f64::sqrt),
-        };
-        let sizes: Option<Vec<f64>> = bars.iter().map(size).collect();
-        let sizes = sizes.unwrap_or_else(|| vec![1.0; bars.len()]);
-        let stoutest = sizes.iter().copied().fold(0.0, f64::max);
-        let halves = sizes.iter().map(|size| (HALF * size / stoutest).max(2.0)).collect();
-        Measured { lengths, dimension, halves }
+        let bars: Vec<Option<(bool, Option<f64>)>> = elements.iter().map(bar).collect();
+        let mut kinds: Vec<bool> = bars.iter().flatten().map(|(solid, _)| *solid).collect();
+        kinds.dedup();
+        let length =
+            |bar: &Option<(bool, Option<f64>)>| bar.map_or(Some(0.0), |(_, length)| length);
+        match (&kinds[..], bars.iter().map(length).collect()) {
+            ([true], Some(lengths)) => (lengths, Some(Dimension::LENGTH)),
+            ([false], Some(lengths)) => (lengths, Some(Dimension::TIME)),
+            _ => (bars.iter().map(|bar| f64::from(bar.is_some())).collect(), None),
+        }
+    }
+
+    /// Half the height of an element: of a bar the root of its impedance.
+    fn size(&self, place: usize) -> f64 {
+        let bar: Option<&ModelBar> = self.scaled.model().bars.get(&place);
+        bar.map_or(0.0, |bar| self.number(&bar.impedance).unwrap_or(1.0).sqrt())
     }
 
     /// Draws an element from `x` on; how far it reaches below the axis.
@@ -216,7 +206,7 @@ impl Figure<'_> {
         let power = 10_f64.powf(about.log10().floor());
         let figure = [5.0, 2.0].into_iter().find(|figure| figure * power <= about).unwrap_or(1.0);
         let length = figure * power;
-        let unit = Prefixed::in_scene(self.scene.dimensional, &dimension.unit(), length);
+        let unit = Prefixed::in_scene(self.scaled.scene().dimensional, &dimension.unit(), length);
         let rounded = (length * unit.factor * 1e6).round() / 1e6;
         let label = format!("{rounded} {}", unit.unit);
         let end = px(length * scale);

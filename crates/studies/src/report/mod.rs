@@ -29,6 +29,9 @@ const LAST_PIECE: usize = 2;
 const WIDTH: usize = 72;
 const LONGEST: usize = 4_000;
 
+/// Bytes of a figure: with three of them a page stays below 3 MB.
+const LARGEST_FIGURE: usize = 900_000;
+
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 
@@ -53,7 +56,7 @@ struct Observed<'a> {
 
 /// The page about a problem. It costs what the answers cost that stand on it.
 pub fn page(problem: &Problem, request: &Request<'_>) -> String {
-    let contacts = contacts(problem);
+    let open = contacts_open(problem);
     let zero = Rational::default();
     let end = usual_end(problem, &zero);
     let observed = end.as_ref().ok().map(|to| observed(problem, [&zero, to]));
@@ -72,7 +75,7 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
     };
     add("scene", "The scene", &|| scene(problem));
     add("derivation", "Derivation", &|| derivation(problem));
-    add("events", "Events at contacts", &|| told::events(problem, contacts == Contacts::Closed));
+    add("events", "Events at contacts", &|| told::events(problem, open == Some(false)));
     add("signals", "Observables against time", &|| seen(&|all, to| signals(problem, all, to)));
     add("diagrams", "Place and time", &|| match &end {
         Ok(to) => diagrams(problem, to).unwrap_or_else(|error| left_out(&error)),
@@ -87,7 +90,7 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
             let closed = (request.closed)(to).map(|note| format!("With contacts closed, {note}."));
             [until(problem, to)].into_iter().chain(closed)
         };
-        let all = end.iter().flat_map(of_window).chain(assumptions(problem, contacts));
+        let all = end.iter().flat_map(of_window).chain(assumptions(problem, open));
         list(&all.collect::<Vec<_>>())
     });
     let title = escape(problem.title());
@@ -103,21 +106,10 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
     )
 }
 
-/// What contacts of a scene do, local ones apart.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Contacts {
-    None,
-    Closed,
-    Open,
-}
-
-fn contacts(problem: &Problem) -> Contacts {
-    let Ok(scaled) = problem.scaled() else { return Contacts::None };
-    match scaled.scene() {
-        scene if !scene.line.joints.contains(&Joint::Contact) => Contacts::None,
-        scene if scene.contacts_open => Contacts::Open,
-        _ => Contacts::Closed,
-    }
+/// Whether contacts of a scene open, where it has some; local ones are none of these.
+fn contacts_open(problem: &Problem) -> Option<bool> {
+    let scene = problem.scaled().ok()?.scene();
+    scene.line.joints.contains(&Joint::Contact).then_some(scene.contacts_open)
 }
 
 fn observed<'a>(problem: &'a Problem, window: [&Rational; 2]) -> Outcome<Vec<Observed<'a>>> {
@@ -255,6 +247,10 @@ fn diagrams(problem: &Problem, to: &Rational) -> Outcome<String> {
 fn explored(name: &str, svg: &str, data: &Json, axis: &str) -> String {
     // No text of the data ends the element.
     let data = data.to_string().replace('<', "\\u003c");
+    if svg.len() + data.len() > LARGEST_FIGURE {
+        let size = (svg.len() + data.len()).div_ceil(1_000_000);
+        return left_out(&format!("the figure {name}, which has {size} MB; `plot` draws it"));
+    }
     format!(
         "<figure class=\"explored\" data-axis=\"{axis}\">\n{svg}\
          <script type=\"application/json\" id=\"{name}-data\">{data}</script>\n</figure>\n"
@@ -267,21 +263,15 @@ fn until(problem: &Problem, to: &Rational) -> String {
     shown.trim_end().to_owned() + "; where one jumps, the limit from later times."
 }
 
-fn assumptions(problem: &Problem, contacts: Contacts) -> Vec<String> {
+fn assumptions(problem: &Problem, open: Option<bool>) -> Vec<String> {
     let found = problem.assumptions();
     let mut all: Vec<String> =
         found.iter().map(|one| format!("It is assumed that {one}.")).collect();
     if problem.scaled().is_ok() {
-        all.extend(
-            match contacts {
-                Contacts::None => None,
-                Contacts::Open => {
-                    Some("Contacts carry compression only: they open, and close again.")
-                }
-                Contacts::Closed => Some("Contacts are kept closed, also where they would pull."),
-            }
-            .map(str::to_owned),
-        );
+        all.extend(open.map(|open| match open {
+            true => "Contacts carry compression only: they open, and close again.".to_owned(),
+            false => "Contacts are kept closed, also where they would pull.".to_owned(),
+        }));
         all.push(
             "Bars are uniform and carry plane longitudinal waves without dispersion; displacement and \
              velocity are positive to the right, forces where they compress, strains where they pull."
