@@ -120,6 +120,26 @@ fn pages_are_complete_and_well_formed() {
     assert!(pictures > 30, "{pictures}");
 }
 
+/// Formulas in MathML say what they say as text, and their parts are elements.
+#[test]
+fn formulas_are_those_of_the_text() {
+    let (_, page) = &PAGES[10];
+    let text = |markup: &str| -> String {
+        let parts =
+            markup.split('<').map(|part| part.split_once('>').map_or(part, |(_, text)| text));
+        parts.collect::<String>().replace('\u{2062}', "")
+    };
+    let formulas: Vec<&str> =
+        page.split("<math ").skip(1).map(|rest| rest.split_once("</math>").unwrap().0).collect();
+    let texts: Vec<String> = formulas.iter().map(|formula| text(&format!("<{formula}"))).collect();
+    for wanted in ["gn=−fn−1", "fn′+fn=fn−1′−fn−1", "f0(s)=e−s", "g1(s)=−e−s"] {
+        let found = texts.iter().position(|text| text == wanted);
+        let found = formulas[found.unwrap_or_else(|| panic!("{wanted}: {texts:?}"))];
+        assert!(found.contains("<msub>") && found.contains("<mo>=</mo>"), "{found}");
+        assert_eq!(found.contains("<msup><mrow><mi>e</mi></mrow>"), wanted.contains("e−s"));
+    }
+}
+
 /// The data of a figure.
 fn data(page: &str, name: &str) -> Value {
     let (_, rest) = page.split_once(&format!("id=\"{name}-data\">")).expect("data");
