@@ -4,6 +4,7 @@ use crate::export::arrangement::arrange;
 use crate::export::forms::{Told, Writer};
 use crate::export::formula::{Formula, Head, Right, numbered, text};
 use crate::export::general::free_name;
+use crate::export::mathml::{self, element};
 use crate::export::notation::{Notation, both};
 use crate::export::prose::{capitalised, wrapped};
 use crate::export::tree::{Sign, Term};
@@ -19,7 +20,7 @@ pub(super) const RECURRENCE: &str = "recurrence";
 
 /// A part of a derivation.
 #[derive(Clone, PartialEq, Eq, Debug)]
-enum Block {
+pub enum Block {
     /// The question of an exercise, or the answer.
     Part(&'static str),
     Heading(&'static str),
@@ -27,8 +28,8 @@ enum Block {
     Text(String),
     /// An empty line: a new paragraph.
     Gap,
-    /// In text, and in LaTeX.
-    Sentence(String, String),
+    /// In text, in LaTeX, and as markup of a page.
+    Sentence([String; 3]),
     /// With a label in LaTeX, where they are referred to.
     Equations(Vec<Formula>, Option<&'static str>),
 }
@@ -80,6 +81,11 @@ impl Derivation {
         derivation
     }
 
+    /// Its parts in their order.
+    pub fn parts(&self) -> &[Block] {
+        &self.parts
+    }
+
     /// The answer to an exercise, after its question: a text, with what is asked of it.
     #[must_use]
     pub fn as_exercise(mut self, text: &str, asked: impl Fn(Notation) -> String) -> Derivation {
@@ -109,7 +115,7 @@ impl Derivation {
     /// Equations after a sentence, or with those that already stand there after the same.
     pub(super) fn after(&mut self, sentence: &str, formulas: Vec<Formula>) {
         match &mut self.parts[..] {
-            [.., Block::Sentence(told, _), Block::Equations(known, _)] if told == sentence => {
+            [.., Block::Sentence([told, ..]), Block::Equations(known, _)] if told == sentence => {
                 known.extend(formulas);
             }
             _ => {
@@ -119,10 +125,11 @@ impl Derivation {
         }
     }
 
-    /// A sentence written in both notations, formulas between dollars.
+    /// A sentence written in all notations, formulas between dollars.
     pub(super) fn tell(&mut self, write: impl Fn(Notation) -> String) {
-        let (text, latex) = both(write);
-        self.parts.push(Block::Sentence(text.replace('$', ""), prose(&latex)));
+        let [text, latex, markup] = Notation::ALL.map(write);
+        let text = text.replace('$', "");
+        self.parts.push(Block::Sentence([text, prose(&latex), mathml::sentence(&markup)]));
     }
 
     pub(super) fn sentence(&mut self, sentence: impl AsRef<str>) {
@@ -300,7 +307,7 @@ impl Derivation {
                 }
                 Block::Text(text) => out.push_str(&format!("{text}\n\n")),
                 Block::Gap => out.push('\n'),
-                Block::Sentence(text, _) => out.push_str(&wrapped(text, width, "")),
+                Block::Sentence([text, ..]) => out.push_str(&wrapped(text, width, "")),
                 Block::Equations(formulas, _) => {
                     let lines = text(formulas, width.saturating_sub(4));
                     lines.lines().for_each(|line| out.push_str(&format!("    {line}\n")));
@@ -322,7 +329,7 @@ impl Derivation {
                     out.push_str(&format!("{text}\n\\end{{verbatim}}\n}}\n"));
                 }
                 Block::Gap => out.push('\n'),
-                Block::Sentence(_, latex) => out.push_str(&format!("{latex}\n")),
+                Block::Sentence([_, latex, _]) => out.push_str(&format!("{latex}\n")),
                 Block::Equations(formulas, label) => {
                     out.push_str(&numbered(formulas, *label, width))
                 }
@@ -382,17 +389,15 @@ fn definition(value: &Definition) -> Right {
         Definition::ComplexZero { polynomial, imaginary, .. } => {
             let part = if *imaginary { "imaginary" } else { "real" };
             let (text, latex) = both(|n| write_flat(&polynomial_in_x(polynomial), n));
-            Right::Written(
-                format!("the {part} part of an x with {text} = 0"),
-                format!("\\text{{the {part} part of an }} x \\text{{ with }} {latex} = 0"),
-            )
+            let plain = format!("the {part} part of an x with {text} = 0");
+            let latex = format!("\\text{{the {part} part of an }} x \\text{{ with }} {latex} = 0");
+            Right::Written([plain.clone(), latex, element("mtext", &[&plain])])
         }
         Definition::Zero { polynomial, between: [lower, upper] } => {
             let (text, latex) = both(|n| write_flat(&polynomial_in_x(polynomial), n));
-            Right::Written(
-                format!("the x between {lower} and {upper} with {text} = 0"),
-                format!("x \\in ({lower}, {upper}),\\ {latex} = 0"),
-            )
+            let plain = format!("the x between {lower} and {upper} with {text} = 0");
+            let latex = format!("x \\in ({lower}, {upper}),\\ {latex} = 0");
+            Right::Written([plain.clone(), latex, element("mtext", &[&plain])])
         }
     }
 }
@@ -408,7 +413,7 @@ fn root(value: &Root) -> Right {
         let front = match (n, value.factor().is_one()) {
             (_, true) => String::new(),
             (Notation::Text, false) => format!("({front})*"),
-            (Notation::Latex, false) => front,
+            (Notation::Latex | Notation::MathMl, false) => front,
         };
         front + &n.root_of(&under)
     })

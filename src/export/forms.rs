@@ -3,7 +3,7 @@
 use crate::export::arrangement::arrange;
 use crate::export::formula::{Formula, Head, Right};
 use crate::export::names::{Name, Names};
-use crate::export::notation::{Notation, both};
+use crate::export::notation::Notation;
 use crate::export::tree::Term;
 use crate::expression::{Expression, Fraction};
 use crate::recurrence::{LinearForm, Recurrence, Statement, WaveIndex};
@@ -97,14 +97,15 @@ impl<'a> Writer<'a> {
                 for slope in [false, true] {
                     let name = recurrence.wave_name(wave);
                     let prime = if slope { "'" } else { "" };
-                    let written = both(|n| format!("{}{prime}", n.indexed(&name, &index(lag))));
-                    names.insert(stand_in(wave, lag, slope), Name::plain(written));
+                    let written =
+                        Name::plain(|n| format!("{}{prime}", n.indexed(&name, &index(lag))));
+                    names.insert(stand_in(wave, lag, slope), written);
                 }
             }
         }
         for lag in 1..=most {
-            let written = both(|n| format!("[n{}{lag}]", n.choose(">=", " \\ge ")));
-            names.insert(from_period(lag), Name::plain(written));
+            let written = Name::plain(|n| format!("[n{}{lag}]", n.choose(">=", " \\ge ")));
+            names.insert(from_period(lag), written);
         }
         let last = if let Place::Period(n) = place { n } else { usize::MAX };
         Writer { recurrence, names: Arc::new(names), last }

@@ -2,8 +2,9 @@
 
 use crate::export::arrangement::arrange;
 use crate::export::lines::Writing;
+use crate::export::mathml;
 use crate::export::names::{Names, latex_name};
-use crate::export::notation::Notation::{self, Latex, Text};
+use crate::export::notation::Notation::{self, Latex, MathMl, Text};
 use crate::export::notation::both;
 use crate::export::tree::Term;
 use crate::export::writer::{write, write_flat, write_named};
@@ -22,6 +23,8 @@ pub const LATEX_WIDTH: usize = 84;
 pub struct Head {
     text: String,
     latex: String,
+    /// None where only the other two are given.
+    mathml: Option<String>,
 }
 
 /// An exact value in one line.
@@ -53,12 +56,12 @@ fn since(t: &str, start: &str) -> String {
 
 impl Head {
     pub fn new(text: impl Into<String>, latex: impl Into<String>) -> Head {
-        Head { text: text.into(), latex: latex.into() }
+        Head { text: text.into(), latex: latex.into(), mathml: None }
     }
 
     pub(crate) fn both(write: impl Fn(Notation) -> String) -> Head {
-        let (text, latex) = both(write);
-        Head { text, latex }
+        let [text, latex, mathml] = Notation::ALL.map(write);
+        Head { text, latex, mathml: Some(mathml) }
     }
 }
 
@@ -69,23 +72,22 @@ pub(crate) enum Right {
     Terms(Vec<Term>),
     /// A sum of terms, with names for symbols.
     Named(Vec<Term>, Arc<Names>),
-    /// Written as it is, in text and in LaTeX.
-    Written(String, String),
+    /// Written as it is, in each notation.
+    Written([String; 3]),
 }
 
 impl Right {
     /// A right-hand side that is written as it is.
     pub fn both(write: impl Fn(Notation) -> String) -> Right {
-        let (text, latex) = both(write);
-        Right::Written(text, latex)
+        Right::Written(Notation::ALL.map(write))
     }
 
     pub fn written(&self, notation: Notation) -> Writing {
         match self {
             Right::Terms(terms) => write(terms, notation),
             Right::Named(terms, names) => write_named(terms, notation, names),
-            Right::Written(text, latex) => {
-                let text = notation.choose(text, latex);
+            Right::Written(written) => {
+                let text = &written[notation as usize];
                 let mut solid = Writing::default();
                 solid.push(text, notation.width(text));
                 solid
@@ -178,6 +180,24 @@ impl Formula {
             text.push_str(&format!("    # {remark}\n"));
         }
         text
+    }
+
+    /// The formula as a `math` element in lines of at most `width` characters, without the remark.
+    pub fn to_mathml(&self, width: usize) -> String {
+        let head = self.head.mathml.clone();
+        let head = head.unwrap_or_else(|| mathml::element("mtext", &[&self.head.text]));
+        let used = MathMl.width(&head) + 3;
+        let right = self.right.written(MathMl);
+        let mut rows = String::new();
+        for (i, line) in right.lines(width, used, used + 2).into_iter().enumerate() {
+            let (head, front) = match i {
+                0 => (mathml::tokens(&head), "<mo>=</mo>"),
+                _ => (String::new(), "<mspace width=\"3em\"/>"),
+            };
+            let line = mathml::tokens(&format!("{front}{line}"));
+            rows += &format!("<mtr><mtd>{head}</mtd><mtd>{line}</mtd></mtr>");
+        }
+        format!("<math display=\"block\"><mtable displaystyle=\"true\">{rows}</mtable></math>")
     }
 
     /// Writes the lines of the formula in an `align*` environment, without the environment.

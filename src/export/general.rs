@@ -2,7 +2,7 @@
 
 use crate::export::arrangement::arrange;
 use crate::export::formula::{Formula, Head, Right};
-use crate::export::notation::Notation::{Latex, Text};
+use crate::export::notation::Notation::{Latex, MathMl, Text};
 use crate::export::tree::{Sign, Term, Tree};
 use crate::export::writer::write_flat;
 use crate::expression::{Assumptions, Expression, Fraction};
@@ -151,6 +151,10 @@ fn sum_of_echoes(recurrence: &Recurrence, wave: &str) -> Formula {
         let echo = n.echo(wave, k.name(), &format!("{t} - {delay}"));
         match n {
             Text => format!("sum({echo}, 0 <= {delay} <= {t})"),
+            MathMl => {
+                let range = format!("<mrow>0≤{delay}≤{t}</mrow>");
+                format!("<munder><mo>∑</mo>{range}</munder>{echo}")
+            }
             Latex => format!("\\sum_{{0 \\le {delay} \\le {t}}} {echo}"),
         }
     });

@@ -134,9 +134,11 @@ fn holds(own: &Symbols, until: &[(&str, &Fraction)], n: Notation) -> String {
     let times = until.iter().map(|(_, time)| write_flat(&[of(time)], n)).collect::<Vec<_>>();
     let names = until.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(" or ");
     match (n, &times[..]) {
-        (Notation::Text, []) => format!("{range}; nothing returns to the contact"),
+        (Notation::Text | Notation::MathMl, []) => {
+            format!("{range}; nothing returns to the contact")
+        }
         (Notation::Latex, []) => range,
-        (Notation::Text, _) => format!(
+        (Notation::Text | Notation::MathMl, _) => format!(
             "{range}, as long as {t} <= {}: then a wave may return through {names}",
             times.join(&format!(" and {t} <= "))
         ),
@@ -169,8 +171,9 @@ impl Angles {
             let stand_in = Symbol::new(&name).expect("a name");
             let pi = Fraction::symbol(&Symbol::new("pi").expect("a name"));
             let angle = of(&pi.scale(&(turn * ratio(2, 1))));
-            let written = both(|n| n.function("cos", &write_flat(std::slice::from_ref(&angle), n)));
-            self.0.insert(stand_in.clone(), Name::plain(written));
+            let angle = std::slice::from_ref(&angle);
+            let written = Name::plain(|n| n.function("cos", &write_flat(angle, n)));
+            self.0.insert(stand_in.clone(), written);
             Fraction::symbol(&stand_in)
         });
         (value.scale(&ratio(sign, 1)), is_root)
@@ -189,7 +192,7 @@ fn rise(own: &Symbols, exponent: &Rational) -> Right {
         let written = |n: Notation| {
             let [p, unit] = [&own.parameter, &own.unit].map(|symbol| n.symbol(symbol));
             match n {
-                Notation::Text => {
+                Notation::Text | Notation::MathMl => {
                     format!("{root}*{unit}*integral(u^{less}/(1 - u^{poles}), u = 0 .. {p})")
                 }
                 Notation::Latex => format!(

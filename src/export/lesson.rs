@@ -5,8 +5,9 @@ use crate::export::explain::{Derivation, RECURRENCE};
 use crate::export::forms::{Place, Told, Writer};
 use crate::export::formula::{Formula, Head, Right};
 use crate::export::general::{echo_index, free_name, general_form, ratio_tree};
+use crate::export::mathml::{self, element};
 use crate::export::names::{Name, Names};
-use crate::export::notation::{Notation, both};
+use crate::export::notation::Notation;
 use crate::export::tree::{Sign, Tree};
 use crate::export::writer::{write_flat, write_named};
 use crate::expression::{Expression, Fraction};
@@ -150,6 +151,7 @@ impl Piece<'_> {
                 Notation::Latex => {
                     format!("Equation \\eqref{{{RECURRENCE}-{number}}} for $n = {period}$")
                 }
+                Notation::MathMl => format!("The equation of ${of}$ for $n = {period}$"),
             };
             let put_in =
                 if equation.is_some() { ", and with the known pieces put in:" } else { " is" };
@@ -176,7 +178,7 @@ impl Piece<'_> {
         }
         let constant = |n: Notation| format!("{}(0)", self.name(n));
         let stand_in = symbol("wave_at_start");
-        let names = Arc::new(Names::from([(stand_in.clone(), Name::plain(both(constant)))]));
+        let names = Arc::new(Names::from([(stand_in.clone(), Name::plain(constant))]));
         let with = |value: &Expression| {
             let mut terms = vec![(Sign::Plus, Tree::Symbol(stand_in.clone()))];
             terms.extend(arrange(value, Some(local)));
@@ -190,11 +192,10 @@ impl Piece<'_> {
         });
         to.equations(equations);
         to.tell(|n| self.continuity(start, n));
-        let beside = both(|n| write_named(&with(&steps.beside), n, &names).text().to_owned());
+        let beside = |n: Notation| write_named(&with(&steps.beside), n, &names).text().to_owned();
         let mut equations = Vec::new();
-        if !steps.beside.is_zero() && beside.0.len() < BESIDE {
-            let head = |n: Notation| n.choose(&beside.0, &beside.1).to_owned();
-            equations.push(self.formula(head, &steps.before));
+        if !steps.beside.is_zero() && beside(Notation::Text).len() < BESIDE {
+            equations.push(self.formula(beside, &steps.before));
         }
         equations.push(self.formula(constant, &steps.constant));
         to.equations(equations);
@@ -267,15 +268,16 @@ impl Derivation {
         let (k, y) = (echo_index(recurrence), free_name(recurrence, &["y", "z"]));
         let (k, next, first) = (k.name(), format!("{k}+1"), template.first.len());
         let (x, (by_slope, by_value)) = (&recurrence.statement().local, template.step());
-        let echo = |index: &str, end: &str| {
-            both(|n| {
-                let echo = n.echo(wave, index, "").trim_end_matches("()").to_owned();
+        let echo = |index: &str, end: &'static str| {
+            let index = index.to_owned();
+            move |n: Notation| {
+                let echo = n.echo(wave, &index, "").trim_end_matches("()").to_owned();
                 match (n, end) {
                     // A prime would be a second superscript.
                     (Notation::Latex, "'") => format!("{{{echo}}}'"),
                     _ => echo + end,
                 }
-            })
+            }
         };
         let head = |right: Right| Head::both(|n| right.written(n).text().to_owned());
         let one = Fraction::one();
@@ -309,8 +311,13 @@ impl Derivation {
             let laguerre = |index: &str, prime: &str| match n {
                 Notation::Text => format!("L{prime}[{index}]({y})"),
                 Notation::Latex => format!("L_{{{index}}}{prime}({y})"),
+                Notation::MathMl => format!("{}{prime}({y})", element("msub", &["L", index])),
             };
-            let binomial = n.choose("binomial(k, p)*", "\\binom{k}{p} ").replace('k', k);
+            let binomial = match n {
+                Notation::Text => format!("binomial({k}, p)*"),
+                Notation::Latex => format!("\\binom{{{k}}}{{p}} "),
+                Notation::MathMl => mathml::binomial(k, "p"),
+            };
             let argument = flat(&(scale * &Fraction::symbol(x)), n);
             let all = if template.terms.len() > 1 { ", and the same for other indices" } else { "" };
             format!(
@@ -336,7 +343,7 @@ impl Derivation {
         let writer = Writer::at(recurrence, Place::General(step.later));
         let power = |(stand_in, ratio): &(Symbol, Expression)| {
             let tree = Tree::Power(Box::new(ratio_tree(ratio)), Box::new(Tree::Symbol(n.clone())));
-            (stand_in.clone(), Name::plain(both(|n| write_flat(&[(Sign::Plus, tree.clone())], n))))
+            (stand_in.clone(), Name::plain(|n| write_flat(&[(Sign::Plus, tree.clone())], n)))
         };
         let names: Arc<Names> = Arc::new(step.powers.iter().map(power).collect());
         let side = |form, value| {
@@ -359,7 +366,7 @@ impl Derivation {
 }
 
 /// A sum of factors times what has these names.
-fn combination<const N: usize>(parts: [(&Fraction, (String, String)); N]) -> Right {
+fn combination<const N: usize>(parts: [(&Fraction, impl Fn(Notation) -> String); N]) -> Right {
     let (mut terms, mut names) = (Vec::new(), Names::new());
     for (i, (factor, name)) in parts.into_iter().enumerate() {
         let stand_in = symbol(&format!("part_{i}"));

@@ -1,7 +1,7 @@
-//! Exact results as text and LaTeX, and numbers as C.
+//! Exact results as text, LaTeX and MathML, and numbers as C.
 //!
-//! A [`Formula`] holds an expression in the order a person would write it; one walk with two
-//! notations then writes plain text or LaTeX. The language reads back the text of pieces and echoes
+//! A [`Formula`] holds an expression in the order a person would write it; one walk with three
+//! notations then writes plain text, LaTeX or MathML. The language reads back the text of pieces and echoes
 //! in a scene's own symbols. Breaking of long lines is shared as well.
 
 mod arrangement;
@@ -13,6 +13,7 @@ mod general;
 mod impact;
 mod lesson;
 pub mod lines;
+mod mathml;
 mod names;
 mod notation;
 pub mod oscillation;
@@ -23,7 +24,7 @@ pub mod tree;
 mod writer;
 
 pub use c::{CHeading, to_c};
-pub use explain::Derivation;
+pub use explain::{Block, Derivation};
 pub use forms::{form_text, solved_equations};
 pub use formula::{
     Formula, Head, LATEX_WIDTH, TEXT_WIDTH, expression_text, latex, latex_cases, text,

@@ -1,5 +1,6 @@
 //! Symbols that are written otherwise than by their own names, and names in LaTeX.
 
+use crate::export::notation::Notation;
 use std::collections::BTreeMap;
 use wavestep_polynomial::Symbol;
 
@@ -8,6 +9,7 @@ use wavestep_polynomial::Symbol;
 pub(crate) struct Name {
     pub text: String,
     pub latex: String,
+    pub mathml: String,
     /// Whether it is an expression, which takes brackets as a base or before a factor.
     pub compound: bool,
     /// Whether it begins with a number or a sign, which takes brackets after a factor as well.
@@ -18,13 +20,23 @@ pub(crate) struct Name {
 pub(crate) type Names = BTreeMap<Symbol, Name>;
 
 impl Name {
-    pub fn plain((text, latex): (String, String)) -> Name {
-        Name { text, latex, compound: false, leads: false }
+    /// A name that is no expression.
+    pub fn plain(write: impl Fn(Notation) -> String) -> Name {
+        let [text, latex, mathml] = Notation::ALL.map(write);
+        Name { text, latex, mathml, compound: false, leads: false }
+    }
+
+    pub fn written(&self, notation: Notation) -> &str {
+        match notation {
+            Notation::Text => &self.text,
+            Notation::Latex => &self.latex,
+            Notation::MathMl => &self.mathml,
+        }
     }
 }
 
 /// Names that have a command of their own.
-const GREEK: [&str; 34] = [
+pub(super) const GREEK: [&str; 34] = [
     "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa",
     "lambda", "mu", "nu", "xi", "pi", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi",
     "omega", "Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi", "Sigma", "Upsilon", "Phi", "Psi",

@@ -1,5 +1,6 @@
-//! The two notations of a formula: how its parts are written.
+//! The notations of a formula: how its parts are written.
 
+use crate::export::mathml;
 use crate::export::names::latex_name;
 use crate::export::tree::Tree;
 use num_traits::One;
@@ -12,9 +13,11 @@ pub enum Notation {
     Text,
     /// LaTeX for amsmath and KaTeX.
     Latex,
+    /// MathML Core, for pages.
+    MathMl,
 }
 
-use Notation::{Latex, Text};
+use Notation::{Latex, MathMl, Text};
 
 /// What is written, as text and in LaTeX.
 pub(crate) fn both(write: impl Fn(Notation) -> String) -> (String, String) {
@@ -22,9 +25,16 @@ pub(crate) fn both(write: impl Fn(Notation) -> String) -> (String, String) {
 }
 
 impl Notation {
+    pub(crate) const ALL: [Notation; 3] = [Text, Latex, MathMl];
+
     /// One of two, by the notation.
     pub fn choose<'a>(self, text: &'a str, latex: &'a str) -> &'a str {
-        if self == Text { text } else { latex }
+        match (self, text) {
+            (Latex, _) => latex,
+            (MathMl, "<=") => "≤",
+            (MathMl, ">=") => "≥",
+            (Text | MathMl, text) => text,
+        }
     }
 
     /// A number, not negative.
@@ -34,25 +44,34 @@ impl Notation {
             _ if value.denom().is_one() => top,
             Text => format!("{top}/{bottom}"),
             Latex => format!("\\frac{{{top}}}{{{bottom}}}"),
+            MathMl => mathml::element("mfrac", &[&top, &bottom]),
         }
     }
 
     pub fn symbol(self, symbol: &Symbol) -> String {
         match (self, symbol.square()) {
             (Text, _) => symbol.to_string(),
-            (Latex, None) => latex_name(symbol.name(), None),
-            (Latex, Some(-1)) => self.root(&Integer::one(), true),
-            (Latex, Some(square)) => self.root(&square.into(), false),
+            (_, None) => self.name(symbol.name()),
+            (_, Some(-1)) => self.root(&Integer::one(), true),
+            (_, Some(square)) => self.root(&square.into(), false),
         }
     }
 
     pub fn name(self, name: &str) -> String {
-        if self == Text { name.to_owned() } else { latex_name(name, None) }
+        match self {
+            Text => name.to_owned(),
+            Latex => latex_name(name, None),
+            MathMl => mathml::name(name, None),
+        }
     }
 
     /// A wave on a period: `f[2]`.
     pub fn indexed(self, name: &str, index: &str) -> String {
-        if self == Text { format!("{name}[{index}]") } else { latex_name(name, Some(index)) }
+        match self {
+            Text => format!("{name}[{index}]"),
+            Latex => latex_name(name, Some(index)),
+            MathMl => mathml::name(name, Some(index)),
+        }
     }
 
     /// An echo of a wave: `phi_f[2](s)`.
@@ -62,6 +81,10 @@ impl Notation {
             Latex => {
                 let wave = latex_name(wave, None);
                 format!("\\varphi^{{{wave}}}_{{{index}}}({argument})")
+            }
+            MathMl => {
+                let parts = ["φ", index, &self.name(wave)];
+                format!("{}({argument})", mathml::element("msubsup", &parts))
             }
         }
     }
@@ -76,6 +99,7 @@ impl Notation {
                 format!("{{{base}}}^{{{exponent}}}")
             }
             Latex => format!("{base}^{{{exponent}}}"),
+            MathMl => mathml::element("msup", &[base, exponent]),
         }
     }
 
@@ -84,6 +108,7 @@ impl Notation {
         match self {
             Text => format!("exp({exponent})"),
             Latex => format!("e^{{{exponent}}}"),
+            MathMl => mathml::element("msup", &["e", exponent]),
         }
     }
 
@@ -93,7 +118,9 @@ impl Notation {
         match (self, &*radicand, imaginary) {
             (Text, _, true) => self.root_of(&format!("-{radicand}")),
             (Latex, "1", true) => "\\mathrm{i}".to_owned(),
-            (Latex, "1", false) => String::new(),
+            (MathMl, "1", true) => "i".to_owned(),
+            (MathMl, _, true) => format!("i{}", self.root_of(&radicand)),
+            (Latex | MathMl, "1", false) => String::new(),
             (Latex, _, true) => format!("\\mathrm{{i}}{}", self.root_of(&radicand)),
             (_, _, false) => self.root_of(&radicand),
         }
@@ -103,6 +130,7 @@ impl Notation {
         match self {
             Text => format!("sqrt({radicand})"),
             Latex => format!("\\sqrt{{{radicand}}}"),
+            MathMl => mathml::element("msqrt", &[radicand]),
         }
     }
 
@@ -120,6 +148,7 @@ impl Notation {
         match self {
             Text => format!("{}/{}", side(top), side(bottom)),
             Latex => format!("\\frac{{{}}}{{{}}}", top.0, bottom.0),
+            MathMl => mathml::element("mfrac", &[top.0, bottom.0]),
         }
     }
 
@@ -127,18 +156,24 @@ impl Notation {
         match self {
             Text => format!("L[{index}]({argument})"),
             Latex => format!("L_{{{index}}}({argument})"),
+            MathMl => format!("{}({argument})", mathml::element("msub", &["L", index])),
         }
     }
 
     /// The sign before a symbol that is a factor.
     pub fn times_symbol(self) -> &'static str {
-        if self == Text { "*" } else { " " }
+        match self {
+            Text => "*",
+            Latex => " ",
+            MathMl => mathml::TIMES,
+        }
     }
 
     /// The sign between two factors.
     pub(crate) fn times(self, left: &Tree, right: &Tree) -> &'static str {
         match (self, left, right) {
             (Text, ..) => "*",
+            (MathMl, ..) => mathml::TIMES,
             (_, left, Tree::Sum(_) | Tree::Bracket(_)) if left.is_wave() => "",
             (_, _, Tree::Sum(_)) => "\\,",
             _ => " ",
@@ -147,15 +182,21 @@ impl Notation {
 
     /// Brackets that grow with their contents.
     pub fn enclosed(self, text: &str) -> String {
-        match self == Latex && text.contains("\\frac") {
-            true => format!("\\left({text}\\right)"),
-            false => format!("({text})"),
+        match self {
+            Latex if text.contains("\\frac") => format!("\\left({text}\\right)"),
+            MathMl if text.contains("<mfrac") => {
+                format!("<mrow><mo>(</mo>{text}<mo>)</mo></mrow>")
+            }
+            _ => format!("({text})"),
         }
     }
 
     /// Brackets that lines may be broken in.
     pub(crate) fn brackets(self, of: &Tree) -> (&'static str, &'static str) {
+        const OPEN: &str = "<mo minsize=\"1.9em\" maxsize=\"1.9em\">(</mo>";
+        const CLOSE: &str = "<mo minsize=\"1.9em\" maxsize=\"1.9em\">)</mo>";
         match (of, self == Latex && of.is_tall()) {
+            (_, false) if self == MathMl && of.is_tall() => (OPEN, CLOSE),
             (Tree::Bracket(_), true) => ("\\Bigl[", "\\Bigr]"),
             (Tree::Bracket(_), false) if self == Latex => ("\\bigl[", "\\bigr]"),
             (_, true) => ("\\Bigl(", "\\Bigr)"),
@@ -168,6 +209,9 @@ impl Notation {
     pub fn width(self, text: &str) -> usize {
         if self == Text {
             return text.chars().count();
+        }
+        if self == MathMl {
+            return mathml::width(text);
         }
         if text.bytes().all(|byte| byte.is_ascii_digit()) {
             return text.len();

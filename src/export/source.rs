@@ -33,10 +33,14 @@ impl<'a> SourceForm<'a> {
             .map(|(symbol, value)| (symbol.clone(), name_of(value)))
             .collect();
         let period = arrange(&statement.period.clone().into(), None);
-        let end = both(|n| write_named(&period, n, &names).text().to_owned());
+        let end = |n| write_named(&period, n, &names).text().to_owned();
+        let end = Notation::ALL.map(end);
         for (symbol, wave, n) in ends.into_iter().flat_map(KeptEnds::symbols) {
-            let (text, latex) = head(recurrence, wave, &n.to_string());
-            let name = Name::plain((format!("{text}({})", end.0), format!("{latex}({})", end.1)));
+            let index = n.to_string();
+            let name = Name::plain(|notation| {
+                let wave = notation.indexed(name_of_wave(recurrence, wave), &index);
+                format!("{wave}({})", end[notation as usize])
+            });
             names.insert(symbol.clone(), name);
         }
         SourceForm { recurrence, names: Arc::new(names) }
@@ -128,9 +132,13 @@ fn in_unit(unit: &SourceProduct, mut terms: Vec<Term>) -> Vec<Term> {
 
 /// `f[2]` with the source's name of the wave, as text and in LaTeX.
 fn head(recurrence: &Recurrence, wave: WaveIndex, index: &str) -> (String, String) {
+    both(|n| n.indexed(name_of_wave(recurrence, wave), index))
+}
+
+/// The source's name of a wave.
+fn name_of_wave(recurrence: &Recurrence, wave: WaveIndex) -> &str {
     let statement = recurrence.statement();
-    let name = statement.notation.waves.get(&wave).unwrap_or(&statement.waves[wave]);
-    both(|n| n.indexed(name, index))
+    statement.notation.waves.get(&wave).unwrap_or(&statement.waves[wave])
 }
 
 /// A product in place of a symbol. In LaTeX a quotient stays on the line: `μz/L`.
@@ -152,6 +160,7 @@ fn name_of(product: &SourceProduct) -> Name {
     Name {
         text: format!("{minus}{text}"),
         latex: format!("{minus}{latex}"),
+        mathml: format!("{minus}{}", flat(&tree, Notation::MathMl)),
         compound: !simple,
         leads: !minus.is_empty() || text.starts_with(|first: char| first.is_ascii_digit()),
     }

@@ -50,7 +50,7 @@ impl<'a> Writer<'a> {
 
     fn symbol(&self, symbol: &Symbol) -> String {
         match self.names.get(symbol) {
-            Some(name) => self.notation.choose(&name.text, &name.latex).to_owned(),
+            Some(name) => name.written(self.notation).to_owned(),
             None => self.notation.symbol(symbol),
         }
     }
@@ -133,7 +133,7 @@ impl<'a> Writer<'a> {
         let n = self.notation;
         if let Some(name) = self.names.get(symbol).filter(|name| name.compound && exponent == 1) {
             let brackets = beside.after || (name.leads && beside.before);
-            let text = n.choose(&name.text, &name.latex);
+            let text = name.written(n);
             return self.push(&if brackets { n.enclosed(text) } else { text.to_owned() });
         }
         let known = self.powers.entry(symbol.clone()).or_default();

@@ -144,10 +144,12 @@ impl Problem {
 
 /// A length with two figures, and not less.
 pub fn two_figures(length: f64) -> Result<Rational, ProblemError> {
-    let step = 10_f64.powi(length.log10().floor() as i32 - 1);
-    let steps = (length / step).ceil().to_i64().ok_or(ProblemError::NoEnd)?;
-    let step = Rational::from_float(step).ok_or(ProblemError::NoEnd)?;
-    Ok(step * Rational::from_integer(steps.into()))
+    if !length.is_normal() {
+        return Err(ProblemError::NoEnd);
+    }
+    let exponent = length.log10().floor() as i32 - 1;
+    let steps = (length / 10_f64.powi(exponent)).ceil().to_i64().ok_or(ProblemError::NoEnd)?;
+    Ok(Rational::from_integer(10.into()).pow(exponent) * Rational::from_integer(steps.into()))
 }
 
 /// How long a wave needs to pass the whole line, in the user's time.

@@ -9,12 +9,12 @@ use super::progress;
 use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
-use wavestep::ball::in_decimals;
 use wavestep::export::expression_text;
-use wavestep::history::{Body, Ending, Event, EventKind, History};
+use wavestep::history::{Body, Ending, History};
 use wavestep::problem::Problem;
 use wavestep::scene::Dimension;
 use wavestep::signal::Value;
+use wavestep_studies::told::Teller;
 
 pub fn run(options: &Events) -> Result<String, Failure> {
     input::digits(options.digits)?;
@@ -58,108 +58,22 @@ struct Told<'a> {
 }
 
 impl Told<'_> {
-    fn value(&self, value: &Value, dimension: Dimension) -> String {
-        let dimensional = self.problem.has_units();
-        let text = match value {
-            Value::Exact(value) if dimensional => in_decimals(value),
-            other => other.to_text(self.options.digits),
-        };
-        match dimensional {
-            true if dimension == Dimension::TIME => format!("{text} s"),
-            true => format!("{text} {}", dimension.unit()),
-            false => text,
-        }
-    }
-
-    fn pair(&self, [before, after]: &[Value; 2], dimension: Dimension) -> String {
-        let (before, after) = (self.value(before, dimension), self.value(after, dimension));
-        if before == after { before } else { format!("{before} -> {after}") }
-    }
-
-    fn sentence(&self, event: &Event) -> String {
-        let [left, right] = &event.between;
-        match event.kind {
-            EventKind::Impact => format!("{left} and {right} press on each other"),
-            EventKind::Opening => format!("{left} and {right} part"),
-            EventKind::Release => format!("{left} and {right} touch without force from now on"),
-            EventKind::Closing => format!("{left} and {right} meet again"),
-        }
-    }
-
     fn text(&self) -> String {
+        let teller = Teller {
+            problem: self.problem,
+            digits: self.options.digits,
+            longest_fraction: usize::MAX,
+        };
         let mut text = format!("{}\n", self.problem.title());
-        for event in &self.history.events {
-            let mut time = self.value(&event.time, Dimension::TIME);
-            if let Some(exact) = &event.exact {
-                let _ = write!(time, " = {}", expression_text(exact));
+        for (sentence, lines) in teller.history(self.history) {
+            let _ = write!(text, "\n{sentence}");
+            if matches!(self.history.ending, Ending::Followed(_)) && lines.is_empty() {
+                text += " --to asks for another end.";
             }
-            let [left, right] = &event.between;
-            let _ = write!(text, "\nt = {time}: {}\n", self.sentence(event));
-            let _ = writeln!(text, "  force    {}", self.pair(&event.forces, Dimension::FORCE));
-            let [[l0, r0], [l1, r1]] = event.velocities.clone();
-            for (name, pair) in [(left, [l0, l1]), (right, [r0, r1])] {
-                if name != "wall" {
-                    let velocity = self.pair(&pair, Dimension::VELOCITY);
-                    let _ = writeln!(text, "  velocity {velocity} of {name}");
-                }
-            }
-            for body in &event.bodies {
-                let _ = writeln!(text, "  {}", self.body(body));
-            }
+            text.push('\n');
+            text.extend(lines.iter().map(|line| format!("  {line}\n")));
         }
-        for contact in &self.history.contacts {
-            let [left, right] = &contact.between;
-            let _ = write!(text, "\nBetween {left} and {right}\n");
-            if contact.impulses.is_empty() {
-                let _ = writeln!(text, "  no force until the end");
-            }
-            for (duration, impulse) in contact.durations.iter().zip(&contact.impulses) {
-                let impulse = self.value(impulse, Dimension::MOMENTUM);
-                let _ = match duration {
-                    Some(duration) => {
-                        let duration = self.value(duration, Dimension::TIME);
-                        writeln!(text, "  closed for {duration}, impulse {impulse}")
-                    }
-                    None => writeln!(text, "  closed still, impulse so far {impulse}"),
-                };
-            }
-            if let Some(restitution) = &contact.restitution {
-                let restitution = restitution.to_text(self.options.digits);
-                let _ = writeln!(text, "  coefficient of restitution {restitution}");
-            }
-        }
-        let _ = write!(text, "\n{}\n", self.ending());
         text
-    }
-
-    fn ending(&self) -> String {
-        match &self.history.ending {
-            Ending::Parted => {
-                "Nothing meets again: the bodies move apart, or rest, and their energy of vibration \
-                 does not\nsuffice to bring them together."
-                    .to_owned()
-            }
-            Ending::Followed(end) => {
-                let end = self.value(end, Dimension::TIME);
-                format!(
-                    "Followed until t = {end}; what comes later is not known. --until asks for another end."
-                )
-            }
-            Ending::NoContact => "Nothing can open: there is no contact.".to_owned(),
-        }
-    }
-
-    fn body(&self, body: &Body) -> String {
-        let named = [
-            ("energy", &body.energy, Dimension::ENERGY),
-            ("of vibration", &body.vibration, Dimension::ENERGY),
-            ("momentum", &body.momentum, Dimension::MOMENTUM),
-            ("mean velocity", &body.velocity, Dimension::VELOCITY),
-        ];
-        let told = named.into_iter().filter_map(|(name, value, dimension)| {
-            Some(format!("{name} {}", self.value(value.as_ref()?, dimension)))
-        });
-        format!("{}: {}", body.elements.join(" - "), told.collect::<Vec<_>>().join(", "))
     }
 
     fn json(&self) -> String {

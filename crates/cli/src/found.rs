@@ -6,15 +6,13 @@ use super::output::plural;
 use super::rows::ALL_DIGITS;
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
-use wavestep::ball::{Ball, Bound, Decimal, Number, in_decimals};
+use wavestep::ball::{Ball, Number};
 use wavestep::problem::{Problem, Size, Wanted};
 use wavestep::signal::{Extremum, Goal, Place, Root, Roots, Value};
+use wavestep_studies::told::Teller;
 
 /// Digits of bounds and of roots that stay undecided.
 const BOUND_DIGITS: usize = 20;
-
-/// Digits of the ends of an interval somewhere in which an extremum may be.
-const PLACE_DIGITS: usize = 6;
 
 pub struct Told<'a> {
     pub options: &'a Find,
@@ -31,13 +29,12 @@ impl Told<'_> {
         if self.problem.has_units() { " s" } else { "" }
     }
 
+    fn teller(&self) -> Teller<'_> {
+        Teller { problem: self.problem, digits: self.options.digits, longest_fraction: usize::MAX }
+    }
+
     fn time(&self, time: &Value) -> String {
-        let text = match time {
-            Value::Exact(time) if self.problem.has_units() => in_decimals(time),
-            Value::Exact(time) => time.to_string(),
-            other => other.to_text(self.options.digits),
-        };
-        text + self.second()
+        self.teller().time(time)
     }
 
     fn window(&self) -> String {
@@ -114,7 +111,7 @@ pub fn distances(
                 format!(", {} of the largest value", share.to_text(options.digits))
             });
             let (name, value) = (&wanted.name, told.value(&bounded(&distance.bounds)));
-            let lines = distance.places.iter().map(|place| place_line(place, &told));
+            let lines = distance.places.iter().map(|place| told.teller().place(place) + "\n");
             let mut places: String = lines.take(MOST_PLACES).collect();
             if let more @ 1.. = distance.places.len().saturating_sub(MOST_PLACES) {
                 places += &format!("and at {more} more (`--format json` has all)\n");
@@ -223,7 +220,7 @@ fn summary(roots: &Roots, told: &Told<'_>) -> String {
 fn extremum_text(extremum: &Extremum, which: &str, told: &Told<'_>) -> String {
     let (name, value, window) = (told.name, told.value(&extremum.value), told.window());
     let mut text = format!("{which} {name} = {value} in {window}\n");
-    text.extend(extremum.places.iter().map(|place| place_line(place, told)));
+    text.extend(extremum.places.iter().map(|place| told.teller().place(place) + "\n"));
     if extremum.places.len() > 1 {
         text += match &extremum.value {
             Value::Exact(_) => "tied: the value is exactly the same there\n",
@@ -231,32 +228,6 @@ fn extremum_text(extremum: &Extremum, which: &str, told: &Told<'_>) -> String {
         };
     }
     text
-}
-
-/// A place at which an extremum is taken, as a line.
-fn place_line(place: &Place, told: &Told<'_>) -> String {
-    match place {
-        Place::Critical(time) => format!("at t = {} (critical point)\n", told.time(time)),
-        Place::End(time) => format!("at t = {} (end of the window)\n", told.time(time)),
-        Place::Arrival { time, before, after } => {
-            let limit = match (before, after) {
-                (true, true) => "in both limits",
-                (false, _) => "from then on",
-                _ => "limit before; not attained",
-            };
-            format!("at t = {} (arrival, {limit})\n", told.time(time))
-        }
-        Place::Plateau { from, to, closed } => {
-            let relation = if *closed { "<=" } else { "<" };
-            format!("for {} <= t {relation} {} (constant)\n", told.time(from), told.time(to))
-        }
-        Place::Undecided { from, to } => {
-            let bound = |time, side| Decimal::bound(time, PLACE_DIGITS, side).to_string();
-            let (from, to) = (bound(from, Bound::Lower), bound(to, Bound::Upper));
-            let second = told.second();
-            format!("somewhere in {from}{second} <= t <= {to}{second} (undecided)\n")
-        }
-    }
 }
 
 /// A number with all that is proven of it.

@@ -34,6 +34,7 @@ mod output;
 mod picture;
 mod plot;
 mod progress;
+mod report;
 mod rows;
 mod share;
 mod validity;
@@ -71,6 +72,7 @@ pub fn run() -> ExitCode {
         Subcommand::Events(options) => output::report(events::run(options), &options.output),
         Subcommand::Export(options) => export::run(options),
         Subcommand::Plot(options) => plot::run(options),
+        Subcommand::Report(options) => report::run(options),
         Subcommand::Field(options) => field::run(options),
         Subcommand::Find(options) => output::report(find::run(options), &options.output),
         Subcommand::Advise(options) => advise::run(options),

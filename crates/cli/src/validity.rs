@@ -9,23 +9,29 @@ const DIGITS: usize = 12;
 
 /// Says until when the form with closed contacts is true that was derived.
 pub fn note_derivation(problem: &Problem) {
-    let note = match problem.holds(DIGITS) {
-        None => return,
-        Some(Holds::UntilTheyPart(time, [left, right])) => {
+    if let Some(note) = derivation(problem) {
+        eprintln!("note: {note}");
+    }
+}
+
+/// That note.
+pub fn derivation(problem: &Problem) -> Option<String> {
+    Some(match problem.holds(DIGITS)? {
+        Holds::UntilTheyPart(time, [left, right]) => {
             format!(
                 "this holds until t = {}, when {left} and {right} move apart",
                 text(problem, &time)
             )
         }
-        Some(Holds::UntilItPulls(time, [left, right])) => format!(
+        Holds::UntilItPulls(time, [left, right]) => format!(
             "this holds until t = {}, when the contact between {left} and {right} would pull",
             text(problem, &time)
         ),
-        Some(Holds::AtLeastUntil(time)) => format!(
+        Holds::AtLeastUntil(time) => format!(
             "this holds until t = {} at least: no contact would pull before",
             text(problem, &time)
         ),
-        Some(Holds::AsLongAs(contacts)) => {
+        Holds::AsLongAs(contacts) => {
             let condition = |Pressed { force, between: [left, right] }: &Pressed| {
                 let force = force.as_deref().unwrap_or("the force");
                 format!("{force} >= 0 at the contact between {left} and {right}")
@@ -33,8 +39,7 @@ pub fn note_derivation(problem: &Problem) {
             let conditions: Vec<String> = contacts.iter().map(condition).collect();
             format!("this is valid as long as {}", conditions.join(" and "))
         }
-    };
-    eprintln!("note: {note}");
+    })
 }
 
 /// Warns where a contact would pull before a time, when that is found quickly.

@@ -48,4 +48,5 @@ pub use map::Map;
 pub use page::{Listing, Row, Section, Table, page};
 pub use pdf::pdf;
 pub use png::png;
+pub use text::escape;
 pub use work_precision::{Method, Point, WorkPrecision};

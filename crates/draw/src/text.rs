@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 ///
 /// Line breaks and tabs become blanks. Other control characters, and the two code points that XML
 /// forbids, become the replacement character `U+FFFD`: no text can make the markup invalid.
-pub(super) fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
         match character {

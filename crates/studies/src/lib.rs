@@ -10,7 +10,9 @@ pub mod estimates;
 pub mod figures;
 pub mod hertz;
 pub mod picture;
+pub mod report;
 pub mod study;
+pub mod told;
 
 use wavestep_polynomial::Rational;
 

@@ -11,6 +11,7 @@ mod find;
 mod hertz;
 mod locks;
 mod pictures;
+mod report;
 mod tools;
 
 pub use advise::Advise;
@@ -24,6 +25,7 @@ pub use find::Find;
 pub use hertz::Hertz;
 pub use locks::{Check, Lock};
 pub use pictures::{Chart, Field, Figure, Plot};
+pub use report::Report;
 pub use tools::{Generate, Generated, Scenes};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -134,6 +136,8 @@ pub enum Subcommand {
     Chart(Chart),
     /// Draw observables against time, a diagram of place and time, or fields along the line
     Plot(Plot),
+    /// Write one page about a scene: its line, formulas, events, signals and extrema
+    Report(Report),
     /// Give velocity, strain, displacement and force along the bars at a time, with bounds
     Field(Field),
     /// Find all roots, or the largest or smallest value, in a window of time, with proof

@@ -167,3 +167,75 @@ fn the_rust_of_the_readme_is_the_example_of_the_library() {
         "the example of src/lib.rs differs"
     );
 }
+
+/// The formula at the top of the README is what the command typesets.
+#[test]
+fn the_formula_of_the_readme_is_derived() {
+    let readme = read("README.md");
+    let formula = readme.lines().find_map(|line| line.strip_prefix("$$")?.strip_suffix("$$"));
+    let line = ["derive", "rigid-mass", "--wave", "f", "--piece", "2", "--format", "latex"];
+    let (_, latex, _) = run(&folder("readme-formula"), &line);
+    let lines: Vec<&str> = latex.lines().filter(|line| !line.contains("align*")).collect();
+    assert_eq!(formula.expect("a formula"), lines.join(" ").replace(" &=", " ="));
+    assert!(readme.lines().count() <= 200);
+}
+
+/// The Python of the README prints what the comment in it says. Left out where there is no Python.
+#[test]
+fn the_python_of_the_readme_runs() {
+    let readme = read("README.md");
+    let parts = blocks(&readme).into_iter().flatten();
+    let [python] = &parts.filter(|block| block.info == "python").collect::<Vec<_>>()[..] else {
+        panic!("one block of Python");
+    };
+    let (_, printed) = python.lines.last().unwrap().split_once("# ").expect("a comment");
+    let binary = Path::new(env!("CARGO_BIN_EXE_wavestep"));
+    let mut paths = vec![binary.parent().unwrap().to_owned()];
+    paths.extend(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()));
+    let mut command = std::process::Command::new("python3");
+    command.args(["-c", &python.lines.join("\n")]);
+    command.env("PATH", std::env::join_paths(paths).unwrap());
+    match command.output() {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            eprintln!("python3 is missing: left out");
+        }
+        output => {
+            let output = output.unwrap();
+            assert_eq!(String::from_utf8(output.stdout).unwrap(), format!("{printed}\n"));
+        }
+    }
+}
+
+/// The site has every page once, the tutorial first; links within the repository lead to files that are there.
+#[test]
+fn the_site_has_every_page_and_links_lead_somewhere() {
+    let summary = read("docs/SUMMARY.md");
+    let links = |text: &str| -> Vec<String> {
+        let links = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        links.map(str::to_owned).collect()
+    };
+    let listed = links(&summary);
+    assert_eq!(listed[0], "tutorial.md");
+    let mut sorted: Vec<String> = listed.iter().map(|page| format!("docs/{page}")).collect();
+    sorted.sort();
+    let mut pages = documents();
+    pages.retain(|page| page != "README.md" && page != "docs/SUMMARY.md");
+    assert_eq!(sorted, pages);
+    let mut followed = 0;
+    for name in &documents() {
+        let text: Vec<String> = blocks(&read(name))
+            .into_iter()
+            .filter_map(|part| part.err().map(str::to_owned))
+            .collect();
+        for link in links(&text.join("\n")) {
+            let file = link.split('#').next().unwrap_or_default();
+            if !file.contains(['.', '/']) || file.contains("://") {
+                continue;
+            }
+            let folder = Path::new(name).parent().expect("a folder");
+            assert!(Path::new(ROOT).join(folder).join(file).exists(), "in {name}: {link}");
+            followed += 1;
+        }
+    }
+    assert!(followed > 50, "{followed}");
+}

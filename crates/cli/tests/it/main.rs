@@ -18,6 +18,7 @@ mod messages;
 mod open_contacts;
 mod picture;
 mod questions;
+mod report;
 mod scene;
 #[path = "../../../../tests/it/support/snapshot.rs"]
 mod snapshot;

@@ -83,7 +83,7 @@ fn power(base: &Formula, exponent: &Rational, n: Notation) -> String {
         Node::Function(function, argument) => {
             let (name, argument) = (function.name(), sum(argument, n));
             match (n, &exponent) {
-                (Notation::Text, _) => raised(n.function(name, &argument)),
+                (Notation::Text | Notation::MathMl, _) => raised(n.function(name, &argument)),
                 // The exponent stands behind the name.
                 (Notation::Latex, exponent) => {
                     let command = match function {

@@ -5,7 +5,8 @@ use crate::hertz::ContactOfScene;
 use crate::nearest;
 use wavestep::ball::Ball;
 use wavestep::planner::Purpose;
-use wavestep::problem::{Problem, ProblemError, two_figures};
+use wavestep::problem::{Problem, ProblemError, Wanted, two_figures};
+use wavestep::signal::Signal;
 use wavestep_polynomial::Rational;
 
 /// How many units of time of a local contact are shown where no end is given.
@@ -40,15 +41,23 @@ pub fn courses(
     if names.is_empty() {
         return Err(PictureError::NothingObserved);
     }
-    let mut courses = Vec::new();
-    for name in names {
+    let course = |name: &str| -> Result<Course, PictureError> {
         let wanted = problem.wanted(name)?;
-        let values = sampled(&*problem.signal_on(&wanted, window, Purpose::Search)?)?;
-        if values.points.iter().any(|(_, value)| value.is_infinite()) {
-            return Err(PictureError::TooLarge(wanted.name.clone()));
-        }
-        let (name, dimension) = (wanted.name.clone(), wanted.dimension);
-        courses.push(Course { name, dimension, measure: problem.measure(&wanted), values });
+        course(problem, &wanted, &*problem.signal_on(&wanted, window, Purpose::Search)?)
+    };
+    names.into_iter().map(course).collect()
+}
+
+/// What is drawn of a quantity.
+pub fn course(
+    problem: &Problem,
+    wanted: &Wanted,
+    signal: &dyn Signal,
+) -> Result<Course, PictureError> {
+    let values = sampled(signal)?;
+    if values.points.iter().any(|(_, value)| value.is_infinite()) {
+        return Err(PictureError::TooLarge(wanted.name.clone()));
     }
-    Ok(courses)
+    let (name, dimension) = (wanted.name.clone(), wanted.dimension);
+    Ok(Course { name, dimension, measure: problem.measure(wanted), values })
 }

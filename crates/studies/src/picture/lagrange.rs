@@ -66,7 +66,7 @@ pub fn lagrange(
     Ok(diagram.lines(lines.collect()).parts(parts.collect()))
 }
 
-pub(super) struct Places {
+pub(crate) struct Places {
     pub lefts: Vec<f64>,
     /// From the left end of the line to the right end.
     pub window: (f64, f64),

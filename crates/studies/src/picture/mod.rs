@@ -13,8 +13,9 @@ mod sampled;
 
 pub use against_time::{Course, against_time};
 pub use along::along_the_line;
-pub use courses::{courses, usual_end};
+pub use courses::{course, courses, usual_end};
 pub use error::PictureError;
+pub(crate) use lagrange::Places;
 pub use lagrange::lagrange;
 pub use prefix::Prefixed;
 pub use sampled::{Sampled, sampled};

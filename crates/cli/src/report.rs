@@ -1,0 +1,39 @@
+//! `report`: one page about a scene.
+
+use super::arguments::Report;
+use super::failure::Failure;
+use super::input;
+use super::output;
+use super::progress;
+use super::validity::{derivation, pulling};
+use wavestep_studies::report::{Request, page};
+
+pub fn run(options: &Report) -> Result<String, Failure> {
+    let problem = input::problem(&options.scene)?;
+    let progress = progress::spinner("making the page");
+    let page = page(
+        &problem,
+        &Request {
+            version: env!("CARGO_PKG_VERSION"),
+            command: &command(options),
+            closed: &|last| derivation(&problem).or_else(|| pulling(&problem, last)),
+            progress: &|part| progress.set_message(part),
+        },
+    );
+    drop(progress);
+    output::written(page, Some(&options.output))
+}
+
+/// The command that makes the page again; blanks are quoted.
+fn command(options: &Report) -> String {
+    let values = options.scene.set.iter().flat_map(|value| ["--set", value]);
+    let words = ["wavestep", "report", &options.scene.scene].into_iter().chain(values);
+    let words = words.chain(["-o", &options.output]).map(|word| {
+        let plain = |c: char| c.is_alphanumeric() || "-_=./:+".contains(c);
+        match word.chars().all(plain) && !word.is_empty() {
+            true => word.to_owned(),
+            false => format!("'{}'", word.replace('\'', "'\\''")),
+        }
+    });
+    words.collect::<Vec<String>>().join(" ")
+}
