@@ -6,7 +6,7 @@ use crate::ball::Value;
 use crate::error::Error;
 use crate::limits::{SEARCH_BITS, VALUE_BITS};
 use crate::planner::Purpose;
-use crate::problem::{Digits, Given, Problem, Wanted, window};
+use crate::problem::{Digits, Given, Problem, Wanted};
 use crate::signal::{Extremum, Goal, Limit, Roots, Search, Signal as Analytic};
 use std::ops::RangeInclusive;
 use wavestep_polynomial::Rational;
@@ -263,7 +263,8 @@ impl Signal<'_> {
         ask: impl FnOnce(&dyn Analytic) -> Result<R, Error>,
     ) -> Result<R, Error> {
         let (from, to) = times.into_inner();
-        let window = window(self.problem.time("from", from)?, self.problem.time("to", to)?)?;
+        let problem = &self.problem;
+        let window = problem.between(problem.time("from", from)?, problem.time("to", to)?)?;
         let signal = self.problem.signal_on(&self.wanted, window.each_ref(), Purpose::Search)?;
         ask(&*signal)
     }

@@ -35,9 +35,9 @@ pub enum ProblemError {
     #[error(transparent)]
     Method(#[from] InvalidMethod),
     #[error("the time {0} lies before the start")]
-    BeforeStart(Rational),
+    BeforeStart(String),
     #[error("the window from {} to {} is empty", .0[0], .0[1])]
-    EmptyWindow(Box<[Rational; 2]>),
+    EmptyWindow([String; 2]),
     #[error("the window has no end")]
     NoEnd,
     #[error("`{name}` is neither a wave nor an observable here")]

@@ -46,7 +46,7 @@ pub use given::{Given, number};
 pub use impact::NoClosedForm;
 pub use lock::ToLock;
 pub use simpler::{Against, Other, Simpler, Size};
-pub use times::{evenly_spaced, two_figures, window};
+pub use times::{evenly_spaced, two_figures};
 pub use validity::{Holds, Pressed, Pulls};
 pub use wanted::Wanted;
 

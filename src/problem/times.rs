@@ -1,6 +1,7 @@
 //! Times, with units where the scene has them.
 
 use super::{Given, Kind, Problem, ProblemError, number};
+use crate::ball::in_decimals;
 use crate::enclosure::Numbers;
 use crate::expression::Fraction;
 use crate::language::{self, Source};
@@ -26,7 +27,18 @@ impl Problem {
     /// A time from 0 on, in seconds for scenes with units; errors call it by this name.
     pub fn time(&self, name: &str, time: impl Into<Given>) -> Result<Rational, ProblemError> {
         let time = self.quantity(name, time, Dimension::TIME)?;
-        if time.is_negative() { Err(ProblemError::BeforeStart(time)) } else { Ok(time) }
+        match time.is_negative() {
+            true => Err(ProblemError::BeforeStart(self.told_time(&time))),
+            false => Ok(time),
+        }
+    }
+
+    /// A time as it is told: in decimals with its unit, where the scene has units.
+    pub fn told_time(&self, time: &Rational) -> String {
+        match self.has_units() {
+            true => format!("{} s", in_decimals(time)),
+            false => time.to_string(),
+        }
     }
 
     /// Two times, the first before the last.
@@ -35,7 +47,15 @@ impl Problem {
         (from, from_text): (&str, &str),
         (to, to_text): (&str, &str),
     ) -> Result<[Rational; 2], ProblemError> {
-        window(self.time(from, from_text)?, self.time(to, to_text)?)
+        self.between(self.time(from, from_text)?, self.time(to, to_text)?)
+    }
+
+    /// Two times, the first before the last.
+    pub fn between(&self, from: Rational, to: Rational) -> Result<[Rational; 2], ProblemError> {
+        if from < to {
+            return Ok([from, to]);
+        }
+        Err(ProblemError::EmptyWindow([from, to].map(|time| self.told_time(&time))))
     }
 
     /// A number with a unit of this dimension, where the scene has units and this one has a dimension.
@@ -65,11 +85,6 @@ impl Problem {
             }
         }
     }
-}
-
-/// Two times, the first before the last.
-pub fn window(from: Rational, to: Rational) -> Result<[Rational; 2], ProblemError> {
-    if from < to { Ok([from, to]) } else { Err(ProblemError::EmptyWindow(Box::new([from, to]))) }
 }
 
 /// So many times from the first to the last, over one denominator before they are reduced.

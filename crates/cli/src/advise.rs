@@ -11,11 +11,9 @@ use super::share::{percent, whole};
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
 use std::time::Duration;
-use wavestep::ball::{Bound, Decimal, in_decimals};
+use wavestep::ball::{Bound, Decimal};
 use wavestep::language::Change;
-use wavestep::problem::{
-    Advice, Need, Problem, ProblemError, Tried, Verdict, Wanted, number, window,
-};
+use wavestep::problem::{Advice, Need, Problem, ProblemError, Tried, Verdict, Wanted, number};
 
 /// Digits of times that are only shown.
 const DIGITS: usize = 3;
@@ -59,7 +57,7 @@ pub fn window_of(options: &Advise, problem: &Problem) -> Result<[BigRational; 2]
         Some(to) => problem.time("--to", &**to)?,
         None => &from + problem.usual_length()?,
     };
-    window(from, to)
+    problem.between(from, to)
 }
 
 struct Told<'a> {
@@ -86,8 +84,7 @@ impl Told<'_> {
     fn window(&self) -> String {
         let [from, to] = self.need.window.map(|time| match self.problem.has_units() {
             true if time.denom().bits() > 64 => self.time(time),
-            true => format!("{} s", in_decimals(time)),
-            false => time.to_string(),
+            _ => self.problem.told_time(time),
         });
         format!("{from} <= t <= {to}")
     }

@@ -9,7 +9,6 @@ use super::progress;
 use std::fmt::Write as _;
 use std::time::Duration;
 use wavestep::answer::{Costs, Work};
-use wavestep::problem::window;
 use wavestep_studies::study::{Effort, Sampling, ToChart, charts, measured_costs, usual_end};
 
 /// The most times of a reference.
@@ -57,7 +56,7 @@ fn drawn(options: &Options, scene: &Scene, folder: &str) -> Result<String, Failu
         Some(to) => problem.time("--to", to.as_str())?,
         None => usual_end(&problem)?,
     };
-    let window = window(problem.time("--from", options.from.as_str())?, to)?;
+    let window = problem.between(problem.time("--from", options.from.as_str())?, to)?;
     let asked = ToChart {
         quantity,
         sampling: Sampling { points: options.points, seed: options.seed },

@@ -80,7 +80,13 @@ impl Failure {
 
     /// What is shown to the person.
     pub fn render(&self, style: Style) -> String {
-        let told = |message: &str, remedy: &str| format!("error: {message}\nhelp: {remedy}");
+        let (red, green, plain) = match style {
+            Style::Coloured => ("\x1b[1;31m", "\x1b[1;32m", "\x1b[0m"),
+            Style::Plain => ("", "", ""),
+        };
+        let told = |message: &str, remedy: &str| {
+            format!("{red}error{plain}: {message}\n{green}help{plain}: {remedy}")
+        };
         match self {
             Failure::Unanswered(error, _) if !error.diagnostics().is_empty() => {
                 let rendered = error.diagnostics().iter().map(|one| render(one, style));
@@ -90,7 +96,7 @@ impl Failure {
                 let own = || in_options(error.cause()).or_else(|| error.remedy());
                 match remedy.clone().or_else(own) {
                     Some(remedy) => told(&error.to_string(), &remedy),
-                    None => format!("error: {error}"),
+                    None => format!("{red}error{plain}: {error}"),
                 }
             }
             Failure::Told { message, remedy, .. } => told(message, remedy),

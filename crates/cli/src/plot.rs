@@ -8,7 +8,7 @@ use super::validity::note_pulling;
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
 use wavestep::field::Quantity;
-use wavestep::problem::{Problem, ProblemError, window};
+use wavestep::problem::{Problem, ProblemError};
 use wavestep_draw::{Caption, Chart};
 use wavestep_studies::picture::{against_time, along_the_line, courses, lagrange, usual_end};
 
@@ -26,7 +26,7 @@ fn chart(options: &Plot) -> Result<Box<dyn Chart>, Failure> {
         Some(to) => problem.time("--to", to.as_str())?,
         None => usual_end(&problem, &from)?,
     };
-    let [from, to] = window(from, to)?;
+    let [from, to] = problem.between(from, to)?;
     note_pulling(&problem, &to);
     let caption = Caption::default();
     if let Some(quantity) = options.diagram {

@@ -67,8 +67,7 @@ pub fn times(problem: &Problem, name: &str, options: &Eval) -> Result<Vec<BigRat
         let from = problem.time("--from", from.as_str())?;
         let to = problem.time("--to", to.as_str())?;
         if to < from {
-            let message = format!("the window from {from} to {to} is empty");
-            return Err(Failure::usage(message, "give --from before --to"));
+            problem.between(from.clone(), to.clone())?;
         }
         if points == 0 || points > MAX_POINTS {
             let message = format!("{points} points cannot be evaluated at once");
