@@ -7,6 +7,7 @@ mod advise;
 mod arguments;
 mod book;
 mod budget;
+mod certify;
 mod chart;
 mod chart_page;
 mod check;
@@ -82,6 +83,7 @@ pub fn run() -> ExitCode {
         Subcommand::Hertz(options) => output::report(hertz::run(options), &options.output),
         Subcommand::Figure(options) => figure::run(options),
         Subcommand::Book(options) => output::report(book::run(options), &options.output),
+        Subcommand::Certify(options) => output::report(certify::run(options), &options.output),
         Subcommand::Check(options) => check::run(options),
         Subcommand::Lock(options) => lock::run(options),
         Subcommand::Scenes(options) => scenes(options),

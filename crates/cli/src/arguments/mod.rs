@@ -2,6 +2,7 @@
 
 mod advise;
 mod book;
+mod certify;
 mod derive;
 mod dispersion;
 mod eval;
@@ -16,6 +17,7 @@ mod tools;
 
 pub use advise::Advise;
 pub use book::Book;
+pub use certify::Certify;
 pub use derive::Derive;
 pub use dispersion::Dispersion;
 pub use eval::Eval;
@@ -156,6 +158,8 @@ pub enum Subcommand {
     Events(Events),
     /// Check a scene: read it, order its equations, and derive it in two ways
     Check(Check),
+    /// Write a certificate of pieces or of a value, which a checker of its own verifies
+    Certify(Certify),
     /// Lock derived forms and certified values in a file, for `check --locked`
     Lock(Lock),
     /// List the built-in scenes, or show the text of one

@@ -2,6 +2,7 @@
 
 mod answer;
 mod book;
+mod certificates;
 mod chart;
 mod command;
 mod dispersion;

@@ -1,0 +1,309 @@
+#!/usr/bin/env python3
+"""Checks certificates of wavestep with nothing but the standard library; docs/certificates.md says what is claimed.
+
+A polynomial is a dict from monomials, sorted tuples of (symbol, power), to rational numbers; a rational function is a
+dict from denominators, sorted tuples of (factor, power), to polynomials; an expression is a dict from exponents X, each a
+rational function, to rational functions R: the sum of all R exp(X).
+"""
+
+import json
+import math
+import random
+import sys
+from fractions import Fraction
+
+ROOTS = {}  # symbols that stand for square roots, with what is below these
+ONE = {(): {(): 1}}
+
+
+class Wrong(Exception):
+    """What a certificate claims does not follow."""
+
+
+def need(claim, told):
+    if not claim:
+        raise Wrong(told)
+
+
+def product(a, b):
+    """Two monomials: the product, and the rational number that squares of roots leave."""
+    if not a or not b:
+        return a or b, 1
+    powers, left = dict(a), 1
+    for symbol, power in b:
+        powers[symbol] = powers.get(symbol, 0) + power
+    for symbol in ROOTS.keys() & powers.keys():
+        left *= ROOTS[symbol] ** (powers[symbol] // 2)
+        powers[symbol] %= 2
+    return tuple(sorted((s, p) for s, p in powers.items() if p)), left
+
+
+def frozen(function):
+    """A rational function as a key."""
+    return tuple(sorted((below, tuple(sorted(top.items()))) for below, top in function.items() if top))
+
+
+def thawed(key):
+    return {below: dict(top) for below, top in key}
+
+
+def add(total, function, factor=None):
+    """Adds a rational function, times a factor, to another one."""
+    for below, top in function.items():
+        for other, more in (ONE if factor is None else factor).items():
+            both = product(below, other)[0] if below and other else below or other
+            sum_ = total.setdefault(both, {})
+            for m, c in top.items():
+                for n, d in more.items():
+                    key, left = product(m, n)
+                    value = sum_.get(key, 0) + c * d * left
+                    if value:
+                        sum_[key] = value
+                    else:
+                        sum_.pop(key, None)
+    return total
+
+
+def accumulate(total, expression, factor=None):
+    """The same with expressions."""
+    for exponent, function in expression.items():
+        for other, more in ({(): ONE} if factor is None else factor).items():
+            both = frozen(add(thawed(exponent), thawed(other))) if exponent and other else exponent or other
+            add(total.setdefault(both, {}), function, more)
+    return total
+
+
+def is_zero(expression):
+    """Whether each rational function is zero: over one denominator its numerators cancel."""
+    for function in expression.values():
+        powers = {}
+        for below in function:
+            for factor, power in below:
+                powers[factor] = max(power, powers.get(factor, 0))
+        total = {}
+        for below, top in function.items():
+            lacking = ONE
+            for factor, power in powers.items():
+                for _ in range(power - dict(below).get(factor, 0)):
+                    lacking = add({}, {(): dict(factor)}, lacking)
+            add(total, {(): top}, lacking)
+        if any(total.values()):
+            return False
+    return True
+
+
+def no_time_below(below, s):
+    need(all(s not in dict(m) for factor, _ in below for m, _ in factor), "a divisor holds the time")
+
+
+def slope(expression, s):
+    """The derivative with respect to a symbol: (R' + X' R) exp(X)."""
+
+    def of(function):
+        result = {}
+        for below, top in function.items():
+            no_time_below(below, s)
+            for m, c in top.items():
+                power = dict(m).get(s, 0)
+                if power:
+                    rest = tuple((t, p - (t == s)) for t, p in m if t != s or p > 1)
+                    add(result, {below: {rest: c * power}})
+        return result
+
+    return {x: add(of(r), r, of(thawed(x))) for x, r in expression.items()}
+
+
+def put(expression, s, value):
+    """With a rational function in place of a symbol."""
+    powers = [ONE]
+
+    def of(function):
+        result = {}
+        for below, top in function.items():
+            no_time_below(below, s)
+            for m, c in top.items():
+                power = dict(m).get(s, 0)
+                while len(powers) <= power:
+                    powers.append(add({}, powers[-1], value))
+                add(result, {below: {tuple(pair for pair in m if pair[0] != s): c}}, powers[power])
+        return result
+
+    result = {}
+    for exponent, function in expression.items():
+        add(result.setdefault(frozen(of(thawed(exponent))), {}), of(function))
+    return result
+
+
+def read_polynomial(terms):
+    polynomial = {}
+    for coefficient, powers in terms:
+        need(all(type(p) is int and p > 0 for p in powers.values()), "a power is no positive integer")
+        monomial = tuple(sorted(powers.items()))
+        need(monomial not in polynomial and Fraction(coefficient), "a term stands twice, or is zero")
+        polynomial[monomial] = Fraction(coefficient)
+    return polynomial
+
+
+def read_function(rows):
+    function = {}
+    for top, below in rows:
+        key = ()
+        for factor, power in below:
+            need(factor and type(power) is int and power > 0, "a divisor is zero")
+            key, _ = product(key, ((tuple(sorted(read_polynomial(factor).items())), power),))
+        add(function, {key: read_polynomial(top)})
+    return function
+
+
+def read(rows):
+    expression = {}
+    for exponent, function in rows:
+        add(expression.setdefault(frozen(read_function(exponent)), {}), read_function(function))
+    return expression
+
+
+def form(rows, pieces, n, cert, derivative=False):
+    """A linear form in the waves on the n-th period, in local time; waves are zero before the first one."""
+    s, total = cert["local"], {}
+    for wave, kind, lag, coefficient in rows["waves"]:
+        need(kind in ("value", "slope", "sum"), f"unknown operator {kind}")
+        past = range(n - lag) if kind == "sum" else [n - lag] if lag <= n else []
+        for i in past:
+            piece = pieces[wave][i]
+            accumulate(total, slope(piece, s) if kind == "slope" else piece, read(coefficient))
+    for lag, function in rows["forcing"]:
+        if lag <= n:
+            later = add({(): {((s, 1),): 1}}, read_function(cert["period"]), {(): {(): Fraction(n - lag)}})
+            accumulate(total, put(read(function), cert["time"], later))
+    return total
+
+
+def number_at(expression, values):
+    """The value for pseudo-random numbers in place of symbols and of exponentials."""
+    at = lambda key: values.setdefault(key, Fraction(random.randrange(1, 1 << 60)))
+    of = lambda top: sum(c * math.prod(at(s) ** p for s, p in m) for m, c in top.items())
+    total = Fraction(0)
+    for exponent, function in expression.items():
+        for below, top in function.items():
+            need(not any(s in ROOTS for m in top for s, _ in m), "a root in an equation")
+            divisor = math.prod(of(dict(factor)) ** power for factor, power in below)
+            total += of(top) / divisor * (at(exponent) if exponent else 1)
+    return total
+
+
+def rank(rows):
+    rows, found = [row[:] for row in rows], 0
+    for column in range(len(rows[0]) if rows else 0):
+        pivot = next((row for row in rows[found:] if row[column]), None)
+        if pivot is None:
+            continue
+        rows.remove(pivot)
+        rows.insert(found, pivot)
+        found += 1
+        for row in rows[found:]:
+            share = row[column] / pivot[column]
+            row[:] = [a - share * b for a, b in zip(row, pivot)]
+    return found
+
+
+def check_determined(cert):
+    """No other functions satisfy the statement: what has no derivatives on the period itself, differentiated, and the
+    other equations determine all derivatives there; with what is continuous, all values at its start."""
+    waves, values = cert["waves"], {}
+
+    def row(form_, kind):
+        now = {wave: read(c) for wave, k, lag, c in form_["waves"] if k == kind and lag == 0}
+        return [number_at(now.get(wave, {}), values) for wave in waves]
+
+    slopes = [row(equation, "slope") for equation in cert["equations"]]
+    levels = [row(equation, "value") for equation in cert["equations"]]
+    plain = [level for level, slope_ in zip(levels, slopes) if not any(slope_)]
+    starts = [row(law, "value") for law in cert["continuity"]]
+    need(rank([r for r in slopes if any(r)] + plain) == len(waves), "the equations leave derivatives open")
+    need(rank(starts + plain) == len(waves), "what is continuous leaves values open")
+
+
+def check_pieces(cert):
+    """Every equation holds on every period; what is continuous is, and starts as stated; and nothing else does so."""
+    check_determined(cert)
+    pieces = {wave: [read(piece) for piece in all_] for wave, all_ in cert["pieces"].items()}
+    need(set(pieces) == set(cert["waves"]) and len(cert["equations"]) == len(pieces), "waves and equations")
+    last = cert["through"] + 1
+    need(all(len(all_) == last for all_ in pieces.values()), "pieces are missing")
+    zero, end = {(): {(): 0}}, read_function(cert["period"])
+    for n in range(last):
+        for i, equation in enumerate(cert["equations"]):
+            need(is_zero(form(equation, pieces, n, cert)), f"equation {i} on period {n}")
+        for i, law in enumerate(cert["continuity"]):
+            begin = put(form(law, pieces, n, cert), cert["local"], zero)
+            before = put(form(law, pieces, n - 1, cert), cert["local"], end) if n else read(law["start"])
+            need(is_zero(accumulate(begin, before, {(): {(): {(): -1}}})), f"continuity {i} at the start of period {n}")
+    return pieces
+
+
+def exponential(x, bits):
+    """Two rationals with e^x between them: the Taylor sum of x/2^k, squared k times."""
+    unit, halvings = Fraction(1, 1 << bits), max(0, abs(x).__ceil__().bit_length() + 1)
+    y = x / (1 << halvings)
+    total = term = Fraction(1)
+    i = 0
+    while abs(term) > unit:
+        i += 1
+        term = Fraction(round(term * y / i / unit)) * unit
+        total += term
+    low, high = total - 2 * (i + 2) * unit, total + 2 * (i + 2) * unit
+    for _ in range(halvings):
+        low, high = (low * low // unit) * unit, -(-high * high // unit) * unit
+    return low, high
+
+
+def number(function):
+    """A rational function without symbols."""
+    tops = [top for top in function.values() if top]
+    need(all(set(top) == {()} for top in tops) and all(not b for b, top in function.items() if top), "a symbol has no value")
+    return sum((top[()] for top in tops), Fraction(0))
+
+
+def check_value(cert):
+    """The decimal is the value, correctly rounded: numbers in place of all symbols, exponentials between bounds."""
+    pieces, time, claim = check_pieces(cert), Fraction(cert["at"]), Fraction(cert["value"])
+    s, period, total = cert["local"], number(read_function(cert["period"])), {}
+    for wave, kind, delay, coefficient in cert["observed"]["waves"]:
+        need(kind in ("value", "slope"), f"unknown operator {kind}")
+        n, local = divmod(time - Fraction(delay), period)
+        if n >= 0:
+            need(n < len(pieces[wave]), "a period is missing")
+            piece = slope(pieces[wave][n], s) if kind == "slope" else pieces[wave][n]
+            accumulate(total, put(piece, s, {(): {(): local}}), read(coefficient))
+    accumulate(total, put(read(cert["observed"]["forcing"]), cert["time"], {(): {(): time}}))
+    parts = [(number(thawed(x)), number(r)) for x, r in total.items()]
+    slack = Fraction(10) ** cert["last_place"] / 2
+    for bits in (128, 512, 2048, 8192, 32768):
+        low = high = Fraction(0)
+        for x, r in parts:
+            a, b = sorted(r * e for e in exponential(x, bits))
+            low, high = low + a, high + b
+        if claim - slack <= low and high <= claim + slack:
+            return
+        need(low <= claim + slack and claim - slack <= high, "the value is another one")
+    raise Wrong("the value is not decided")
+
+
+def check(cert):
+    need(cert.get("wavestep_certificate") == 1, "a certificate of another version")
+    ROOTS.clear()
+    ROOTS.update({symbol: Fraction(square) for symbol, square in cert["roots"].items()})
+    kinds = {"pieces": check_pieces, "value": check_value}
+    need(cert["kind"] in kinds, f"unknown kind {cert['kind']}")
+    kinds[cert["kind"]](cert)
+
+
+if __name__ == "__main__":
+    for name in sys.argv[1:]:
+        with open(name, encoding="utf-8") as file:
+            certificate = json.load(file)
+        try:
+            check(certificate)
+        except Wrong as error:
+            sys.exit(f"{name}: NOT proven: {error}")
+        print(f"{name}: proven ({certificate['kind']} of {certificate['title']})")

@@ -1,0 +1,206 @@
+//! `certify`: what is claimed, with all that it takes to verify it, for checkers that share nothing with this program.
+
+use super::arguments::Certify;
+use super::failure::Failure;
+use super::input;
+use super::progress;
+use num_rational::BigRational;
+use serde_json::{Map, Value as Json, json};
+use std::collections::BTreeSet;
+use wavestep::expression::{Expression, Fraction};
+use wavestep::limits::VALUE_BITS;
+use wavestep::problem::{Derived, Digits, Form, Orders, Problem, ToDerive};
+use wavestep::recurrence::{LinearForm, Recurrence};
+use wavestep::signal::Limit;
+use wavestep_polynomial::{Polynomial, Symbol};
+
+/// The version of the layout, which docs/certificates.md describes.
+const VERSION: u32 = 1;
+
+/// The last period without --through.
+const LAST: usize = 3;
+
+pub fn run(options: &Certify) -> Result<String, Failure> {
+    input::digits(options.digits)?;
+    let problem = input::problem(&options.scene)?;
+    let (Some(name), Some(at)) = (&options.quantity, &options.at) else {
+        let (mut document, _) = pieces(&problem, options.through.unwrap_or(LAST))?;
+        document.insert("kind".into(), json!("pieces"));
+        return Ok(format!("{}\n", Json::Object(document)));
+    };
+    Ok(format!(
+        "{}\n",
+        value(&problem, name.trim(), &problem.time("--at", at.as_str())?, options.digits)?
+    ))
+}
+
+/// What the scene states and the pieces of all waves through a period, and the square roots among the symbols.
+fn pieces(problem: &Problem, last: usize) -> Result<(Map<String, Json>, Writer), Failure> {
+    let recurrence = problem.recurrence()?;
+    let statement = recurrence.statement();
+    if let Some(constant) = recurrence.constants().first() {
+        let message =
+            format!("formulas of this scene hold `{}`, a number with a name", constant.symbol);
+        return Err(Failure::usage(
+            message,
+            "certificates are written where all numbers are rational",
+        ));
+    }
+    let progress = progress::spinner("deriving");
+    let derived = problem.functions(ToDerive::Waves, Orders::Through(0, last), Form::Period)?;
+    drop(progress);
+    let Derived::Functions(all) = derived else { unreachable!("waves with periods have pieces") };
+    let mut writer = Writer::default();
+    // Integrals of waves, which displacements are made of, follow from the others.
+    let is_shown = |wave: usize| all.iter().any(|own| own.name == recurrence.wave_name(wave));
+    let is_told = |form: &&LinearForm| form.operators().all(|(wave, _)| is_shown(wave));
+    let functions: Map<String, Json> = all
+        .iter()
+        .map(|own| {
+            (
+                own.name.clone(),
+                own.expressions.iter().map(|piece| writer.expression(piece)).collect(),
+            )
+        })
+        .collect();
+    let equations: Vec<Json> = statement
+        .equations
+        .iter()
+        .filter(is_told)
+        .map(|form| writer.form(recurrence, form))
+        .collect();
+    let continuity: Vec<Json> = statement
+        .continuity
+        .iter()
+        .filter(|law| is_told(&&law.form))
+        .map(|law| {
+            let mut form = writer.form(recurrence, &law.form);
+            form["start"] = writer.expression(&law.start);
+            form
+        })
+        .collect();
+    let mut document = Map::new();
+    document.insert("wavestep_certificate".into(), json!(VERSION));
+    document.insert("through".into(), json!(last));
+    document.insert("title".into(), json!(problem.title()));
+    document.insert("waves".into(), json!(all.iter().map(|own| &own.name).collect::<Vec<_>>()));
+    document.insert("local".into(), json!(statement.local.name()));
+    document.insert("time".into(), json!(statement.time.name()));
+    document.insert("period".into(), writer.function(&statement.period));
+    document.insert("equations".into(), json!(equations));
+    document.insert("continuity".into(), json!(continuity));
+    document.insert("pieces".into(), Json::Object(functions));
+    document.insert("roots".into(), writer.roots());
+    Ok((document, writer))
+}
+
+/// A value, with the pieces that it is made of.
+fn value(problem: &Problem, name: &str, at: &BigRational, digits: usize) -> Result<Json, Failure> {
+    let wanted = problem.wanted(name)?;
+    let linear = wanted.observation().filter(|_| !problem.has_units());
+    let Some(observation) = linear else {
+        let message = format!("no certificate is written of the value of {name}");
+        let remedy = "ask for a quantity that is linear in the waves, in a scene without units";
+        return Err(Failure::usage(message, remedy));
+    };
+    let asked =
+        Digits { count: digits, max_bits: VALUE_BITS, limit: Limit::Right, count_echoes: false };
+    let found = problem.proven(&wanted, std::slice::from_ref(at), asked, &|| ())?;
+    let (decimal, _) = found.values[0].decimal(digits);
+    // Zeros at the end are left out of decimals that are exact.
+    let last_place = decimal.place() - (digits - decimal.significant()) as i64;
+    let period = problem.shortest_period().expect("values have periods of known length");
+    let last = (at / period).to_integer();
+    let last = usize::try_from(last)
+        .map_err(|_| Failure::usage("the time is too late", "ask for an earlier time"))?;
+    let (mut document, mut writer) = pieces(problem, last)?;
+    let waves: Vec<Json> = observation
+        .waves
+        .iter()
+        .map(|seen| {
+            let wave = problem.recurrence()?.wave_name(seen.wave);
+            let kind = if seen.slope { "slope" } else { "value" };
+            let delay = seen.delay.as_constant().map(|delay| delay.to_string());
+            Ok(json!([wave, kind, delay, writer.expression(&seen.coefficient)]))
+        })
+        .collect::<Result<_, Failure>>()?;
+    let forcing = writer.expression(&observation.forcing);
+    document.insert("kind".into(), json!("value"));
+    document.insert("quantity".into(), json!(name));
+    document.insert("observed".into(), json!({ "waves": waves, "forcing": forcing }));
+    document.insert("at".into(), json!(at.to_string()));
+    document.insert("value".into(), json!(decimal.to_string()));
+    document.insert("last_place".into(), json!(last_place));
+    document.insert("roots".into(), writer.roots());
+    Ok(Json::Object(document))
+}
+
+/// Writes expressions as lists, and keeps the square roots that it met.
+#[derive(Default)]
+struct Writer {
+    roots: BTreeSet<Symbol>,
+}
+
+impl Writer {
+    /// `[[coefficient, {symbol: power}], …]`.
+    fn polynomial(&mut self, polynomial: &Polynomial) -> Json {
+        let symbols = polynomial.symbols();
+        self.roots.extend(symbols.iter().filter(|symbol| symbol.square().is_some()).cloned());
+        let term = |(exponents, coefficient): (&[u32], BigRational)| {
+            let powers = symbols.iter().zip(exponents).filter(|(_, power)| **power > 0);
+            let powers: Map<String, Json> =
+                powers.map(|(symbol, power)| (symbol.to_string(), json!(power))).collect();
+            json!([coefficient.to_string(), powers])
+        };
+        polynomial.terms().map(term).collect()
+    }
+
+    /// `[[numerator, [[factor, power], …]]]`, empty for zero.
+    fn function(&mut self, fraction: &Fraction) -> Json {
+        if fraction.is_zero() {
+            return json!([]);
+        }
+        let below: Vec<Json> = fraction
+            .factors()
+            .map(|(factor, power)| json!([self.polynomial(factor), power]))
+            .collect();
+        json!([[self.polynomial(fraction.numerator()), below]])
+    }
+
+    /// `[[exponent, coefficient], …]`.
+    fn expression(&mut self, expression: &Expression) -> Json {
+        expression
+            .terms()
+            .map(|(exponent, coefficient)| {
+                json!([self.function(exponent), self.function(coefficient)])
+            })
+            .collect()
+    }
+
+    /// `{"waves": [[wave, "value", lag, coefficient], …], "forcing": [[lag, function], …]}`.
+    fn form(&mut self, recurrence: &Recurrence, form: &LinearForm) -> Json {
+        let mut waves = Vec::new();
+        for (wave, operator) in form.operators() {
+            let rows =
+                [("value", &operator.value), ("slope", &operator.slope), ("sum", &operator.sum)];
+            for (kind, lags) in rows {
+                waves.extend(lags.iter().map(|(lag, coefficient)| {
+                    json!([recurrence.wave_name(wave), kind, lag, self.expression(coefficient)])
+                }));
+            }
+        }
+        let forcing: Vec<Json> = form
+            .forcing_terms()
+            .iter()
+            .map(|(lag, function)| json!([lag, self.expression(function)]))
+            .collect();
+        json!({ "waves": waves, "forcing": forcing })
+    }
+
+    /// What is below each root.
+    fn roots(&self) -> Json {
+        let square =
+            |symbol: &Symbol| Some((symbol.to_string(), json!(symbol.square()?.to_string())));
+        Json::Object(self.roots.iter().filter_map(square).collect())
+    }
+}

@@ -1,0 +1,136 @@
+//! Certificates of the shipped scenes are verified by a checker that shares nothing with the program, and altered ones are
+//! not. Left out where there is no Python.
+
+use super::{ROOT, folder, run};
+use std::path::Path;
+use std::process::Command;
+
+/// Scenes that have certificates of their pieces.
+const SCENES: [&str; 19] = [
+    "two-bars",
+    "constant-force",
+    "pulse-shape",
+    "rigid-mass",
+    "striker-on-long-bar",
+    "pushed-bar",
+    "cushioned-impact",
+    "mass-on-fixed-bar",
+    "struck-free-bar",
+    "stepped-striker",
+    "mass-between-bars",
+    "pile",
+    "bars-that-part",
+    "bars-of-equal-length",
+    "bars-of-unequal-length",
+    "saint-venant",
+    "mass-on-free-bar",
+    "cushion-with-release",
+    "mass-that-bounces",
+];
+
+/// Values of waves and of observables, with delays, forcing, roots and slopes among them.
+const VALUES: [&str; 6] = [
+    "rigid-mass --set mu=1/4 --quantity velocity --at 33/10 --digits 30",
+    "rigid-mass --set mu=1/4 --quantity f --at 33/10",
+    "two-bars --set r=1/2 --quantity force --at 5",
+    "pulse-shape --set mu=1 --quantity force --at 3",
+    "mass-on-fixed-bar --set mu=1 --quantity strain_fixed --at 4 --digits 50",
+    "pushed-bar --quantity velocity --at 7/2",
+];
+
+/// What a script of `checkers/` says of files in a folder; `None` without Python.
+fn checked(folder: &Path, script: &str, arguments: &[String]) -> Option<(bool, String)> {
+    let mut command = Command::new("python3");
+    command.arg(format!("{ROOT}/checkers/{script}")).args(arguments).current_dir(folder);
+    match command.env("PYTHONDONTWRITEBYTECODE", "1").output() {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            eprintln!("python3 is missing: left out");
+            None
+        }
+        output => {
+            let output = output.unwrap();
+            let told = [output.stdout, output.stderr].concat();
+            Some((output.status.success(), String::from_utf8(told).unwrap()))
+        }
+    }
+}
+
+/// Certificates of all scenes and values, by the names of their files.
+fn certificates(folder: &Path) -> Vec<String> {
+    let pieces = SCENES.map(|scene| format!("{scene} --through 4"));
+    let asked = pieces.iter().map(String::as_str).chain(VALUES).enumerate();
+    let written = asked.map(|(i, line)| {
+        let file = format!("{i}.json");
+        let words: Vec<&str> = line.split(' ').chain(["-o", &file]).collect();
+        let (code, _, errors) = run(folder, &[&["certify"], &words[..]].concat());
+        assert_eq!((code, errors.contains("error")), (0, false), "{line}: {errors}");
+        file
+    });
+    written.collect()
+}
+
+#[test]
+fn certificates_of_shipped_scenes_are_verified() {
+    let folder = folder("certificates");
+    let files = certificates(&folder);
+    let Some((proven, told)) = checked(&folder, "check.py", &files) else { return };
+    assert!(proven && told.matches(": proven (").count() == files.len(), "{told}");
+}
+
+#[test]
+fn altered_certificates_are_not() {
+    let folder = folder("altered-certificates");
+    let files = certificates(&folder);
+    let arguments = [&["1000".to_owned()], &files[..]].concat();
+    let Some((passed, told)) = checked(&folder, "alterations.py", &arguments) else { return };
+    assert!(passed && told.contains("1000 alterations") && told.contains(" 0 missed"), "{told}");
+}
+
+/// Each part of the checker finds what it is there for.
+#[test]
+fn wrong_claims_are_told_by_what_is_wrong() {
+    let folder = folder("wrong-certificates");
+    let ask = |line: &str| {
+        let words: Vec<&str> = line.split(' ').collect();
+        let (code, out, errors) = run(&folder, &[&["certify"], &words[..]].concat());
+        assert_eq!(code, 0, "{errors}");
+        serde_json::from_str::<serde_json::Value>(&out).unwrap()
+    };
+    let pieces = ask("rigid-mass --through 2");
+    let value = ask(VALUES[0]);
+    type Change = fn(&mut serde_json::Value);
+    let cases: [(&serde_json::Value, Change, &str); 7] = [
+        (&pieces, |own| own["pieces"]["f"][2][0][1][0][0][0][0] = "7".into(), "period 2"),
+        (&pieces, |own| own["continuity"][0]["start"] = serde_json::json!([]), "continuity 0"),
+        (&pieces, |own| own["continuity"] = serde_json::json!([]), "leaves values open"),
+        (&pieces, |own| own["equations"][0] = own["equations"][1].clone(), "derivatives open"),
+        (&pieces, |own| own["pieces"]["g"][1] = serde_json::json!([]), "equation"),
+        (&value, |own| own["value"] = "0.3".into(), "another one"),
+        (&value, |own| own["at"] = "34/10".into(), "another one"),
+    ];
+    for (certificate, change, wrong) in cases {
+        let mut altered = certificate.clone();
+        change(&mut altered);
+        std::fs::write(folder.join("altered.json"), altered.to_string()).unwrap();
+        let told = checked(&folder, "check.py", &["altered.json".to_owned()]);
+        let Some((proven, told)) = told else { return };
+        assert!(!proven && told.contains("NOT proven") && told.contains(wrong), "{wrong}: {told}");
+    }
+}
+
+#[test]
+fn what_has_no_certificate_is_told() {
+    let folder = folder("no-certificates");
+    for (line, message) in [
+        ("certify hopkinson", "a number with a name"),
+        ("certify incommensurate", "no common measure"),
+        ("certify hertz-striker", "local contact"),
+        ("certify mass-on-fixed-bar --set mu=1 --quantity energy --at 1", "energy"),
+        ("certify rigid-mass --quantity f --at 1", "mu"),
+        ("certify rigid-mass --at 1", "--quantity"),
+    ] {
+        let words: Vec<&str> = line.split(' ').collect();
+        let (code, out, errors) = run(&folder, &words);
+        assert!(code != 0 && out.is_empty() && errors.contains(message), "{line}: {errors}");
+    }
+}
