@@ -7,7 +7,7 @@ use super::progress;
 use num_rational::BigRational;
 use serde_json::{Map, Value as Json, json};
 use std::collections::BTreeSet;
-use wavestep::expression::{Expression, Fraction};
+use wavestep::expression::{Constant, Definition, Expression, Fraction};
 use wavestep::limits::VALUE_BITS;
 use wavestep::problem::{Derived, Digits, Form, Orders, Problem, ToDerive};
 use wavestep::recurrence::{LinearForm, Recurrence};
@@ -38,12 +38,16 @@ pub fn run(options: &Certify) -> Result<String, Failure> {
 fn pieces(problem: &Problem, last: usize) -> Result<(Map<String, Json>, Writer), Failure> {
     let recurrence = problem.recurrence()?;
     let statement = recurrence.statement();
-    if let Some(constant) = recurrence.constants().first() {
-        let message =
-            format!("formulas of this scene hold `{}`, a number with a name", constant.symbol);
+    // A square root with a name may be any number: formulas hold it as a symbol.
+    let is_rate = |constant: &&Constant| !matches!(constant.value, Definition::Root(_));
+    if let Some(constant) = recurrence.constants().iter().find(is_rate) {
+        let message = format!(
+            "formulas of this scene hold the rate `{}`, which has no formula",
+            constant.symbol
+        );
         return Err(Failure::usage(
             message,
-            "certificates are written where all numbers are rational",
+            "certificates are written where all rates have formulas",
         ));
     }
     let progress = progress::spinner("deriving");
@@ -82,6 +86,7 @@ fn pieces(problem: &Problem, last: usize) -> Result<(Map<String, Json>, Writer),
     let mut document = Map::new();
     document.insert("wavestep_certificate".into(), json!(VERSION));
     document.insert("through".into(), json!(last));
+    document.insert("constants".into(), json!(problem.constants(None)?));
     document.insert("title".into(), json!(problem.title()));
     document.insert("waves".into(), json!(all.iter().map(|own| &own.name).collect::<Vec<_>>()));
     document.insert("local".into(), json!(statement.local.name()));

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// Scenes that have certificates of their pieces.
-const SCENES: [&str; 19] = [
+const SCENES: [&str; 22] = [
     "two-bars",
     "constant-force",
     "pulse-shape",
@@ -26,6 +26,9 @@ const SCENES: [&str; 19] = [
     "mass-on-free-bar",
     "cushion-with-release",
     "mass-that-bounces",
+    "hopkinson",
+    "percussive-drill",
+    "hopkinson-with-release",
 ];
 
 /// Values of waves and of observables, with delays, forcing, roots and slopes among them.
@@ -121,8 +124,12 @@ fn wrong_claims_are_told_by_what_is_wrong() {
 #[test]
 fn what_has_no_certificate_is_told() {
     let folder = folder("no-certificates");
+    let rates = "scene \"Three rates\"\nmass hammer { mass = 1, velocity = 1 }\nspring pad { stiffness = 2 }\n\
+                 mass anvil { mass = 3 }\nbar rod { impedance = 1, travel = 1 }\n\
+                 line free - hammer - pad - anvil - rod - fixed\n";
+    std::fs::write(folder.join("rates.wave"), rates).unwrap();
     for (line, message) in [
-        ("certify hopkinson", "a number with a name"),
+        ("certify rates.wave", "which has no formula"),
         ("certify incommensurate", "no common measure"),
         ("certify hertz-striker", "local contact"),
         ("certify mass-on-fixed-bar --set mu=1 --quantity energy --at 1", "energy"),
