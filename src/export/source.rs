@@ -2,13 +2,13 @@
 
 use crate::export::arrangement::{Arrangement, arrange};
 use crate::export::formula::{Formula, Head, Right};
-use crate::export::general::general_form;
+use crate::export::general::general_form_from;
 use crate::export::names::{Name, Names};
 use crate::export::notation::Notation::{self, Latex, Text};
 use crate::export::notation::both;
 use crate::export::tree::{Sign, Term, Tree};
 use crate::export::writer::{write_flat, write_named};
-use crate::expression::Expression;
+use crate::expression::{Expression, Fraction};
 use crate::recurrence::{Recurrence, SourceProduct, WaveIndex};
 use crate::solution::{GeneralForm, KeptEnds};
 use num_traits::{One, Signed};
@@ -19,6 +19,8 @@ use wavestep_polynomial::{Integer, Rational, Symbol};
 pub struct SourceForm<'a> {
     recurrence: &'a Recurrence,
     names: Arc<Names>,
+    /// When the first period begins.
+    offset: Fraction,
 }
 
 impl<'a> SourceForm<'a> {
@@ -39,7 +41,13 @@ impl<'a> SourceForm<'a> {
             let name = Name::plain((format!("{text}({})", end.0), format!("{latex}({})", end.1)));
             names.insert(symbol.clone(), name);
         }
-        SourceForm { recurrence, names: Arc::new(names) }
+        SourceForm { recurrence, names: Arc::new(names), offset: Fraction::zero() }
+    }
+
+    /// Of what has its first period from a time on.
+    #[must_use]
+    pub fn beginning(self, offset: &Fraction) -> SourceForm<'a> {
+        SourceForm { offset: offset.clone(), ..self }
     }
 
     /// The formulas of a piece: the wave function, and its constant where it is stated apart.
@@ -65,7 +73,11 @@ impl<'a> SourceForm<'a> {
             }
             _ => arrangement.terms(piece),
         };
-        let mut formulas = vec![self.formula(head(self.recurrence, wave, &n.to_string()), terms)];
+        let formula = self.formula(head(self.recurrence, wave, &n.to_string()), terms);
+        let mut formulas = match self.offset.is_zero() {
+            true => vec![formula],
+            false => vec![formula.on_named_period(n, &self.offset, statement, &self.names)],
+        };
         if let (Some(apart), Some(symbol)) = (apart, symbol) {
             formulas.push(self.formula(both(|n| n.symbol(&symbol)), apart));
         }
@@ -79,7 +91,8 @@ impl<'a> SourceForm<'a> {
         let unit = self.recurrence.statement().notation.units.get(&wave);
         let sequence = unit.map_or_else(|| sequence.clone(), |u| sequence.scaled(u.coefficient()));
         let last = sequence.first.len();
-        let formulas = general_form(self.recurrence, wave, &GeneralForm::Geometric(sequence));
+        let form = GeneralForm::Geometric(sequence);
+        let formulas = general_form_from(self.recurrence, wave, &form, &self.offset);
         let written = |(i, formula): (usize, Formula)| {
             let Right::Terms(terms) = formula.right else { return None };
             let terms = unit.map_or_else(|| terms.clone(), |unit| in_unit(unit, terms.clone()));
