@@ -108,7 +108,7 @@ impl<'a> SourceForm<'a> {
     }
 }
 
-/// `unit · terms` with the unit's symbols: after a number or a sum, else in front.
+/// `unit · terms` with the unit's symbols in front, after a number alone.
 fn in_unit(unit: &SourceProduct, mut terms: Vec<Term>) -> Vec<Term> {
     let unit = unit.without_number();
     if unit.powers().is_empty() {
@@ -118,7 +118,7 @@ fn in_unit(unit: &SourceProduct, mut terms: Vec<Term>) -> Vec<Term> {
     match &terms[..] {
         [] => terms,
         [(_, Tree::Sum(_))] | [_, _, ..] => {
-            vec![(Sign::Plus, Tree::product(vec![Tree::Sum(terms), unit]))]
+            vec![(Sign::Plus, Tree::product(vec![unit, Tree::Sum(terms)]))]
         }
         [_] => {
             let (sign, tree) = terms.remove(0);
