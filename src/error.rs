@@ -260,12 +260,6 @@ fn remedy(error: &ProblemError) -> Option<String> {
             did_you_mean(name, names.iter().map(String::as_str))
                 .unwrap_or_else(|| format!("ask for one of {}", names.join(", ")))
         }
-        ProblemError::NotAWave { waves, .. } => {
-            format!("the waves of this scene are {}", waves.join(", "))
-        }
-        ProblemError::NotAnObservable { observables, .. } if !observables.is_empty() => {
-            format!("the observables of this scene are {}", observables.join(", "))
-        }
         ProblemError::Change(ChangeError::Unknown(text)) => {
             let likely = Simpler::corrected(text).map(|text| format!("did you mean `{text}`?"));
             likely.unwrap_or_else(|| format!("it is one of {}", Simpler::FORMS))
@@ -300,8 +294,6 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
             // The others say themselves what to give.
             _ => return None,
         },
-        ProblemError::NotAnObservable { .. } => "this scene has no observables: derive its waves",
-        ProblemError::ObservableIsNoWave(_) => "it is an observable: derive it as such",
         ProblemError::NoNumber(_) | ProblemError::NotFinite(_) => "give a number",
         ProblemError::Tolerance(_) => "give a number such as 1e-9, abs:1e-9 or ulp:4",
         ProblemError::Method(_) => "see `Method::NAMES`",

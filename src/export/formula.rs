@@ -28,8 +28,8 @@ pub struct Head {
 }
 
 /// An exact value in one line.
-fn flat(value: &Fraction, notation: Notation) -> String {
-    write_flat(&arrange(&value.into(), None), notation)
+fn flat(value: &Fraction, notation: Notation, names: &Names) -> String {
+    write_named(&arrange(&value.into(), None), notation, names).text().to_owned()
 }
 
 /// When a formula holds, and its local time since `start`.
@@ -37,16 +37,18 @@ fn remark(
     holds: impl Fn(Notation, &str) -> String,
     start: &Fraction,
     [local, time]: [&Symbol; 2],
+    names: &Names,
 ) -> (String, String) {
     both(|n| {
-        let start = flat(start, n);
-        let since = since(&n.symbol(time), &start);
-        format!("{}{}{} = {since}", holds(n, &start), n.choose(", ", ",\\ "), n.symbol(local))
+        let start = flat(start, n, names);
+        let [local, time] = [local, time].map(|x| flat(&Fraction::symbol(x), n, names));
+        let since = since(&time, &start);
+        format!("{}{}{local} = {since}", holds(n, &start), n.choose(", ", ",\\ "))
     })
 }
 
 /// `t - start`, with brackets around a sum.
-fn since(t: &str, start: &str) -> String {
+pub(super) fn since(t: &str, start: &str) -> String {
     match start {
         "0" => t.to_owned(),
         sum if sum.contains(['+', '-']) => format!("{t} - ({sum})"),
@@ -133,18 +135,39 @@ impl Formula {
     /// The formula with the interval on which a piece holds as its remark: with periods that
     /// begin at `o`, `o + nD <= t < o + (n+1)D, s = t - (o + nD)`.
     pub fn on_period(self, n: usize, offset: &Fraction, statement: &Statement) -> Formula {
+        self.on_named_period(n, offset, statement, &Names::new())
+    }
+
+    /// The same with names for symbols.
+    pub(crate) fn on_named_period(
+        self,
+        n: usize,
+        offset: &Fraction,
+        statement: &Statement,
+        names: &Names,
+    ) -> Formula {
         let bound = |n: usize| offset + &statement.period.scale(&Rational::from_integer(n.into()));
-        self.between(&bound(n), &bound(n + 1), statement)
+        self.between_named(&bound(n), &bound(n + 1), statement, names)
     }
 
     /// The formula with the interval on which it holds as its remark: `from <= t < to, s = t - from`.
-    pub fn between(mut self, from: &Fraction, to: &Fraction, statement: &Statement) -> Formula {
+    pub fn between(self, from: &Fraction, to: &Fraction, statement: &Statement) -> Formula {
+        self.between_named(from, to, statement, &Names::new())
+    }
+
+    fn between_named(
+        mut self,
+        from: &Fraction,
+        to: &Fraction,
+        statement: &Statement,
+        names: &Names,
+    ) -> Formula {
         let Statement { local, time, .. } = statement;
         let holds = |n: Notation, start: &str| {
-            let (at_most, t) = (n.choose("<=", "\\le"), n.symbol(time));
-            format!("{start} {at_most} {t} < {}", flat(to, n))
+            let (at_most, t) = (n.choose("<=", "\\le"), flat(&Fraction::symbol(time), n, names));
+            format!("{start} {at_most} {t} < {}", flat(to, n, names))
         };
-        self.remark = Some(remark(holds, from, [local, time]));
+        self.remark = Some(remark(holds, from, [local, time], names));
         self
     }
 
@@ -165,7 +188,7 @@ impl Formula {
         let holds = |n: Notation, start: &str| {
             format!("{} {} {start}", n.symbol(time), n.choose(">=", "\\ge"))
         };
-        let remark = Some(remark(holds, delay, [local, time]));
+        let remark = Some(remark(holds, delay, [local, time], &Names::new()));
         Formula { remark, ..Formula::echo(wave, counts, echo, local) }
     }
 

@@ -1,12 +1,13 @@
 //! General forms, and the equations for which none was found, as formulas.
 
 use crate::export::arrangement::arrange;
-use crate::export::formula::{Formula, Head, Right};
-use crate::export::notation::Notation::{Latex, MathMl, Text};
+use crate::export::formula::{Formula, Head, Right, since};
+use crate::export::notation::Notation::{self, Latex, MathMl, Text};
+use crate::export::notation::both;
 use crate::export::tree::{Sign, Term, Tree};
 use crate::export::writer::write_flat;
 use crate::expression::{Assumptions, Expression, Fraction};
-use crate::recurrence::{Recurrence, WaveIndex};
+use crate::recurrence::{Recurrence, Statement, WaveIndex};
 use crate::solution::{
     EchoTemplate, Family, GeneralForm, Geometric, GeometricTerm, Proof, Unknown,
 };
@@ -29,9 +30,19 @@ pub(super) fn echo_index(recurrence: &Recurrence) -> Symbol {
 
 /// The formulas that give a wave in general n, each proved as its remark says.
 pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm) -> Vec<Formula> {
+    general_form_from(recurrence, wave, form, &Fraction::zero())
+}
+
+/// The same of what has its first period from a time `offset` on.
+pub fn general_form_from(
+    recurrence: &Recurrence,
+    wave: WaveIndex,
+    form: &GeneralForm,
+    offset: &Fraction,
+) -> Vec<Formula> {
     let mut formulas = match form {
         GeneralForm::Geometric(form) => geometric(recurrence, wave, form),
-        GeneralForm::Echoes(template) => echoes(recurrence, wave, template),
+        GeneralForm::Echoes(template) => echoes(recurrence, wave, template, offset),
     };
     if let Some(last) = formulas.last_mut() {
         let (index, first) = match form {
@@ -50,11 +61,27 @@ pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm
             }
             _ => "",
         };
-        let text = format!("for {index} >= {first}, proved by {proof}{laguerre}");
-        let latex = if first == 0 { String::new() } else { format!("{index} \\ge {first}") };
+        let mut text = format!("for {index} >= {first}, proved by {proof}{laguerre}");
+        let mut latex = if first == 0 { String::new() } else { format!("{index} \\ge {first}") };
+        if !offset.is_zero() && matches!(form, GeneralForm::Geometric(_)) {
+            let (of_text, of_latex) = both(|n| on_period_from(recurrence, offset, n));
+            text = format!("{of_text}, {text}");
+            latex = if first == 0 { of_latex } else { format!("{of_latex},\\ {latex}") };
+        }
         last.remark = Some((text, latex));
     }
     formulas
+}
+
+/// `o + n*D <= t < o + (n+1)*D`.
+fn on_period_from(recurrence: &Recurrence, offset: &Fraction, notation: Notation) -> String {
+    let Statement { period, time, .. } = recurrence.statement();
+    let n = Symbol::new("n").expect("a name");
+    let begins = offset + &(period * &Fraction::symbol(&n));
+    let ends = &begins + period;
+    let [begins, ends] =
+        [begins, ends].map(|bound| write_flat(&arrange(&Expression::from(bound), None), notation));
+    format!("{begins} {} {} < {ends}", notation.choose("<=", "\\le"), notation.symbol(time))
 }
 
 fn geometric(recurrence: &Recurrence, wave: WaveIndex, form: &Geometric) -> Vec<Formula> {
@@ -127,11 +154,16 @@ fn negative(tree: Tree) -> Tree {
     Tree::Sum(vec![(Sign::Minus, tree)])
 }
 
-fn echoes(recurrence: &Recurrence, wave: WaveIndex, template: &EchoTemplate) -> Vec<Formula> {
+fn echoes(
+    recurrence: &Recurrence,
+    wave: WaveIndex,
+    template: &EchoTemplate,
+    offset: &Fraction,
+) -> Vec<Formula> {
     let statement = recurrence.statement();
     let wave = &statement.waves[wave];
     let (x, k) = (&statement.local, echo_index(recurrence));
-    let mut formulas = vec![sum_of_echoes(recurrence, wave)];
+    let mut formulas = vec![sum_of_echoes(recurrence, wave, offset)];
     for (i, echo) in template.first.iter().enumerate() {
         formulas.push(Formula::echo(wave, &[i], echo, x));
     }
@@ -140,22 +172,26 @@ fn echoes(recurrence: &Recurrence, wave: WaveIndex, template: &EchoTemplate) -> 
     formulas
 }
 
-/// `f(t) = sum(phi_f[k](t - D*k), 0 <= D*k <= t)`.
-fn sum_of_echoes(recurrence: &Recurrence, wave: &str) -> Formula {
+/// `f(t) = sum(phi_f[k](t - D*k), 0 <= D*k <= t)`, with `o + D*k` where the first period begins at `o`.
+pub(super) fn sum_of_echoes(recurrence: &Recurrence, wave: &str, offset: &Fraction) -> Formula {
     let statement = recurrence.statement();
     let (t, k) = (&statement.time, echo_index(recurrence));
-    let delay = Expression::from(&statement.period * &Fraction::symbol(&k));
+    let delay = &statement.period * &Fraction::symbol(&k);
+    let [delay, later, offset] =
+        [delay.clone(), offset + &delay, offset.clone()].map(Expression::from);
     let head = Head::both(|n| format!("{}({})", n.name(wave), n.symbol(t)));
     let right = Right::both(|n| {
-        let (t, delay) = (n.symbol(t), write_flat(&arrange(&delay, None), n));
-        let echo = n.echo(wave, k.name(), &format!("{t} - {delay}"));
+        let [delay, later, offset] =
+            [&delay, &later, &offset].map(|value| write_flat(&arrange(value, None), n));
+        let [argument, latest] = [later, offset].map(|start| since(&n.symbol(t), &start));
+        let echo = n.echo(wave, k.name(), &argument);
         match n {
-            Text => format!("sum({echo}, 0 <= {delay} <= {t})"),
+            Text => format!("sum({echo}, 0 <= {delay} <= {latest})"),
             MathMl => {
-                let range = format!("<mrow>0≤{delay}≤{t}</mrow>");
+                let range = format!("<mrow>0≤{delay}≤{latest}</mrow>");
                 format!("<munder><mo>∑</mo>{range}</munder>{echo}")
             }
-            Latex => format!("\\sum_{{0 \\le {delay} \\le {t}}} {echo}"),
+            Latex => format!("\\sum_{{0 \\le {delay} \\le {latest}}} {echo}"),
         }
     });
     Formula::of(head, right)
@@ -191,7 +227,13 @@ pub(super) fn template_terms(template: &EchoTemplate, x: &Symbol, k: &Symbol) ->
     }
     let (sign, body) = Tree::sum(sum);
     match body {
-        Tree::Product(factors) => front.extend(factors),
+        Tree::Product(mut factors) => {
+            // A number leads.
+            if let Some(Tree::Number(_)) = factors.first() {
+                front.insert(0, factors.remove(0));
+            }
+            front.extend(factors);
+        }
         Tree::Number(value) if value.is_zero() => return Vec::new(),
         Tree::Number(value) if value.is_one() => {}
         Tree::Sum(terms) => front.push(Tree::Bracket(terms)),

@@ -38,15 +38,16 @@ impl Writing {
         &self.text
     }
 
-    /// The lines of at most `width` where the places for breaks allow it. A line that is too long
-    /// is broken at the last place before its end; among the places in the line's second half, at
-    /// one inside the fewest brackets. Cost: O(stretches · stretches in a line).
+    /// The lines of at most `width` where the places for breaks allow it. A line that is too long is broken at the last
+    /// place inside the fewest brackets; inside more only where that place lies in the line's first half and the next
+    /// line could not hold what stands between it and the next such place. Cost: O(stretches · depth).
     pub fn lines(&self, width: usize, first_indent: usize, indent: usize) -> Vec<&str> {
         let mut lines = Vec::new();
         let (mut next, mut start) = (0, 0);
         while next < self.stretches.len() {
             let used = if lines.is_empty() { first_indent } else { indent };
-            next += stretches_in_line(&self.stretches[next..], width.saturating_sub(used));
+            let widths = [used, indent].map(|used| width.saturating_sub(used));
+            next += stretches_in_line(&self.stretches[next..], widths);
             let end = self.stretches[next - 1].end;
             // A space before a sign stands before the break.
             lines.push(self.text[start..end].trim_end());
@@ -56,21 +57,32 @@ impl Writing {
     }
 }
 
-/// How many stretches the first line takes.
-fn stretches_in_line(stretches: &[Stretch], width: usize) -> usize {
-    let mut used = 0;
-    let mut best: Option<(usize, usize)> = None;
-    for (i, stretch) in stretches.iter().enumerate() {
-        // The best place so far: any while it lies in the line's first half, later one inside as
-        // few brackets as there are.
-        let early = (used * 2) < width;
-        if i > 0 && best.is_none_or(|(depth, _)| early || stretch.depth <= depth) {
-            best = Some((if early { usize::MAX } else { stretch.depth }, i));
-        }
-        used += stretch.width;
-        if let (true, Some((_, place))) = (used > width, best) {
-            return place;
+/// How many stretches the first line takes; the widths are those of the first line and of others.
+fn stretches_in_line(stretches: &[Stretch], [first, others]: [usize; 2]) -> usize {
+    let ends: Vec<usize> = (stretches.iter())
+        .scan(0, |used, stretch| {
+            *used += stretch.width;
+            Some(*used)
+        })
+        .take_while(|used| *used <= first)
+        .collect();
+    if ends.len() == stretches.len() {
+        return stretches.len();
+    }
+    let mut place = 0;
+    // The last place inside the fewest brackets, of those behind the one before.
+    while let Some(deeper) =
+        (place + 1..=ends.len()).min_by_key(|i| (stretches[*i].depth, usize::MAX - i))
+    {
+        place = deeper;
+        let inside = |stretch: &&Stretch| stretch.depth > stretches[place].depth;
+        let mut later = stretches[place + 1..].iter().take_while(inside);
+        let fits = |sum: usize| (sum <= others).then_some(sum);
+        let together = fits(stretches[place].width)
+            .and_then(|own| later.try_fold(own, |sum, stretch| fits(sum + stretch.width)));
+        if ends[place - 1] * 2 >= first || together.is_some() {
+            break;
         }
     }
-    stretches.len()
+    place.max(1)
 }

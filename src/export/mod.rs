@@ -29,7 +29,7 @@ pub use forms::{form_text, solved_equations};
 pub use formula::{
     Formula, Head, LATEX_WIDTH, TEXT_WIDTH, expression_text, latex, latex_cases, text,
 };
-pub use general::{assumed_factors, general_form, operator_names, operator_of};
+pub use general::{assumed_factors, general_form, general_form_from, operator_names, operator_of};
 pub use impact::first_contact;
 pub use names::latex_name;
 pub use notation::Notation;

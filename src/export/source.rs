@@ -2,13 +2,13 @@
 
 use crate::export::arrangement::{Arrangement, arrange};
 use crate::export::formula::{Formula, Head, Right};
-use crate::export::general::general_form;
+use crate::export::general::general_form_from;
 use crate::export::names::{Name, Names};
 use crate::export::notation::Notation::{self, Latex, Text};
 use crate::export::notation::both;
 use crate::export::tree::{Sign, Term, Tree};
 use crate::export::writer::{write_flat, write_named};
-use crate::expression::Expression;
+use crate::expression::{Expression, Fraction};
 use crate::recurrence::{Recurrence, SourceProduct, WaveIndex};
 use crate::solution::{GeneralForm, KeptEnds};
 use num_traits::{One, Signed};
@@ -19,6 +19,8 @@ use wavestep_polynomial::{Integer, Rational, Symbol};
 pub struct SourceForm<'a> {
     recurrence: &'a Recurrence,
     names: Arc<Names>,
+    /// When the first period begins.
+    offset: Fraction,
 }
 
 impl<'a> SourceForm<'a> {
@@ -43,7 +45,13 @@ impl<'a> SourceForm<'a> {
             });
             names.insert(symbol.clone(), name);
         }
-        SourceForm { recurrence, names: Arc::new(names) }
+        SourceForm { recurrence, names: Arc::new(names), offset: Fraction::zero() }
+    }
+
+    /// Of what has its first period from a time on.
+    #[must_use]
+    pub fn beginning(self, offset: &Fraction) -> SourceForm<'a> {
+        SourceForm { offset: offset.clone(), ..self }
     }
 
     /// The formulas of a piece: the wave function, and its constant where it is stated apart.
@@ -69,7 +77,11 @@ impl<'a> SourceForm<'a> {
             }
             _ => arrangement.terms(piece),
         };
-        let mut formulas = vec![self.formula(head(self.recurrence, wave, &n.to_string()), terms)];
+        let formula = self.formula(head(self.recurrence, wave, &n.to_string()), terms);
+        let mut formulas = match self.offset.is_zero() {
+            true => vec![formula],
+            false => vec![formula.on_named_period(n, &self.offset, statement, &self.names)],
+        };
         if let (Some(apart), Some(symbol)) = (apart, symbol) {
             formulas.push(self.formula(both(|n| n.symbol(&symbol)), apart));
         }
@@ -83,7 +95,8 @@ impl<'a> SourceForm<'a> {
         let unit = self.recurrence.statement().notation.units.get(&wave);
         let sequence = unit.map_or_else(|| sequence.clone(), |u| sequence.scaled(u.coefficient()));
         let last = sequence.first.len();
-        let formulas = general_form(self.recurrence, wave, &GeneralForm::Geometric(sequence));
+        let form = GeneralForm::Geometric(sequence);
+        let formulas = general_form_from(self.recurrence, wave, &form, &self.offset);
         let written = |(i, formula): (usize, Formula)| {
             let Right::Terms(terms) = formula.right else { return None };
             let terms = unit.map_or_else(|| terms.clone(), |unit| in_unit(unit, terms.clone()));
@@ -99,7 +112,7 @@ impl<'a> SourceForm<'a> {
     }
 }
 
-/// `unit · terms` with the unit's symbols: after a number or a sum, else in front.
+/// `unit · terms` with the unit's symbols in front, after a number alone.
 fn in_unit(unit: &SourceProduct, mut terms: Vec<Term>) -> Vec<Term> {
     let unit = unit.without_number();
     if unit.powers().is_empty() {
@@ -109,7 +122,7 @@ fn in_unit(unit: &SourceProduct, mut terms: Vec<Term>) -> Vec<Term> {
     match &terms[..] {
         [] => terms,
         [(_, Tree::Sum(_))] | [_, _, ..] => {
-            vec![(Sign::Plus, Tree::product(vec![Tree::Sum(terms), unit]))]
+            vec![(Sign::Plus, Tree::product(vec![unit, Tree::Sum(terms)]))]
         }
         [_] => {
             let (sign, tree) = terms.remove(0);

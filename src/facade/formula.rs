@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::export::{self, LATEX_WIDTH, TEXT_WIDTH};
 use crate::expression::Expression;
-use crate::language::{Source, normalise_name, read_expression};
+use crate::language::{Source, read_expression};
 use crate::problem::{Derived, Form, Orders, Problem, Symbols, ToDerive};
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -80,20 +80,12 @@ pub(super) fn derive(
     name: &str,
     orders: RangeInclusive<usize>,
 ) -> Result<Vec<Formula>, Error> {
-    let known = normalise_name(name);
-    let what = if problem.waves().contains(&known.as_str()) {
-        ToDerive::Wave(&known)
-    } else if problem.observables().contains(&known.as_str()) {
-        ToDerive::Observable(&known)
-    } else {
-        return Err(problem.unknown(name).into());
-    };
     let orders = match orders.into_inner() {
         (first, last) if first > last => return Ok(Vec::new()),
         (n, last) if n == last && n > 0 => Orders::Only(n),
         (first, last) => Orders::Through(first, last),
     };
-    let derived = problem.functions(what, orders, Form::Period)?;
+    let derived = problem.functions(ToDerive::Quantity(name), orders, Form::Period)?;
     let written = problem.formulas(&derived, Form::Period)?.into_iter().flat_map(|(_, all)| all);
     let values: Vec<(Option<usize>, Expression)> = match derived {
         Derived::Functions(all) => {
@@ -111,7 +103,7 @@ pub(super) fn derive(
 
 /// See [`Problem::general`].
 pub(super) fn general(problem: &Problem, wave: &str) -> Result<Vec<Formula>, Error> {
-    let all = problem.general_formulas(ToDerive::Wave(wave), Symbols::Own)?;
+    let all = problem.general_formulas(ToDerive::Quantity(wave), Symbols::Own)?;
     let formulas = all.into_iter().flat_map(|general| general.formulas);
     Ok(formulas.map(|written| Formula { written, order: None, value: None }).collect())
 }

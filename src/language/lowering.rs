@@ -47,7 +47,7 @@ pub(super) fn recurrence(
         notation: SourceNotation::default(),
     };
     lowering.observables(&mut statement)?;
-    statement.notation = written::notation(tree, &lowering.scope)?;
+    statement.notation = written::notation(tree, &lowering.scope, &statement.observed())?;
     statement.assumptions = lowering.scope.assumptions.clone();
     Recurrence::new(statement).map_err(|invalid| lowering.refusal(&invalid))
 }

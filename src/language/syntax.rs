@@ -204,8 +204,8 @@ pub enum StatementKind {
 /// One item of how the source writes a recurrence.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Rewriting {
-    /// `f in V/c`: a wave is measured in a unit.
-    Unit { wave: Name, unit: Expression },
+    /// `f in V/c`: a wave or an observable is measured in a unit.
+    Unit { quantity: Name, unit: Expression },
     /// `s as mu*z/L`, `a as alpha_tilde`: a name is written otherwise.
     Name { name: Name, written: Expression },
     /// `constants of f as B`: constants of integration are stated apart.

@@ -17,7 +17,11 @@ const MAX_POWER: i32 = 100;
 
 /// Lowers all `written` statements. Names that mean nothing in the recurrence are symbols of the
 /// source.
-pub(super) fn notation(tree: &Recurrence, scope: &Scope) -> Outcome<SourceNotation> {
+pub(super) fn notation(
+    tree: &Recurrence,
+    scope: &Scope,
+    observed: &[&str],
+) -> Outcome<SourceNotation> {
     let mut notation = SourceNotation::default();
     let items = || {
         tree.statements.iter().flat_map(|statement| match &statement.value {
@@ -27,7 +31,11 @@ pub(super) fn notation(tree: &Recurrence, scope: &Scope) -> Outcome<SourceNotati
     };
     for item in items() {
         let (name, again) = match item {
-            Rewriting::Unit { wave: name, unit } => {
+            Rewriting::Unit { quantity: name, unit } if observed.contains(&&*name.value) => {
+                let unit = scope.product(unit)?;
+                (name, notation.observables.insert(name.value.clone(), unit).is_some())
+            }
+            Rewriting::Unit { quantity: name, unit } => {
                 let unit = scope.product(unit)?;
                 (name, notation.units.insert(scope.wave(name)?, unit).is_some())
             }

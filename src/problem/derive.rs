@@ -12,6 +12,7 @@ use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::{Observable, Recurrence, WaveIndex};
 use crate::signal::{Arrival, arrivals};
 use crate::solution::{ObserveError, ObservedStretch, Solution, Unknown};
+use std::borrow::Cow;
 
 /// How many periods an explanation tells after the first, where nothing is said.
 const FIRST_PIECES: usize = 2;
@@ -27,8 +28,26 @@ const FEW_TERMS: usize = 5_000;
 pub enum ToDerive<'a> {
     /// All waves that are stated, or that a scene has.
     Waves,
-    Wave(&'a str),
-    Observable(&'a str),
+    /// The wave of this name, else the observable.
+    Quantity(&'a str),
+}
+
+/// What that names.
+enum Meant<'a> {
+    Waves(Vec<WaveIndex>),
+    Observable(&'a Observable),
+}
+
+impl Meant<'_> {
+    /// These waves, or those that the observable is made of.
+    fn waves(&self) -> Vec<WaveIndex> {
+        match self {
+            Meant::Waves(waves) => waves.clone(),
+            Meant::Observable(observable) => {
+                observable.observation.waves.iter().map(|seen| seen.wave).collect()
+            }
+        }
+    }
 }
 
 /// Of which periods.
@@ -82,10 +101,12 @@ pub enum Derived {
     Arrivals(Vec<Arrival>),
 }
 
-/// The form of a wave for every period.
+/// The form of a wave or an observable for every period.
 #[derive(Clone, PartialEq, Debug)]
 pub struct GeneralFormulas {
-    pub wave: String,
+    pub name: String,
+    /// When the first period begins.
+    pub offset: Fraction,
     pub formulas: Vec<Formula>,
 }
 
@@ -107,11 +128,8 @@ impl Problem {
         orders: Orders,
         form: Form,
     ) -> Result<Derived, ProblemError> {
-        if let ToDerive::Observable(name) = what {
-            self.refuse_quadratic(name)?;
-        }
         if let Some(network) = self.lattice() {
-            return by_arrival(network, what, orders, form);
+            return self.by_arrival(network, what, orders, form);
         }
         let solution = self.solution()?;
         self.derived(solution, what, orders, form).map_err(|error| self.explained(error))
@@ -125,15 +143,16 @@ impl Problem {
         form: Form,
     ) -> Result<Derived, ProblemError> {
         let recurrence = solution.recurrence();
-        let ToDerive::Observable(name) = what else {
-            let waves = self.waves_to_derive(what)?;
-            self.refuse_explosion(recurrence, orders, form, &waves)?;
-            let functions = |wave| functions(solution, wave, orders, form);
-            let all = waves.into_iter().map(functions).collect::<Result<_, _>>()?;
-            return Ok(Derived::Functions(all));
+        let meant = self.meant(recurrence, what)?;
+        self.refuse_explosion(recurrence, orders, form, &meant.waves())?;
+        let observable = match meant {
+            Meant::Waves(waves) => {
+                let functions = |wave| functions(solution, wave, orders, form);
+                let all = waves.into_iter().map(functions).collect::<Result<_, _>>()?;
+                return Ok(Derived::Functions(all));
+            }
+            Meant::Observable(observable) => observable,
         };
-        let observable = observable(recurrence, name)?;
-        self.refuse_explosion(recurrence, orders, form, &waves_seen(observable))?;
         if form == Form::Echo {
             return Err(ProblemError::EchoesOfObservable(observable.name.clone()));
         }
@@ -149,11 +168,7 @@ impl Problem {
         let last = from.saturating_add(FEW);
         let named = self.recurrence().ok().filter(|of| of.has_named_rates() && !self.on_lattice());
         let Some(recurrence) = named else { return (Orders::Through(from, last), None) };
-        let waves = match what {
-            ToDerive::Observable(name) => observable(recurrence, name).map(waves_seen),
-            _ => self.waves_to_derive(what),
-        };
-        let waves = waves.unwrap_or_default();
+        let waves = self.meant(recurrence, what).map_or_else(|_| Vec::new(), |own| own.waves());
         match self.long_echoes(recurrence, &waves, last + 1, FEW_TERMS) {
             Err(long @ ProblemError::LongEchoes { n, .. }) => {
                 (Orders::Through(from, n.saturating_sub(1).max(from)), Some(long))
@@ -170,15 +185,14 @@ impl Problem {
     ) -> Result<Vec<Formula>, ProblemError> {
         self.refuse_lattice(Missing::Periods)?;
         let solution = self.solution()?;
-        let recurrence = solution.recurrence();
-        let waves = self.waves_to_derive(what)?;
-        has_source_form(recurrence)?;
-        self.refuse_explosion(recurrence, orders, Form::Period, &waves)?;
-        let found = source_form(solution, &waves, orders);
+        let meant = self.meant(solution.recurrence(), what)?;
+        has_source_form(solution.recurrence(), &meant)?;
+        self.refuse_explosion(solution.recurrence(), orders, Form::Period, &meant.waves())?;
+        let found = source_form(&AsWaves::new(solution, meant)?, orders);
         found.map_err(|error| self.explained(error))
     }
 
-    /// The forms of waves for every period.
+    /// The forms of waves, or of an observable, for every period.
     pub fn general_formulas(
         &self,
         what: ToDerive<'_>,
@@ -186,12 +200,13 @@ impl Problem {
     ) -> Result<Vec<GeneralFormulas>, ProblemError> {
         self.refuse_lattice(Missing::GeneralForm)?;
         let solution = self.solution()?;
-        let waves = self.waves_to_derive(what)?;
+        let meant = self.meant(solution.recurrence(), what)?;
         if symbols == Symbols::Source {
-            has_source_form(solution.recurrence())?;
+            has_source_form(solution.recurrence(), &meant)?;
         }
-        let found: Result<Vec<_>, _> =
-            waves.into_iter().map(|wave| general(solution, wave, symbols)).collect();
+        let all = AsWaves::new(solution, meant)?;
+        let general = |wave: &WaveIndex| general(&all, *wave, symbols);
+        let found: Result<Vec<_>, _> = all.waves.iter().map(general).collect();
         found.map_err(|error| self.explained(error))
     }
 
@@ -209,7 +224,7 @@ impl Problem {
         }
         let solution = self.solution()?;
         let recurrence = solution.recurrence();
-        let waves = self.waves_to_derive(ToDerive::Waves)?;
+        let waves: Vec<WaveIndex> = (0..self.waves().len()).collect();
         let (first, last) = match orders {
             Some(orders) => orders.ends(),
             None => {
@@ -343,37 +358,57 @@ impl Problem {
         }
     }
 
-    /// The wave asked for, or all that are shown: those after them only serve what is observed.
-    fn waves_to_derive(&self, what: ToDerive<'_>) -> Result<Vec<WaveIndex>, ProblemError> {
-        let shown = self.waves();
-        let ToDerive::Wave(name) = what else { return Ok((0..shown.len()).collect()) };
-        let recurrence = self.recurrence()?;
+    /// What is named, or all waves that are shown: those after them only serve what is observed.
+    fn meant<'a>(
+        &self,
+        recurrence: &'a Recurrence,
+        what: ToDerive<'_>,
+    ) -> Result<Meant<'a>, ProblemError> {
+        let ToDerive::Quantity(name) = what else {
+            return Ok(Meant::Waves((0..self.waves().len()).collect()));
+        };
+        self.refuse_quadratic(name)?;
         let known = language::normalise_name(name);
-        match recurrence.wave(&known) {
-            Some(wave) => Ok(vec![wave]),
-            None if recurrence.statement().observed().contains(&&*known) => {
-                Err(ProblemError::ObservableIsNoWave(name.to_owned()))
+        let wave = recurrence.wave(&known).map(|wave| Meant::Waves(vec![wave]));
+        let found = wave.or_else(|| recurrence.observable(&known).map(Meant::Observable));
+        found.ok_or_else(|| self.unknown(name))
+    }
+
+    /// The echoes of a scene whose travel times have no common measure, in order of arrival.
+    fn by_arrival(
+        &self,
+        network: &Network,
+        what: ToDerive<'_>,
+        orders: Orders,
+        form: Form,
+    ) -> Result<Derived, ProblemError> {
+        let waves: Vec<WaveIndex> = match what {
+            ToDerive::Waves => (0..network.waves().len()).collect(),
+            ToDerive::Quantity(name) => {
+                self.refuse_quadratic(name)?;
+                let known = language::normalise_name(name);
+                match network.waves().iter().position(|wave| wave.name == known) {
+                    Some(wave) => vec![wave],
+                    None if self.observables().contains(&&*known) => {
+                        return Err(ProblemError::NoCommonMeasure(Missing::Periods));
+                    }
+                    None => return Err(self.unknown(name)),
+                }
             }
-            None => {
-                let waves = shown.into_iter().map(str::to_owned).collect();
-                Err(ProblemError::NotAWave { name: name.to_owned(), waves })
-            }
+        };
+        let Orders::Through(_, through) = orders else {
+            return Err(ProblemError::NoCommonMeasure(Missing::Periods));
+        };
+        if form == Form::Piecewise {
+            return Err(ProblemError::NoCommonMeasure(Missing::Pieces));
+        }
+        refuse_echoes(network, waves.len(), through)?;
+        let found = arrivals(network, &waves, through)?;
+        match found.is_empty() {
+            true => Err(ProblemError::NothingArrives(through)),
+            false => Ok(Derived::Arrivals(found)),
         }
     }
-}
-
-fn observable<'a>(recurrence: &'a Recurrence, name: &str) -> Result<&'a Observable, ProblemError> {
-    recurrence.observable(&language::normalise_name(name)).ok_or_else(|| {
-        let observed = recurrence.statement().observed();
-        let observables = observed.into_iter().map(str::to_owned).collect();
-        ProblemError::NotAnObservable { name: name.to_owned(), observables }
-    })
-}
-
-/// Refuses before work starts what would have too many terms.
-/// The waves that an observable is made of.
-fn waves_seen(observable: &Observable) -> Vec<WaveIndex> {
-    observable.observation.waves.iter().map(|seen| seen.wave).collect()
 }
 
 fn functions(
@@ -441,23 +476,47 @@ fn formulas(
     functions.expressions.iter().enumerate().map(formula).collect()
 }
 
-fn has_source_form(recurrence: &Recurrence) -> Result<(), ProblemError> {
-    match recurrence.statement().notation.is_empty() {
-        true => Err(ProblemError::NoSourceForm),
-        false => Ok(()),
+/// Refuses waves where the text says nothing of its source, and observables without a unit of the source.
+fn has_source_form(recurrence: &Recurrence, meant: &Meant<'_>) -> Result<(), ProblemError> {
+    let notation = &recurrence.statement().notation;
+    let known = match meant {
+        Meant::Waves(_) => !notation.is_empty(),
+        Meant::Observable(observable) => notation.observables.contains_key(&observable.name),
+    };
+    if known { Ok(()) } else { Err(ProblemError::NoSourceForm) }
+}
+
+/// What is meant as waves, of which solution, and when their periods begin.
+struct AsWaves<'a> {
+    solution: Cow<'a, Solution>,
+    waves: Vec<WaveIndex>,
+    offset: Fraction,
+}
+
+impl<'a> AsWaves<'a> {
+    fn new(solution: &'a Solution, meant: Meant<'_>) -> Result<AsWaves<'a>, ProblemError> {
+        let observable = match meant {
+            Meant::Waves(waves) => {
+                let (solution, offset) = (Cow::Borrowed(solution), Fraction::zero());
+                return Ok(AsWaves { solution, waves, offset });
+            }
+            Meant::Observable(observable) => observable,
+        };
+        let found = solution.with_observable(observable);
+        let (extended, offset) =
+            found.ok_or_else(|| ProblemError::NoCommonPeriods(observable.name.clone()))?;
+        let waves = vec![solution.recurrence().statement().waves.len()];
+        Ok(AsWaves { solution: Cow::Owned(extended), waves, offset })
     }
 }
 
-fn source_form(
-    solution: &Solution,
-    waves: &[WaveIndex],
-    orders: Orders,
-) -> Result<Vec<Formula>, ProblemError> {
+fn source_form(all: &AsWaves<'_>, orders: Orders) -> Result<Vec<Formula>, ProblemError> {
+    let AsWaves { solution, waves, offset } = all;
     let (first, last) = orders.ends();
     let ends = &solution.recurrence().statement().notation.ends;
     let by_ends = (!ends.is_empty()).then(|| solution.pieces_by_ends(last, ends)).transpose()?;
     let kept = by_ends.as_ref().map(|(_, kept)| kept);
-    let form = SourceForm::new(solution.recurrence(), kept);
+    let form = SourceForm::new(solution.recurrence(), kept).beginning(offset);
     let mut formulas = Vec::new();
     for wave in waves {
         let pieces = match &by_ends {
@@ -471,10 +530,11 @@ fn source_form(
 }
 
 fn general(
-    solution: &Solution,
+    all: &AsWaves<'_>,
     wave: WaveIndex,
     symbols: Symbols,
 ) -> Result<GeneralFormulas, ProblemError> {
+    let AsWaves { solution, offset, .. } = all;
     let recurrence = solution.recurrence();
     let name = &recurrence.statement().waves[wave];
     let form = solution.general(wave).map_err(|unknown: &Unknown| {
@@ -487,46 +547,11 @@ fn general(
         }
     })?;
     let formulas = match symbols {
-        Symbols::Own => export::general_form(recurrence, wave, form),
+        Symbols::Own => export::general_form_from(recurrence, wave, form, offset),
         Symbols::Source => {
-            let written = SourceForm::new(recurrence, None).general(wave, form);
-            written.ok_or(ProblemError::NoGeneralSourceForm)?
+            let source = SourceForm::new(recurrence, None).beginning(offset);
+            source.general(wave, form).ok_or(ProblemError::NoGeneralSourceForm)?
         }
     };
-    Ok(GeneralFormulas { wave: name.clone(), formulas })
-}
-
-/// The echoes of a scene whose travel times have no common measure, in order of arrival.
-fn by_arrival(
-    network: &Network,
-    what: ToDerive<'_>,
-    orders: Orders,
-    form: Form,
-) -> Result<Derived, ProblemError> {
-    let Orders::Through(_, through) = orders else {
-        return Err(ProblemError::NoCommonMeasure(Missing::Periods));
-    };
-    let waves: Vec<WaveIndex> = match what {
-        ToDerive::Observable(_) => {
-            return Err(ProblemError::NoCommonMeasure(Missing::Periods));
-        }
-        _ if form == Form::Piecewise => {
-            return Err(ProblemError::NoCommonMeasure(Missing::Pieces));
-        }
-        ToDerive::Waves => (0..network.waves().len()).collect(),
-        ToDerive::Wave(name) => {
-            let known = language::normalise_name(name);
-            let found = network.waves().iter().position(|wave| wave.name == known);
-            vec![found.ok_or_else(|| {
-                let waves = network.waves().iter().map(|wave| wave.name.clone()).collect();
-                ProblemError::NotAWave { name: name.to_owned(), waves }
-            })?]
-        }
-    };
-    refuse_echoes(network, waves.len(), through)?;
-    let found = arrivals(network, &waves, through)?;
-    match found.is_empty() {
-        true => Err(ProblemError::NothingArrives(through)),
-        false => Ok(Derived::Arrivals(found)),
-    }
+    Ok(GeneralFormulas { name: name.clone(), offset: offset.clone(), formulas })
 }

@@ -83,13 +83,6 @@ pub enum ProblemError {
     TooManyEchoes { echoes: usize, limit: usize },
     #[error("nothing arrives within {0} periods of the lattice")]
     NothingArrives(usize),
-    #[error("`{name}` is no wave of this scene")]
-    NotAWave { name: String, waves: Vec<String> },
-    /// An observable, where a wave was asked for.
-    #[error("`{0}` is no wave of this scene")]
-    ObservableIsNoWave(String),
-    #[error("`{name}` is no observable of this scene")]
-    NotAnObservable { name: String, observables: Vec<String> },
     #[error("{0} is an energy, quadratic in the waves, and has no pieces of its own")]
     EnergyHasNoPieces(String),
     #[error("{0} holds products of waves, and has no pieces of its own")]

@@ -212,6 +212,20 @@ impl LinearForm {
         }
     }
 
+    /// The form so many periods earlier, `None` where it names a period before.
+    pub(crate) fn earlier(&self, periods: usize) -> Option<LinearForm> {
+        let earlier = |lags: &Lags| {
+            let moved = lags.iter().map(|(lag, x)| Some((lag.checked_sub(periods)?, x.clone())));
+            moved.collect::<Option<_>>().map(Lags)
+        };
+        let operators = self.operators().map(|(wave, Operator { value, slope, sum })| {
+            let [value, slope, sum] = [earlier(value)?, earlier(slope)?, earlier(sum)?];
+            Some((wave, Operator { value, slope, sum }))
+        });
+        let operators = operators.collect::<Option<_>>()?;
+        Some(LinearForm { operators, forcing: earlier(&self.forcing)? })
+    }
+
     /// The form times a factor that is free of time.
     pub fn scaled(&self, factor: &Expression) -> LinearForm {
         let mut form = LinearForm::zero();

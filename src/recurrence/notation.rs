@@ -12,6 +12,8 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol};
 pub struct SourceNotation {
     /// The unit of a wave: the source's wave is the unit times ours.
     pub units: BTreeMap<WaveIndex, SourceProduct>,
+    /// The units of observables.
+    pub observables: BTreeMap<String, SourceProduct>,
     /// Waves that the source calls otherwise.
     pub waves: BTreeMap<WaveIndex, String>,
     /// Symbols and times that the source writes as an expression in symbols of its own.

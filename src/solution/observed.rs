@@ -1,7 +1,7 @@
 //! Observables as pieces, where their waves arrive together.
 
 use crate::expression::{Expression, Fraction};
-use crate::recurrence::{Observation, Statement, WaveIndex};
+use crate::recurrence::{LinearForm, Observable, Observation, Recurrence, Statement, WaveIndex};
 use crate::solution::error::SolveError;
 use crate::solution::solved::Solution;
 use num_traits::ToPrimitive;
@@ -75,6 +75,45 @@ impl Solution {
         let delays: Vec<&Fraction> = observation.waves.iter().map(|term| &term.delay).collect();
         let common = common_offset(&delays, &self.recurrence().statement().period);
         common.filter(|(offset, _)| observation.forcing.is_zero() || offset.is_zero())
+    }
+
+    /// The solution with an observable as one more wave, the last that is stated, and when its first period begins.
+    /// `None` where the waves of the observable do not arrive together.
+    pub fn with_observable(&self, observable: &Observable) -> Option<(Solution, Fraction)> {
+        let Observable { name, observation } = observable;
+        let (offset, lags) = self.offset_and_lags(observation)?;
+        let mut statement = self.recurrence().statement().clone();
+        let own = statement.waves.len();
+        let mut equation = -&LinearForm::wave(own, 0);
+        equation.add_scaled(
+            &LinearForm::forcing(observation.forcing.clone()),
+            &Expression::one(),
+            0,
+        );
+        for (seen, lag) in observation.waves.iter().zip(lags) {
+            let wave = match usize::try_from(lag) {
+                Ok(lag) if seen.slope => LinearForm::slope(seen.wave, lag),
+                Ok(lag) => LinearForm::wave(seen.wave, lag),
+                Err(_) if seen.slope => return None,
+                // What it is made of has set out before.
+                Err(_) => self.made_of(seen.wave)?.earlier(lag.unsigned_abs() as usize)?,
+            };
+            equation.add_scaled(&wave, &seen.coefficient, 0);
+        }
+        statement.waves.push(name.clone());
+        statement.equations.push(equation);
+        let unit = statement.notation.observables.get(name).cloned();
+        statement.notation.units.extend(unit.map(|unit| (own, unit)));
+        Some((Solution::new(Recurrence::new(statement).ok()?), offset))
+    }
+
+    /// The other waves that make up one without a differential equation.
+    fn made_of(&self, wave: WaveIndex) -> Option<LinearForm> {
+        let mut steps = self.recurrence().steps().iter();
+        let step = steps.find(|step| step.wave == wave && step.start.is_none())?;
+        let mut form = LinearForm::wave(wave, 0);
+        form.add_scaled(&step.equation, &-&Expression::one(), 0);
+        Some(form)
     }
 
     /// What is added to the waves, from a scene time on.

@@ -295,6 +295,88 @@ pub fn assert_sound_latex(latex: &str) {
     }
 }
 
+/// Lines of a formula that end inside brackets, though what these hold fits in a line, with the sign and the factor before
+/// them and what follows up to the next sign.
+fn needless_breaks(lines: &[&str], notation: Notation, width: usize) -> Vec<String> {
+    let whole = lines.join(" ");
+    let mut breaks = lines.iter().scan(0, |end, line| {
+        *end += line.len() + 1;
+        Some(*end)
+    });
+    let mut breaks: Vec<usize> = breaks.by_ref().take(lines.len() - 1).collect();
+    let (mut open, mut found) = (vec![0], Vec::new());
+    // For each bracket around a place, where the term began that it stands in.
+    for (i, character) in whole.char_indices() {
+        let sign = [" + ", " - "]
+            .iter()
+            .any(|sign| whole[..i].ends_with(" ") && whole[i - 1..].starts_with(sign));
+        if sign {
+            *open.last_mut().unwrap() = i;
+        }
+        if breaks.first() == Some(&i) {
+            breaks.remove(0);
+            for (level, start) in open[..open.len() - 1].iter().enumerate() {
+                let end = end_of_term(&whole[i..], open.len() - 1 - level) + i;
+                let term = &whole[*start..end];
+                if *start > 0 && notation.width(term) <= width {
+                    found.push(term.to_owned());
+                }
+            }
+        }
+        match character {
+            '(' | '[' => open.push(i + 1),
+            ')' | ']' => _ = open.pop(),
+            _ => {}
+        }
+    }
+    found
+}
+
+/// Where a term ends that stands so many brackets further out.
+fn end_of_term(rest: &str, mut out: usize) -> usize {
+    for (i, character) in rest.char_indices() {
+        match character {
+            '(' | '[' => out += 1,
+            ')' | ']' if out == 0 => return i,
+            ')' | ']' => out -= 1,
+            ' ' if out == 0 && [" + ", " - "].iter().any(|sign| rest[i..].starts_with(sign)) => {
+                return i;
+            }
+            _ => {}
+        }
+    }
+    rest.len()
+}
+
+#[test]
+fn lines_end_outside_brackets_that_fit_in_a_line() {
+    let (mut inside, mut outside) = (0, 0);
+    for solution in stated().map(|scene| read(scene.text)).chain(others()) {
+        for wave in waves(&solution) {
+            for formula in period_form(&solution, wave, 6) {
+                let latex = export::latex(&[formula], LATEX_WIDTH);
+                let body = latex.lines().skip(1).take_while(|line| !line.starts_with("\\end"));
+                let body: Vec<&str> = body.map(|line| line.trim_end_matches(" \\\\")).collect();
+                let Some((head, first)) = body[0].split_once(" &= ") else { panic!("{latex}") };
+                let later = body[1..].iter().map(|line| line.trim_start_matches("&\\quad {}"));
+                let lines: Vec<&str> = [first].into_iter().chain(later).collect();
+                let width = LATEX_WIDTH - Notation::Latex.width(head) - 5;
+                let needless = needless_breaks(&lines, Notation::Latex, width);
+                assert!(needless.is_empty(), "{needless:?} in\n{latex}");
+                let depth = |text: &str| {
+                    text.matches(['(', '[']).count() - text.matches([')', ']']).count()
+                };
+                let ends = (1..lines.len()).map(|i| depth(&lines[..i].concat()));
+                let (deep, flat): (Vec<usize>, Vec<usize>) = ends.partition(|depth| *depth > 1);
+                (inside, outside) = (inside + deep.len(), outside + flat.len());
+            }
+        }
+    }
+    assert!(inside > 0 && outside > 100, "{inside} {outside}");
+    let needless = needless_breaks(&["a + b (c", "+ d) + e"], Notation::Text, 20);
+    assert_eq!(needless, ["+ b (c + d)"]);
+}
+
 #[test]
 fn latex_of_every_recurrence_is_sound() {
     let scenes = stated().map(|scene| (read(scene.text), 12));

@@ -1,12 +1,16 @@
 //! What is known for every n or k at once, against what is derived one by one.
 
-use crate::support::fraction;
+use crate::support::{by_echoes, by_periods, fraction};
+use std::cell::LazyCell;
 use std::collections::BTreeMap;
 
+use wavestep::Problem;
 use wavestep::export::{self, TEXT_WIDTH};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, read_expression, read_recurrence};
-use wavestep::recurrence::{Clause, Fault, LinearForm, Recurrence, WaveIndex};
+use wavestep::recurrence::{
+    Clause, Fault, LinearForm, Observation, Recurrence, Statement, WaveIndex,
+};
 use wavestep::scenes;
 use wavestep::solution::{
     EchoByEcho, EchoTable, EchoTemplate, Family, GeneralForm, Geometric, PeriodByPeriod, Proof,
@@ -30,6 +34,83 @@ fn scene(name: &str) -> Recurrence {
 fn expression(text: &str) -> Expression {
     let source = Source::new("expected", text).unwrap_or_else(|error| panic!("{error}"));
     read_expression(&source).unwrap_or_else(|error| panic!("{error}"))
+}
+
+// ---- Observables -------------------------------------------------------------------------------
+
+/// An observable on a period, straight from what it observes and the pieces of its waves.
+fn seen(
+    recurrence: &Recurrence,
+    observation: &Observation,
+    offset: &Fraction,
+    pieces: &[Vec<Expression>],
+    n: usize,
+) -> Expression {
+    let Statement { local, time, period, .. } = recurrence.statement();
+    let begins = offset + &period.scale(&Rational::from_integer(n.into()));
+    let mut sum =
+        observation.forcing.substitute(time, &(&begins + &Fraction::symbol(local))).unwrap();
+    for seen in &observation.waves {
+        let since = Expression::from(&begins - &seen.delay);
+        let order = match since.is_zero() {
+            true => Rational::default(),
+            false => since.proportion(&period.clone().into()).expect("a number of periods"),
+        };
+        assert!(order.is_integer());
+        let Ok(order) = usize::try_from(order.to_integer()) else { continue };
+        let piece = &pieces[seen.wave][order];
+        let piece = if seen.slope { piece.derivative(local) } else { piece.clone() };
+        sum += &(&piece * &seen.coefficient);
+    }
+    sum
+}
+
+/// The n-th period of a general form: a value of the sequence, or the echoes that have arrived.
+fn from_general(form: &GeneralForm, recurrence: &Recurrence, n: usize) -> Expression {
+    let Statement { local, period, .. } = recurrence.statement();
+    match form {
+        GeneralForm::Geometric(form) => form.value(n),
+        GeneralForm::Echoes(template) => (0..=n).fold(Expression::zero(), |sum, k| {
+            let delay = period.scale(&Rational::from_integer((n - k).into()));
+            &sum + &template.echo(k, local).shift(local, &delay).unwrap()
+        }),
+    }
+}
+
+/// The general form of every observable of the shipped scenes that has one gives what both derivations of its waves give.
+#[test]
+fn general_forms_of_observables_are_sums_of_those_of_their_waves() {
+    const LAST: usize = 6;
+    let mut known = BTreeMap::<&str, usize>::new();
+    for scene in scenes::SCENES {
+        let problem = Problem::builtin(scene.name).unwrap();
+        let Ok(solution) = problem.solution() else { continue };
+        let recurrence = solution.recurrence();
+        let waves = recurrence.statement().waves.len();
+        let derived = [by_periods, by_echoes]
+            .map(|derive| LazyCell::new(move || derive(recurrence, LAST + 1)));
+        for observable in &recurrence.statement().observables {
+            let mut all = observable.observation.waves.iter();
+            if all.any(|seen| solution.general(seen.wave).is_err()) {
+                continue;
+            }
+            let Some((extended, offset)) = solution.with_observable(observable) else { continue };
+            let form = extended.general(waves).unwrap_or_else(|_| panic!("{}", observable.name));
+            *known.entry(scene.name).or_default() += 1;
+            for n in 0..=LAST {
+                let value = from_general(form, recurrence, n);
+                for pieces in &derived {
+                    let own = seen(recurrence, &observable.observation, &offset, pieces, n);
+                    assert_eq!(value, own, "{}: {} on period {n}", scene.name, observable.name);
+                }
+            }
+        }
+    }
+    let rigid = known.get("rigid-mass");
+    assert!(
+        rigid == Some(&3) && known["mass-on-fixed-bar"] == 3 && known.values().sum::<usize>() >= 20,
+        "{known:?}"
+    );
 }
 
 // ---- Echoes in closed form ---------------------------------------------------------------------

@@ -130,7 +130,7 @@ fn changed_statements_are_named() {
         ("period 2*mu", "period 3*mu", "period"),
         ("symbol mu > 0", "symbol mu > 1", "symbol mu"),
         ("-2*f(t - mu)", "-3*f(t - mu)", "observable strain_fixed"),
-        ("observe velocity ", "observe speed ", "observable velocity"),
+        ("velocity ", "speed ", "observable velocity"),
         ("Rigid mass on a fixed bar\"", "Rigid mass\"", "title"),
     ] {
         let changed = scene("rigid-mass").replace(old, new);

@@ -93,7 +93,7 @@ fn with_constants(
         _ => ("#", Some(derived.as_str())),
     };
     let mut lines = problem.constants(text)?;
-    lines.extend(options.observable.as_ref().and_then(|name| problem.unit_of_formulas(name)));
+    lines.extend(options.quantity.as_ref().and_then(|name| problem.unit_of_formulas(name)));
     let lines: String = lines.iter().map(|line| format!("{mark} {line}\n")).collect();
     Ok(lines + &derived)
 }
@@ -104,11 +104,7 @@ fn derived(
     options: &Derive,
     orders: Option<Orders>,
 ) -> Result<(String, Option<String>), Failure> {
-    let what = match (&options.wave, &options.observable) {
-        (_, Some(name)) => ToDerive::Observable(name),
-        (Some(name), None) => ToDerive::Wave(name),
-        (None, None) => ToDerive::Waves,
-    };
+    let what = options.quantity.as_deref().map_or(ToDerive::Waves, ToDerive::Quantity);
     let symbols = if options.source_form { Symbols::Source } else { Symbols::Own };
     if options.general {
         let formulas = problem.general_formulas(what, symbols)?;
@@ -270,9 +266,9 @@ fn written_general(
         let remark = formula.remark.as_ref().map(|(text, _)| text);
         json!({"formula": formula.to_line(), "remark": remark})
     };
-    let wave = |wave: &GeneralFormulas| {
-        let formulas: Vec<Value> = wave.formulas.iter().map(formula).collect();
-        json!({"wave": wave.wave, "formulas": formulas})
+    let wave = |all: &GeneralFormulas| {
+        let formulas: Vec<Value> = all.formulas.iter().map(formula).collect();
+        json!({"wave": all.name, "offset": json::fraction_json(&all.offset), "formulas": formulas})
     };
     let mut document = header(problem, "general")?;
     document["waves"] = all.iter().map(wave).collect();

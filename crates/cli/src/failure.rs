@@ -169,9 +169,6 @@ fn in_options(cause: &ProblemError) -> Option<String> {
         ProblemError::LocalContact { spring, .. } => {
             format!("ask for values, with `eval`, or put a spring in its place: {spring}")
         }
-        ProblemError::ObservableIsNoWave(name) => {
-            format!("it is an observable: ask for --observable {name}")
-        }
         ProblemError::EnergyHasNoPieces(name) | ProblemError::ProductsHaveNoPieces(name) => {
             format!("evaluate it: wavestep eval SCENE --quantity {name} --at T")
         }
@@ -222,7 +219,7 @@ fn usual(cause: &ProblemError) -> Option<&'static str> {
         ProblemError::TooManyEchoes { .. } => "ask for a smaller --through, or one wave",
         ProblemError::EchoesOfObservable(_) => "derive the waves with --form echo",
         ProblemError::NoCommonMeasure(_) => {
-            "ask for the echoes of waves, with --wave NAME and --through N, or evaluate"
+            "ask for the echoes of waves, with --quantity NAME and --through N, or evaluate"
         }
         ProblemError::NoSourceForm => {
             "add a statement such as `written f in V/c, s as mu*z/L`, or leave out --source-form"

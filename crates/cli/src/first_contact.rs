@@ -16,8 +16,7 @@ const BITS: u64 = 64;
 
 /// `None` where there is no local contact, or something else of the scene is asked for.
 pub fn derive(problem: &Problem, options: &Derive) -> Result<Option<String>, Failure> {
-    let is_of_other = options.wave.is_some()
-        || options.observable.is_some()
+    let is_of_other = options.quantity.is_some()
         || options.general
         || options.explain
         || options.source_form

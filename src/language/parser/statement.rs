@@ -110,7 +110,7 @@ fn rewriting(input: &mut Input<'_>) -> Outcome<Rewriting> {
     match (name.value.as_str(), follows) {
         (_, Some("in")) => {
             input.keyword("in")?;
-            Ok(Rewriting::Unit { wave: name, unit: expression(input)? })
+            Ok(Rewriting::Unit { quantity: name, unit: expression(input)? })
         }
         ("ends", Some("of")) => {
             input.keyword("of")?;

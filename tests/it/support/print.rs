@@ -62,7 +62,7 @@ fn statement(kind: &StatementKind) -> String {
 
 fn rewriting(item: &Rewriting) -> String {
     match item {
-        Rewriting::Unit { wave, unit } => format!("{wave} in {unit}"),
+        Rewriting::Unit { quantity, unit } => format!("{quantity} in {unit}"),
         Rewriting::Name { name, written } => format!("{name} as {written}"),
         Rewriting::Constants { wave, name } => format!("constants of {wave} as {name}"),
         Rewriting::Ends(wave) => format!("ends of {wave}"),

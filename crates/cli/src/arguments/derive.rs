@@ -8,22 +8,19 @@ use wavestep::problem::{Form, Orders};
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep derive rigid-mass                              f[0] … f[3] and g[0] … g[3]\n  \
-    wavestep derive rigid-mass --wave f --from 4 --through 8 --format latex\n  \
-    wavestep derive rigid-mass --wave f --piece 80 --format json\n  \
+    wavestep derive rigid-mass --quantity f --from 4 --through 8 --format latex\n  \
+    wavestep derive rigid-mass --quantity f --piece 80 --format json\n  \
     wavestep derive rigid-mass --form echo --through 5\n  \
-    wavestep derive rigid-mass --observable strain_impact\n  \
+    wavestep derive rigid-mass --quantity strain_impact\n  \
     wavestep derive pulse-shape --through 4 --source-form --format latex\n  \
     wavestep derive two-bars --general\n  \
-    wavestep derive rigid-mass --set mu=1/4 --wave f")]
+    wavestep derive rigid-mass --set mu=1/4 --quantity f")]
 pub struct Derive {
     #[command(flatten)]
     pub scene: Scene,
-    /// Derive this wave only
-    #[arg(long, value_name = "NAME", value_hint = ValueHint::Other)]
-    pub wave: Option<String>,
-    /// Derive this observable instead of the waves
-    #[arg(long, value_name = "NAME", conflicts_with_all = ["wave", "general"])]
-    pub observable: Option<String>,
+    /// This wave or observable [default: all waves]; commands for values take several, separated by commas
+    #[arg(long, value_name = "NAME", aliases = ["wave", "observable"], value_hint = ValueHint::Other)]
+    pub quantity: Option<String>,
     /// Derive the periods 0 … N [default: 3, or three after --from; fewer where rates
     /// have names and formulas get long]
     #[arg(long, value_name = "N", conflicts_with_all = ["piece", "general"])]
@@ -46,14 +43,14 @@ pub struct Derive {
     pub form: Form,
     /// Use the symbols, units and shorthand of the scene's source, as its `written` statements say:
     /// for pieces of waves, and with --general for waves that are sequences; in text and LaTeX
-    #[arg(long, conflicts_with_all = ["observable", "form"])]
+    #[arg(long, conflicts_with = "form")]
     pub source_form: bool,
     /// Say how everything follows: the recurrence from the bars and elements of a scene, the pieces from it
     /// step by step [default: periods 0 … 2], and why general forms hold
-    #[arg(long, conflicts_with_all = ["wave", "observable", "general", "form", "source_form"])]
+    #[arg(long, conflicts_with_all = ["quantity", "general", "form", "source_form"])]
     pub explain: bool,
     /// Print an exercise: the scene with what is asked, and apart from it the answer as --explain tells it
-    #[arg(long, conflicts_with_all = ["wave", "observable", "general", "form", "source_form"])]
+    #[arg(long, conflicts_with_all = ["quantity", "general", "form", "source_form"])]
     pub exercise: bool,
     /// Derive a simpler model too, below the exact formulas: `rigid` (no bar yields), `third` (bars are springs with a
     /// third of their mass), or another change of the scene, as `find --minus` takes it

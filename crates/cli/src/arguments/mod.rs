@@ -83,7 +83,7 @@ fn value_formats() -> impl TypedValueParser<Value = Format> {
     about,
     after_help = "Examples:\n  \
         wavestep derive rigid-mass\n  \
-        wavestep derive rigid-mass --wave f --through 8 --format latex\n  \
+        wavestep derive rigid-mass --quantity f --through 8 --format latex\n  \
         wavestep eval rigid-mass --set mu=1/4 --quantity f --at 33/10 --digits 30\n\n\
         Exit codes: 0 done, 1 could not compute or not as locked, 2 usage or bad scene,\n\
         3 accuracy not reached."

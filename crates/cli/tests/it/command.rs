@@ -95,12 +95,15 @@ fn derivations_are_as_recorded() {
     for (name, line) in [
         ("derive-rigid-mass", "derive rigid-mass"),
         ("derive-rigid-mass-echo", "derive rigid-mass --form echo --through 5"),
-        ("derive-rigid-mass-latex", "derive rigid-mass --wave f --format latex"),
-        ("derive-rigid-mass-piecewise", "derive rigid-mass --wave f --form piecewise --through 2"),
-        ("derive-rigid-mass-json", "derive rigid-mass --wave f --piece 1 --format json"),
-        ("derive-rigid-mass-value", "derive rigid-mass --set mu=1/4 --wave f"),
+        ("derive-rigid-mass-latex", "derive rigid-mass --quantity f --format latex"),
+        (
+            "derive-rigid-mass-piecewise",
+            "derive rigid-mass --quantity f --form piecewise --through 2",
+        ),
+        ("derive-rigid-mass-json", "derive rigid-mass --quantity f --piece 1 --format json"),
+        ("derive-rigid-mass-value", "derive rigid-mass --set mu=1/4 --quantity f"),
         ("derive-rigid-mass-general", "derive rigid-mass --general"),
-        ("derive-rigid-mass-observable", "derive rigid-mass --observable strain_fixed"),
+        ("derive-rigid-mass-observable", "derive rigid-mass --quantity strain_fixed"),
         ("derive-pulse-shape", "derive pulse-shape --through 4"),
         ("derive-two-bars-general", "derive two-bars --general"),
         ("derive-two-bars-general-latex", "derive two-bars --general --format latex"),
@@ -134,7 +137,7 @@ fn values_are_as_recorded() {
 
 #[test]
 fn a_long_piece_has_every_term() {
-    let text = output("derive rigid-mass --wave f --piece 80 --format json");
+    let text = output("derive rigid-mass --quantity f --piece 80 --format json");
     let document = json(&text);
     let function = &document["waves"][0]["functions"][0];
     assert_eq!(function["n"], 80);
@@ -287,8 +290,7 @@ fn bad_arguments_are_explained() {
         ("quantity-missing", "export rigid-mass --as c --set mu=1 --to 1".to_owned()),
         ("quantity-unknown", "eval rigid-mass --set mu=1 --quantity h --at 1".to_owned()),
         ("quantity-misspelt", "eval rigid-mass --set mu=1 --quantity velocty --at 1".to_owned()),
-        ("wave-unknown", "derive rigid-mass --wave velocity".to_owned()),
-        ("observable-unknown", "derive rigid-mass --observable strain".to_owned()),
+        ("derive-unknown", "derive rigid-mass --quantity strain".to_owned()),
         ("time-missing", eval.to_owned()),
         ("at-nan", format!("{eval} --at nan")),
         ("at-name", format!("{eval} --at mu")),
@@ -413,7 +415,7 @@ fn no_arguments_show_the_help() {
 fn a_reader_that_goes_away_ends_the_command_quietly() {
     let folder = folder("command-pipe");
     for line in [
-        "derive rigid-mass --wave f --piece 30 --format json",
+        "derive rigid-mass --quantity f --piece 30 --format json",
         "eval constant-force --quantity f --from 0 --to 10 --points 20000",
     ] {
         let mut child = command(&folder, &words(line))
@@ -436,7 +438,7 @@ fn pieces_of_derive_and_eval_are_the_same() {
         output("eval rigid-mass --set mu=1/4 --quantity strain_fixed --piece 2 --local 1/8");
     let by_time = output("eval rigid-mass --set mu=1/4 --quantity strain_fixed --at 11/8");
     assert_eq!(by_piece, by_time);
-    let derived = output("derive rigid-mass --set mu=1/4 --observable strain_fixed --piece 2");
+    let derived = output("derive rigid-mass --set mu=1/4 --quantity strain_fixed --piece 2");
     assert!(derived.contains("5/4 <= t < 7/4"), "{derived}");
     let formulas = read_listing(&Source::new("derived", &derived).unwrap()).unwrap();
     let local = BigRational::new(1.into(), 8.into());
@@ -485,17 +487,26 @@ fn the_form_of_a_source_that_says_nothing_is_refused() {
         ("derive plain.wave --source-form", "does not say how its source writes it"),
         ("derive rigid-mass --source-form --format json", "for reading, not for programs"),
         ("derive rigid-mass --source-form --general", "no form for every n"),
-        ("derive rigid-mass --source-form --observable velocity", "cannot be used with"),
+        ("derive rigid-mass --source-form --general --quantity velocity", "sum of echoes"),
     ] {
         let (code, stdout, stderr) = run(&folder, &words(line));
         assert_eq!((code, stdout.as_str()), (2, ""), "{line}: {stderr}");
+        assert!(stderr.contains(expected), "{line}: {stderr}");
+    }
+    for (line, expected) in [
+        ("derive mass-on-fixed-bar --general --quantity momentum", "do not arrive together"),
+        ("derive mass-on-fixed-bar --general --quantity energy", "quadratic in the waves"),
+        ("derive mass-that-bounces --general --quantity displacement", "no closed form in n"),
+    ] {
+        let (code, stdout, stderr) = run(&folder, &words(line));
+        assert_eq!((code, stdout.as_str()), (1, ""), "{line}: {stderr}");
         assert!(stderr.contains(expected), "{line}: {stderr}");
     }
 }
 
 #[test]
 fn from_alone_gives_four_periods() {
-    let formulas = output("derive rigid-mass --wave f --from 4");
+    let formulas = output("derive rigid-mass --quantity f --from 4");
     let heads: Vec<&str> =
         formulas.lines().filter(|line| line.starts_with('f')).map(|line| &line[..4]).collect();
     assert_eq!(heads, ["f[4]", "f[5]", "f[6]", "f[7]"]);

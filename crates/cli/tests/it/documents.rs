@@ -173,7 +173,7 @@ fn the_rust_of_the_readme_is_the_example_of_the_library() {
 fn the_formula_of_the_readme_is_derived() {
     let readme = read("README.md");
     let formula = readme.lines().find_map(|line| line.strip_prefix("$$")?.strip_suffix("$$"));
-    let line = ["derive", "rigid-mass", "--wave", "f", "--piece", "2", "--format", "latex"];
+    let line = ["derive", "rigid-mass", "--quantity", "f", "--piece", "2", "--format", "latex"];
     let (_, latex, _) = run(&folder("readme-formula"), &line);
     let lines: Vec<&str> = latex.lines().filter(|line| !line.contains("align*")).collect();
     assert_eq!(formula.expect("a formula"), lines.join(" ").replace(" &=", " ="));

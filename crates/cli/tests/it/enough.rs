@@ -288,7 +288,7 @@ fn distances_are_told_in_all_formats() {
 
 #[test]
 fn formulas_of_a_model_stand_below_the_exact_ones() {
-    let line = "derive mass-on-fixed-bar --observable strain_fixed --through 0 --model third";
+    let line = "derive mass-on-fixed-bar --quantity strain_fixed --through 0 --model third";
     let (code, text, errors) = run(anywhere(), &words(line));
     assert_eq!((code, errors.as_str()), (0, ""));
     assert!(text.starts_with("strain_fixed[0](s) = -2*exp(-s)\n"), "{text}");
@@ -302,7 +302,8 @@ fn formulas_of_a_model_stand_below_the_exact_ones() {
 
 #[test]
 fn a_model_beside_exact_formulas_is_one_document() {
-    let line = "derive mass-on-fixed-bar --observable strain_fixed --through 0 --model third --format json";
+    let line =
+        "derive mass-on-fixed-bar --quantity strain_fixed --through 0 --model third --format json";
     let (code, text, errors) = run(anywhere(), &words(line));
     assert_eq!((code, errors.as_str()), (0, ""));
     let told: Value = serde_json::from_str(&text).unwrap();

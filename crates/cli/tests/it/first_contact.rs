@@ -227,7 +227,7 @@ fn other_first_contacts_are_refused_by_name() {
     }
     for line in [
         "derive hertz-striker --general",
-        "derive hertz-striker --wave f",
+        "derive hertz-striker --quantity f",
         "derive hertz-striker --piece 1",
     ] {
         let (code, _, told) = run(&folder, &words(line));

@@ -114,12 +114,12 @@ fn forms_look_as_recorded() {
     let cubic = cubic.replace("bar rod", "mass cap { mass = 1 }\nbar rod");
     fs::write(folder.join("cubic.wave"), cubic).unwrap();
     for (name, line) in [
-        ("derive-complex-poles", "derive cushion.wave --wave cushion"),
-        ("derive-between-arrivals", "derive cushion.wave --observable momentum"),
-        ("derive-lattice", "derive incommensurate --wave g_striker"),
-        ("derive-lattice-latex", "derive incommensurate --wave g_striker --format latex"),
-        ("derive-named-rate", "derive pile --wave cushion --through 1"),
-        ("derive-named-cubic", "derive cubic.wave --wave cushion --through 0"),
+        ("derive-complex-poles", "derive cushion.wave --quantity cushion"),
+        ("derive-between-arrivals", "derive cushion.wave --quantity momentum"),
+        ("derive-lattice", "derive incommensurate --quantity g_striker"),
+        ("derive-lattice-latex", "derive incommensurate --quantity g_striker --format latex"),
+        ("derive-named-rate", "derive pile --quantity cushion --through 1"),
+        ("derive-named-cubic", "derive cubic.wave --quantity cushion --through 0"),
         ("check-scene", "check cushion.wave --verbose"),
         ("check-lattice", "check incommensurate --verbose"),
         ("scenes", "scenes"),
@@ -132,7 +132,7 @@ fn forms_look_as_recorded() {
 fn json_is_json() {
     for arguments in [
         &["derive", "incommensurate", "--format", "json"][..],
-        &["derive", "mass-on-fixed-bar", "--observable", "momentum", "--format", "json"],
+        &["derive", "mass-on-fixed-bar", "--quantity", "momentum", "--format", "json"],
         &["eval", "hopkinson", "--quantity", "force", "--at", "400us", "--format", "json"],
     ] {
         let text = output(arguments);
@@ -207,7 +207,7 @@ fn what_scenes_cannot_be_asked_is_refused() {
     );
     let mut report = String::new();
     for line in [
-        "derive cushion.wave --observable energy",
+        "derive cushion.wave --quantity energy",
         "derive symbolic.wave",
         "derive incommensurate --general",
         "derive incommensurate --piece 2",

@@ -27,13 +27,13 @@ fn displays() -> BTreeMap<String, String> {
         asked.push(format!("{scene} --through 4 --source-form --line-length 60"));
     }
     for observable in ["velocity", "strain_impact", "strain_fixed"] {
-        asked.push(format!("rigid-mass --observable {observable}"));
+        asked.push(format!("rigid-mass --quantity {observable}"));
     }
-    for scene in ["pile --wave cushion --through 1", "incommensurate --wave g_striker"] {
+    for scene in ["pile --quantity cushion --through 1", "incommensurate --quantity g_striker"] {
         asked.push(scene.to_owned());
     }
-    asked.push("mass-on-fixed-bar --observable momentum".to_owned());
-    asked.push("hopkinson --wave specimen --piece 6".to_owned());
+    asked.push("mass-on-fixed-bar --quantity momentum".to_owned());
+    asked.push("hopkinson --quantity specimen --piece 6".to_owned());
     let latex = |asked: String| {
         let (code, out, err) = run(anywhere(), &words(&format!("derive --format latex {asked}")));
         assert_eq!(code, 0, "{asked}: {err}");

@@ -61,7 +61,7 @@ const IN_SCENES: [(&str, &str, &str); 41] = [
 ];
 
 /// A command with a word misspelt, and what is suggested.
-const IN_COMMANDS: [(&str, &str); 30] = [
+const IN_COMMANDS: [(&str, &str); 32] = [
     ("derive hopkinsn", "hopkinson"),
     ("scenes hopkinsn", "hopkinson"),
     ("check rigid-mas", "rigid-mass"),
@@ -80,6 +80,8 @@ const IN_COMMANDS: [(&str, &str); 30] = [
     ("eval rigid-mass --set muu=1 --at 1", "mu"),
     ("derive rigid-mass --format latx", "latex"),
     ("derive mass-on-fixed-bar --model thrd", "third"),
+    ("derive rigid-mass --quantity velocty", "velocity"),
+    ("derive incommensurate --quantity contact_forc", "contact_force"),
     ("events hopkinson --form 1ms", "--format"),
     ("find hopkinson --max momentm --to 1ms", "momentum"),
     ("find hopkinson --zero Force --to 1ms", "force"),
@@ -197,6 +199,11 @@ fn old_spellings_mean_the_same() {
         ),
         ("eval hopkinson --at 1ms --at 2ms", "eval hopkinson --at 1ms,2ms"),
         ("dispersion lattice --at 1", "dispersion lattice --wavenumber 1"),
+        ("derive rigid-mass --wave f", "derive rigid-mass --quantity f"),
+        (
+            "derive rigid-mass --observable strain_fixed",
+            "derive rigid-mass --quantity strain_fixed",
+        ),
     ] {
         let [old, new] = [old, new].map(|line| run(&folder, &words(line)));
         assert!(old.0 == 0 && old == new, "{old:?}\n{new:?}");

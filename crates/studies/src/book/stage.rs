@@ -68,7 +68,7 @@ pub(super) fn derived(
     network.recurrence().map_err(|_| Refusal::NoPeriods(name.to_owned()))
 }
 
-/// The notation of a stated recurrence for the waves of one that is derived.
+/// The notation of a stated recurrence for the waves, not the observables, of one that is derived.
 fn notation(
     like: &str,
     waves: &[(String, String)],
@@ -90,6 +90,7 @@ fn notation(
     let notation = &from.notation;
     let moved = |wave: &WaveIndex| map.get(wave).copied();
     Ok(SourceNotation {
+        observables: BTreeMap::new(),
         units: (notation.units.iter())
             .filter_map(|(wave, unit)| Some((moved(wave)?, unit.clone())))
             .collect(),
