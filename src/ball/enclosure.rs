@@ -76,7 +76,9 @@ impl Ball {
         };
         let most_places = i64::try_from(most).unwrap_or(i64::MAX / 2);
         let coarsest = decimal_exponent(top - 1) + 1 - most_places;
-        let mut place = place.map_or(coarsest, |place| place.max(coarsest));
+        // An exact midpoint `m 2^e` has no digits beyond the place `e`.
+        let last = place.unwrap_or(value.exponent().min(0));
+        let mut place = last.max(coarsest);
         let (midpoint, low, high) = loop {
             let (low, high) = scale_by_ten(value, -place, half_even);
             let midpoint = Decimal::from_scaled(&low, place);

@@ -326,7 +326,7 @@ impl Derivation {
                 Block::Heading(heading) => out.push_str(&format!("\\subsection*{{{heading}}}\n")),
                 Block::Text(text) => {
                     out.push_str("{\\footnotesize\n\\begin{verbatim}\n");
-                    out.push_str(&format!("{text}\n\\end{{verbatim}}\n}}\n"));
+                    out.push_str(&format!("{}\n\\end{{verbatim}}\n}}\n", verbatim(text)));
                 }
                 Block::Gap => out.push('\n'),
                 Block::Sentence([_, latex, _]) => out.push_str(&format!("{latex}\n")),
@@ -337,6 +337,16 @@ impl Derivation {
         }
         out
     }
+}
+
+/// A text as LaTeX takes it verbatim: nothing in it ends the environment, Greek letters are spelt, and other letters that
+/// are not Latin are left out.
+fn verbatim(text: &str) -> String {
+    let spelt = |letter: char| match letter {
+        _ if (letter as u32) < 0x180 => letter.to_string(),
+        _ => mathml::spelt(letter).unwrap_or("?").to_owned(),
+    };
+    text.replace("\\end", "\\ end").chars().map(spelt).collect()
 }
 
 fn sum(parts: &[Expression]) -> Vec<Term> {

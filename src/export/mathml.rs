@@ -50,6 +50,12 @@ fn letter(name: &str) -> Option<String> {
     known.map(|(_, letter)| letter.to_string())
 }
 
+/// The name of a Greek letter.
+pub(super) fn spelt(letter: char) -> Option<&'static str> {
+    let known = GREEK.iter().zip(LETTERS.chars()).find(|(_, own)| *own == letter);
+    known.map(|(name, _)| *name)
+}
+
 /// A letter and what stands below it, where the name ends with that.
 fn split_subscript(latex: &str) -> Option<(&str, &str)> {
     let inner = latex.strip_suffix('}')?;

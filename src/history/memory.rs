@@ -158,6 +158,10 @@ impl Engine {
     /// as many as it takes to die out, or to come to the end.
     pub fn foresee_short_cells(&self, node: usize, reach: &Reach) -> Outcome<()> {
         let state = &self.states[node];
+        // What presses evenly is held constant over long cells, as soon as it does.
+        if state.passivity.blocks.iter().any(|block| !block.pressed.is_empty()) {
+            return Ok(());
+        }
         let rate = state.passivity.rate().scale(-LONGEST_CELL).to_double();
         let enough = (MUCH_MORE * MAX_HISTORY_CELLS) as f64;
         if (self.whole - state.about) * rate <= enough {

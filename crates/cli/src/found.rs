@@ -6,7 +6,7 @@ use super::output::plural;
 use super::rows::ALL_DIGITS;
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
-use wavestep::ball::{Ball, Number};
+use wavestep::ball::{Ball, Bound, Decimal, Number};
 use wavestep::problem::{Problem, Size, Wanted};
 use wavestep::signal::{Extremum, Goal, Place, Root, Roots, Value};
 use wavestep_studies::told::Teller;
@@ -284,8 +284,11 @@ fn place_json(place: &Place) -> Json {
             json!({ "kind": "plateau", "from": number(from), "to": number(to), "closed": closed })
         }
         Place::Undecided { from, to } => {
-            let time = number(&Value::Enclosed(enclosed(from, to)));
-            json!({ "kind": "undecided", "time": time })
+            let bound = |time, side| {
+                number(&Value::Exact(Decimal::bound(time, BOUND_DIGITS, side).to_rational()))
+            };
+            let [from, to] = [bound(from, Bound::Lower), bound(to, Bound::Upper)];
+            json!({ "kind": "undecided", "from": from, "to": to })
         }
     };
     body["attained"] = json!(place.is_attained());

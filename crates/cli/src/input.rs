@@ -2,6 +2,7 @@
 
 use super::arguments::Scene;
 use super::failure::Failure;
+use super::output::read_files;
 use std::io::Read;
 use std::ops::{Deref, DerefMut};
 use std::path::Path;
@@ -87,7 +88,11 @@ pub fn bytes(name: &str, limit: usize) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let input: Box<dyn Read> = match name {
         "-" => Box::new(std::io::stdin().lock()),
-        name => Box::new(std::fs::File::open(name)?),
+        name => {
+            let file = std::fs::File::open(name)?;
+            read_files().extend(std::fs::canonicalize(name));
+            Box::new(file)
+        }
     };
     input.take(limit as u64 + 1).read_to_end(&mut bytes)?;
     Ok(bytes)

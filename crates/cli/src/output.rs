@@ -6,6 +6,7 @@ use super::failure::Failure;
 use std::fs::{self, File};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Text for standard output, or written to a file, which is then named there.
 pub fn written(text: String, file: Option<&str>) -> Result<String, Failure> {
@@ -23,14 +24,29 @@ pub fn report(report: Result<String, Failure>, to: &Output) -> Result<String, Fa
     written(report?, to.output.as_deref())
 }
 
+/// The files that were read: none of them is written to.
+pub fn read_files() -> MutexGuard<'static, Vec<PathBuf>> {
+    static FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+    FILES.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Writes a file as a whole or not at all: beside it first, under a name that is free, then in its
 /// place. What is no ordinary file, such as a pipe, is written to.
 pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let is_read = |target: PathBuf| target.is_file() && read_files().contains(&target);
+    if fs::canonicalize(file).is_ok_and(is_read) {
+        let message = format!("`{}` is what was read, and would be replaced", file.display());
+        return Err(Failure::usage(message, "name another file"));
+    }
     let _writing = budget::writing();
     let written = match fs::metadata(file) {
         Ok(found) if !found.is_file() => fs::write(file, bytes),
         // A link stays a link: its target is replaced.
-        Ok(_) => fs::canonicalize(file).and_then(|target| replace(&target, bytes)),
+        Ok(_) => fs::canonicalize(file).and_then(|target| {
+            // A file that is protected stays as it is.
+            File::options().write(true).open(&target)?;
+            replace(&target, bytes)
+        }),
         Err(_) => replace(file, bytes),
     };
     written.map_err(|error| {

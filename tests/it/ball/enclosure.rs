@@ -40,6 +40,8 @@ fn exact_midpoints_print_alone() {
     assert_eq!(point(1, 10).to_decimal(10).to_string(), "1024");
     assert_eq!(point(1, 10).to_decimal(4).to_string(), "1024");
     assert_eq!(point(1, 10).to_decimal(3).to_string(), "1.02e3 ± 1.0e1");
+    // However many digits are allowed, none is worked out that is not there.
+    assert_eq!(point(1, -1).to_decimal(1 << 40).to_string(), "0.5");
 }
 
 #[test]

@@ -248,3 +248,40 @@ fn a_scene_may_come_from_standard_input() {
     let named = run(&folder, &["eval", "s.wave", "--at", "1ms"]);
     assert_eq!(String::from_utf8(output.stdout).unwrap(), named.1);
 }
+
+/// No report replaces what was read, by whichever path, nor a file that is protected.
+#[test]
+fn what_is_read_is_not_replaced() {
+    let folder = folder("read-and-written");
+    fs::write(folder.join("s.wave"), SCENE).unwrap();
+    fs::write(folder.join("t.wave"), SCENE).unwrap();
+    let other = format!("{}/../read-and-written/s.wave", folder.display());
+    for line in [
+        "derive s.wave -o s.wave".to_owned(),
+        format!("derive s.wave -o {other}"),
+        "report s.wave -o s.wave".to_owned(),
+        "find s.wave --distance force --minus t.wave --to 1ms -o t.wave".to_owned(),
+    ] {
+        let (code, out, errors) = run(&folder, &words(&line));
+        assert!(
+            code == 2 && out.is_empty() && errors.contains("what was read"),
+            "{line}: {errors}"
+        );
+    }
+    for file in ["s.wave", "t.wave"] {
+        assert_eq!(fs::read_to_string(folder.join(file)).unwrap(), SCENE);
+    }
+}
+
+/// A title cannot end the text of the scene in an exercise in LaTeX, and Greek letters are spelt there.
+#[test]
+fn the_text_of_an_exercise_stays_verbatim() {
+    let folder = folder("verbatim");
+    let text = SCENE.replace("Two bars", "\\end{verbatim} μ").replace("pad", "σ_1");
+    fs::write(folder.join("s.wave"), text).unwrap();
+    let line = "derive s.wave --exercise --through 0 --format latex";
+    let (code, latex, errors) = run(&folder, &words(line));
+    assert_eq!(code, 0, "{errors}");
+    assert_eq!(latex.matches("\\end{verbatim}").count(), 1);
+    assert!(latex.contains("\\ end{verbatim} mu") && latex.contains("spring sigma_1 {"), "{latex}");
+}
