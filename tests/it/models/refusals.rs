@@ -38,12 +38,12 @@ const REFUSED: [(&str, &str, &str); 9] = [
     (
         "modes",
         "mass m { mass = 1, velocity = 1 }\nspring k { stiffness = 1 }\nline free - m - k - fixed\n#no a",
-        "it takes a line with at least one bar",
+        "it needs at least one bar",
     ),
     (
         "leapfrog",
         "mass m { mass = 1 }\nbar e { impedance = 1, velocity = 1 }\nline free - m | e - endless\n#no a",
-        "no bar has a finite length, and nothing else says how long a cell is",
+        "no bar has a finite length that could set the size of a cell",
     ),
     (
         "leapfrog",
@@ -110,8 +110,8 @@ fn settings_times_and_symbols_are_checked() {
             Leapfrog::new(&network, 4, f64::NAN).err(),
             "the Courant number NaN is not positive; take 1 or less",
         ),
-        (Leapfrog::new(&network, 0, 1.0).err(), "it takes at least one cell"),
-        (Modes::new(&network, 0).err(), "it takes at least one mode"),
+        (Leapfrog::new(&network, 0, 1.0).err(), "it needs at least one cell"),
+        (Modes::new(&network, 0).err(), "it needs at least one mode"),
         (Steps::new(&network, 0.5).err(), "the tolerance 5e-1 is not between 1e-13 and 1e-2"),
         (Steps::new(&network, f64::NAN).err(), "the tolerance NaN is not between 1e-13 and 1e-2"),
         (

@@ -99,7 +99,7 @@ fn the_way_is_explained() {
         assert!(stdout.starts_with("f(0) = 1\n"), "{stdout}");
         let mut rows = stderr.lines().skip(2);
         let first = rows.next().unwrap().trim_start().to_owned();
-        assert!(first.contains("the cheapest that is proven to be good enough"), "{stderr}");
+        assert!(first.contains("the cheapest that is proven to be accurate enough"), "{stderr}");
         assert_eq!(rows.count(), 6, "{stderr}");
         first.split(' ').next().unwrap().to_owned()
     };
@@ -170,19 +170,19 @@ const REFUSALS: [(&str, i32, &str, &str); 17] = [
         "eval rigid-mass --set mu=1 --quantity f --at 2 --tol 1e-20",
         3,
         "no double is proven to be within 1e-20 of the largest value",
-        "ask for digits instead: --digits 25",
+        "compute digits instead: --digits 25",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --tol abs:1e-17",
         3,
         "no double is proven to be within 1e-17",
-        "ask for digits instead",
+        "compute digits instead",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --tol ulp:0.49",
         3,
         "no double is proven to be within 0.49 units in the last place of the largest value",
-        "ask for digits instead",
+        "compute digits instead",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --method magic",
@@ -219,31 +219,31 @@ const REFUSALS: [(&str, i32, &str, &str); 17] = [
         "eval rigid-mass --set mu=1 --quantity f --at 2 --method modes",
         1,
         "modes models a scene of bars, and this is a recurrence",
-        "describe it by its parts: see docs/scene-language.md",
+        "describe the scene by its parts: see docs/scene-language.md",
     ),
     (
         "eval mass-on-fixed-bar --set mu=1 --quantity velocity --at 2 --side left --method modes",
         1,
         "modes is a model, and has no limits from one side",
-        "leave out --side left",
+        "remove --side left",
     ),
     (
         "eval mass-on-fixed-bar --set mu=1 --quantity velocity --at 2 --method rigid",
         1,
         "the model \"rigid body\" does not represent this",
-        "use another model, or a method on the exact solution",
+        "use another model, or a method based on the exact solution",
     ),
     (
         "eval incommensurate --quantity wall_force --at 100us --method stable",
         1,
-        "echoes arrive on no common grid",
+        "echoes do not arrive on a common grid",
         "use --method compiled or certified",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 100000000 --method marched",
         1,
         "50000000 periods, where this method takes at most 10000000",
-        "ask for a shorter window, or use --method certified",
+        "use a shorter window, or --method certified",
     ),
     (
         "eval rigid-mass --quantity f --at 2 --tol 1e-9",

@@ -247,7 +247,7 @@ fn what_cannot_be_drawn_leaves_no_file() {
         (&["rigid-mass", "--set", "mu=1", "--diagram", "force", "-o", "a.svg"], 2, "no bars"),
         (&["hopkinson", "--at", "1us", "--quantity", "speed", "-o", "a.svg"], 2, "no field"),
         (&["hopkinson", "--at", "-1us", "-o", "a.svg"], 2, "before the start"),
-        (&["pushed-bar", "--width", "0", "-o", "a.png"], 2, "give another --width"),
+        (&["pushed-bar", "--width", "0", "-o", "a.png"], 2, "choose another --width"),
         (&["pushed-bar", "-o", "none/a.svg"], 2, "cannot be written"),
         (&["rigid-mass", "--set", "mu=1", "--to", "-1", "-o", "old.svg"], 2, "before the start"),
     ] {

@@ -475,7 +475,7 @@ fn near_the_time(
 const WITHOUT_MEANING: [[&str; 2]; 4] = [
     ["states equations, and no bars along which to look"; 2],
     ["models a scene of bars, and this is a recurrence"; 2],
-    ["echoes arrive on no common grid"; 2],
+    ["echoes do not arrive on a common grid"; 2],
     [
         "so this scene has no recurrence",
         "a local contact follows no recurrence that could be marched, and no sum that could be expanded",
@@ -606,7 +606,7 @@ fn answers_say_how_they_were_found() {
             let parts: &[&str] = match (kind.name.contains("local"), how) {
                 (true, _) => &[":"],
                 (_, "") => &["value with 15 proven digits", " s\n", "bound: "],
-                _ => &["seconds", "≤ ", "the cheapest that is proven to be good enough"],
+                _ => &["seconds", "≤ ", "the cheapest that is proven to be accurate enough"],
             };
             assert!(parts.iter().all(|part| err.contains(part)), "{}: {err}", kind.name);
         }
