@@ -278,7 +278,9 @@ fn remedy(error: &ProblemError) -> Option<String> {
             format!("the free symbols are {}", symbols.join(", "))
         }
         ProblemError::Digits(_) => format!("give 1 to {MAX_DIGITS} digits"),
-        ProblemError::OutsidePeriod(times) => format!("give a time from 0 to less than {}", times[1]),
+        ProblemError::OutsidePeriod(times) => {
+            format!("give a time from 0 to less than {}", times[1])
+        }
         ProblemError::LocalContact { spring, .. } => {
             format!("compute values, or replace it by a spring: {spring}")
         }
@@ -308,9 +310,7 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
         ProblemError::BeforeStart(_) => "give times from 0 on",
         ProblemError::EmptyWindow(_) => "the window must end after it begins",
         ProblemError::NoEnd => "give the window an end",
-        ProblemError::WaveOfClosedContacts(_) => {
-            "choose an observable, or remove `contacts open`"
-        }
+        ProblemError::WaveOfClosedContacts(_) => "choose an observable, or remove `contacts open`",
         ProblemError::Equations(_) => DESCRIBE,
         ProblemError::Change(ChangeError::NotABar(_)) => "name a bar of the line",
         ProblemError::Change(_) => "choose another simplification",
@@ -320,9 +320,7 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
         }
         ProblemError::NoSymbol { .. } => "every symbol has a value: remove --for",
         ProblemError::Apart { .. } => "compare scenes with the same units",
-        ProblemError::NoClosedForm { .. } => {
-            "evaluate its observables, which works for every line"
-        }
+        ProblemError::NoClosedForm { .. } => "evaluate its observables, which works for every line",
         ProblemError::ModelOfLocalContact(_) => "use tested values by the method of steps",
         ProblemError::NoPeriods(_)
         | ProblemError::NoPeriodsWhereContactsOpen
@@ -408,7 +406,9 @@ fn remedy_of_history(error: &HistoryError) -> &'static str {
             "choose an earlier end, or remove a light mass or stiff spring that rings"
         }
         HistoryError::TooMuchMemory { .. } => "choose an earlier end, or raise --memory",
-        HistoryError::Refused(_) => "docs/scene-language.md lists under `Contacts` what is supported",
+        HistoryError::Refused(_) => {
+            "docs/scene-language.md lists under `Contacts` what is supported"
+        }
         HistoryError::Opens { .. } => {
             "choose an earlier time, or use the method compiled or certified"
         }

@@ -105,8 +105,12 @@ impl Scope {
     /// Lowers an expression that may hold neither waves nor time nor exponentials.
     pub fn lower_fraction(&self, tree: &Tree, what: &'static str) -> Outcome<Fraction> {
         self.lower_constant(tree, what)?.as_fraction().ok_or_else(|| {
-            self.error(format!("{what} cannot contain an exponential"), tree.span, "contains an exponential")
-                .with_remedy("introduce a symbol for it")
+            self.error(
+                format!("{what} cannot contain an exponential"),
+                tree.span,
+                "contains an exponential",
+            )
+            .with_remedy("introduce a symbol for it")
         })
     }
 }
@@ -407,7 +411,11 @@ impl<'a> Lowering<'a> {
     fn square_root(&self, value: &Expression, span: Span) -> Outcome<Expression> {
         let Some(number) = value.as_constant() else {
             return Err(self
-                .error("a root of a term that is not a rational number", span, "not a rational number")
+                .error(
+                    "a root of a term that is not a rational number",
+                    span,
+                    "not a rational number",
+                )
                 .with_remedy(
                     "write roots of numbers, such as `sqrt(3)`, and introduce a symbol for others",
                 ));
@@ -515,11 +523,12 @@ impl<'a> Lowering<'a> {
     }
 
     fn too_large(&self, span: Span) -> Diagnostic {
-        self.error("this expression becomes too large", span, "grows too large")
-            .with_remedy(format!(
+        self.error("this expression becomes too large", span, "grows too large").with_remedy(
+            format!(
                 "keep it below {MAX_TERMS} terms, degree {MAX_DEGREE}, and {MAX_CONSTANT_BITS} \
                  bits a number"
-            ))
+            ),
+        )
     }
 
     /// `1/tree`, factor by factor.

@@ -145,7 +145,11 @@ impl<'a> Lowering<'a> {
             let period = self.scope.lower_fraction(length, "a period")?;
             if period.roots().next().is_some() {
                 return Err(self
-                    .error("a period cannot contain a square root", length.span, "contains a square root")
+                    .error(
+                        "a period cannot contain a square root",
+                        length.span,
+                        "contains a square root",
+                    )
                     .with_remedy("measure time in units in which it is rational"));
             }
             self.declare(local)?;
@@ -230,7 +234,11 @@ impl<'a> Lowering<'a> {
             if form.is_free_of_waves() {
                 let wave = &self.wave_names[0].value;
                 return Err(self
-                    .error("this continuity rule contains no wave", quantity.span, "no wave in here")
+                    .error(
+                        "this continuity rule contains no wave",
+                        quantity.span,
+                        "no wave in here",
+                    )
                     .with_remedy(format!(
                         "name a wave, as in `continuous {wave}[n] starts at 0`"
                     )));
@@ -309,7 +317,8 @@ impl<'a> Lowering<'a> {
             }
             Fault::DeterminesNothing => (
                 "nothing left to determine once the others are solved",
-                "each equation must contain a wave `[n]` that no other equation determines".to_owned(),
+                "each equation must contain a wave `[n]` that no other equation determines"
+                    .to_owned(),
             ),
             Fault::Coupled(_) => {
                 ("cannot be solved one by one", "solve the equations for one wave each".to_owned())
@@ -342,12 +351,12 @@ impl<'a> Lowering<'a> {
             ),
             Fault::StartsNothing => (
                 "no wave needs it",
-                "remove it: only waves with a differential equation need an initial value".to_owned(),
+                "remove it: only waves with a differential equation need an initial value"
+                    .to_owned(),
             ),
             Fault::IllFormed => (
                 "not of the form of a recurrence",
-                "use declared waves, constant coefficients, and forcing in scene time"
-                    .to_owned(),
+                "use declared waves, constant coefficients, and forcing in scene time".to_owned(),
             ),
             Fault::DegreeTooHigh => {
                 ("with this one and the others", "use lower powers in the coefficients".to_owned())

@@ -53,8 +53,7 @@ struct Line<'a> {
 impl<'a> Line<'a> {
     fn refused(self, remedy: &str) -> Diagnostic {
         let message = "this line cannot be read";
-        Diagnostic::new(self.source, message, self.span, "in a lock file")
-            .with_remedy(remedy)
+        Diagnostic::new(self.source, message, self.span, "in a lock file").with_remedy(remedy)
     }
 
     /// The sides of `name = value`.

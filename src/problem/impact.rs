@@ -18,9 +18,7 @@ pub enum NoClosedForm {
     Beside(String),
     #[error("`{0}` is strained at the start, so waves reach the contact from the beginning")]
     Strained(String),
-    #[error(
-        "the bodies next to it may not approach each other at the start"
-    )]
+    #[error("the bodies next to it may not approach each other at the start")]
     NotClosing,
 }
 

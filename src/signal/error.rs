@@ -52,7 +52,9 @@ pub enum EvaluateError {
     TooSteep,
     #[error("this method is for sums of waves, and this quantity is quadratic in them")]
     NotLinear,
-    #[error("with {bits} bits the scene is followed only up to an earlier time, and fewer bits do not decide this")]
+    #[error(
+        "with {bits} bits the scene is followed only up to an earlier time, and fewer bits do not decide this"
+    )]
     NotFollowed { bits: u64 },
     /// The waves have one pole of a complex pair each.
     #[error("the value is not real")]

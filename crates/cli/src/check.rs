@@ -58,14 +58,14 @@ fn verdict(checked: &Checked, problem: &Problem) -> String {
     let observed = plural(problem.observables().len(), "observable");
     match checked {
         Checked::LocalContact(_) => {
-            format!("consistent: proven events and values of {observed}")
+            format!("consistent; proven events and values of {observed}")
         }
         Checked::Lattice { .. } => {
-            format!("consistent: echoes in order of arrival, values of {observed}")
+            format!("consistent; echoes in order of arrival, values of {observed}")
         }
         Checked::NeedsValues { symbols, .. } => {
             let symbols = listed(symbols);
-            format!("consistent: formulas, events and values of {observed} need {symbols}")
+            format!("consistent; formulas, events and values of {observed} need {symbols}")
         }
         Checked::Periods(found) => {
             let known = |(_, general): &(String, General)| !matches!(general, General::Unknown);
@@ -75,9 +75,7 @@ fn verdict(checked: &Checked, problem: &Problem) -> String {
                 [] => String::new(),
                 symbols => format!(" (with {})", listed(symbols)),
             };
-            format!(
-                "consistent: formulas for each period{general}, values of {observed}{needed}"
-            )
+            format!("consistent; formulas for each period{general}, values of {observed}{needed}")
         }
     }
 }

@@ -44,9 +44,7 @@ pub fn tell(found: &Doubles, points: usize, tolerance: Option<Tolerance>, explai
         match remark {
             Remark::Tested(tested) => note_tested(tested),
             Remark::BoundTooLarge(bound) => {
-                eprintln!(
-                    "warning: {method} is proven to within {bound:.1e}, not to {tolerance}"
-                );
+                eprintln!("warning: {method} is proven to within {bound:.1e}, not to {tolerance}");
             }
             Remark::Off(error, time) => eprintln!(
                 "warning: {method} is off by {error:.1e} at {}, more than {tolerance}",
@@ -93,7 +91,7 @@ fn note_tested(Tested { contact, tolerance, differs }: &Tested) {
         None => "contacts open".to_owned(),
     };
     eprintln!(
-        "note: {why}; these values are tested, not proven: computed to \
+        "note: {why}; these values are tested, not certified: computed to \
          {tolerance:e} of the largest"
     );
     if let Some(differs) = differs {

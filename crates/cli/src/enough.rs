@@ -95,8 +95,7 @@ impl Told<'_> {
             text += cells.collect::<Vec<_>>().join("  ").trim_end();
             text.push('\n');
         }
-        text +=
-            &format!("\nThe simplest model within {}:\n\n", whole(&self.asked.tolerance));
+        text += &format!("\nThe simplest model within {}:\n\n", whole(&self.asked.tolerance));
         for (Run { between: [from, to], state: first }, open) in
             self.map.runs.iter().zip(&self.map.open)
         {
@@ -108,7 +107,8 @@ impl Told<'_> {
                 let between = undecided.as_deref().map_or(String::new(), |[from, to]| {
                     format!(" from {} to {}", in_decimals(from), in_decimals(to))
                 });
-                text += &format!("  undecided in between, for {}: {why}{between}\n", self.name(*place));
+                text +=
+                    &format!("  undecided in between, for {}: {why}{between}\n", self.name(*place));
             }
         }
         text

@@ -198,7 +198,9 @@ fn usual(cause: &ProblemError) -> Option<&'static str> {
         },
         ProblemError::ModelOfLocalContact(error) if error.is_of_measure() => "remove --method",
         ProblemError::ModelOfLocalContact(_) => STEPS,
-        ProblemError::NoClosedForm { .. } => "compute values with `eval`, which works for every line",
+        ProblemError::NoClosedForm { .. } => {
+            "compute values with `eval`, which works for every line"
+        }
         ProblemError::NoCommonPeriods(_) => "evaluate it with `wavestep eval`, or derive its waves",
         ProblemError::UnknownOrder(_) => {
             "give values with --set, or evaluate it with `wavestep eval`"

@@ -61,10 +61,7 @@ fn write(options: &Options, lock: &Lock) -> Result<String, Failure> {
     if fs::canonicalize(file)
         .is_ok_and(|file| fs::canonicalize(&options.scene.scene).ok() == Some(file))
     {
-        return Err(Failure::usage(
-            "this would overwrite the scene",
-            "name another file with -o",
-        ));
+        return Err(Failure::usage("this would overwrite the scene", "name another file with -o"));
     }
     write_whole(Path::new(file), text.as_bytes())?;
     Ok(format!("{file}: locked {}\n", counted(lock)))
@@ -82,9 +79,10 @@ pub fn check(scene: &str, file: &str) -> Result<String, Failure> {
     let problem = input::problem_with(scene, &locked.request().set)?;
     let progress = progress::spinner("deriving");
     let differences = problem.differences(&locked).map_err(|error| match error {
-        ProblemError::NoLock(LockRefusal::PiecesLocked) => {
-            Failure::usage(format!("{file} contains pieces, but contacts now open in {scene}"), AGAIN)
-        }
+        ProblemError::NoLock(LockRefusal::PiecesLocked) => Failure::usage(
+            format!("{file} contains pieces, but contacts now open in {scene}"),
+            AGAIN,
+        ),
         ProblemError::NoLock(LockRefusal::EventsLocked) => {
             let message = format!("{file} contains events, but no contact opens in {scene} now");
             Failure::usage(message, AGAIN)

@@ -18,10 +18,7 @@ pub fn note_derivation(problem: &Problem) {
 pub fn derivation(problem: &Problem) -> Option<String> {
     Some(match problem.holds(DIGITS)? {
         Holds::UntilTheyPart(time, [left, right]) => {
-            format!(
-                "valid until t = {}, when {left} and {right} separate",
-                text(problem, &time)
-            )
+            format!("valid until t = {}, when {left} and {right} separate", text(problem, &time))
         }
         Holds::UntilItPulls(time, [left, right]) => format!(
             "valid until t = {}, when the contact between {left} and {right} goes into tension",

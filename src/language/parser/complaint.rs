@@ -409,8 +409,7 @@ pub(super) fn misplaced_prime(input: Input<'_>, span: Span, name: &str) -> Diagn
 
 /// `exp` or another function where a name is needed.
 pub(super) fn reserved(input: Input<'_>, name: &str, span: Span) -> Diagnostic {
-    let message =
-        format!("`{name}` is a function, so nothing else can have this name");
+    let message = format!("`{name}` is a function, so nothing else can have this name");
     at(input, message, span, "reserved").with_remedy("choose another name")
 }
 

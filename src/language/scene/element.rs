@@ -218,12 +218,8 @@ impl<'a> Lowering<'a> {
             return Some(());
         }
         let span = property.map_or(self.tree.title.span, |property| property.value.span);
-        let error = self.not_positive(
-            format!("{what} must be positive"),
-            span,
-            value,
-            Least::Positive,
-        );
+        let error =
+            self.not_positive(format!("{what} must be positive"), span, value, Least::Positive);
         self.refuse(error)
     }
 

@@ -262,10 +262,9 @@ fn plain(mistake: Mistake) -> (&'static [&'static str], &'static str) {
         Mistake::NoStiffness => {
             (&["both are zero"], "give a positive `stiffness` or a positive `damping`")
         }
-        Mistake::EndsBeforeBegin => (
-            &["ends here", "begins here"],
-            "`until` must be later than `from` (default 0)",
-        ),
+        Mistake::EndsBeforeBegin => {
+            (&["ends here", "begins here"], "`until` must be later than `from` (default 0)")
+        }
         Mistake::ExponentTooSmall => {
             (&["smaller"], "give a larger `exponent`; a ball on a flat body has 3/2")
         }

@@ -148,9 +148,7 @@ fn unknown(scope: &Scope, name: &str, span: crate::language::Span) -> Diagnostic
     let spelt = closest(&lower, SPELT.iter().map(|(word, _)| *word));
     let spelt = spelt.and_then(|spelt| SPELT.iter().find(|(word, _)| *word == spelt));
     if scope.symbols.contains_key(name) || name == "t" {
-        error.with_remedy(format!(
-            "no unit has this name; a product needs `*`, as in `2*{name}`"
-        ))
+        error.with_remedy(format!("no unit has this name; a product needs `*`, as in `2*{name}`"))
     } else if !digits.is_empty() && named(letters).is_some() {
         error.with_remedy(format!("write powers with `^`: `{letters}^{digits}`"))
     } else if let Some((left, right)) = parted {

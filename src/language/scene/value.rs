@@ -108,7 +108,11 @@ impl Lowering<'_> {
                     false => "use numbers, declared symbols, and `exp`".to_owned(),
                 };
                 Err(self
-                    .error(format!("`{word}` is not a function"), name.span, format!("in `{shown}`"))
+                    .error(
+                        format!("`{word}` is not a function"),
+                        name.span,
+                        format!("in `{shown}`"),
+                    )
                     .with_remedy(remedy))
             }
             Node::Exponential(operand) | Node::Negate(operand) => self.refuse_strangers(operand),

@@ -9,12 +9,12 @@ use std::path::PathBuf;
     wavestep advise mass-on-fixed-bar --set mu=1/10 --quantity velocity --tol 1e-1 --to 1\n  \
     wavestep advise pile --quantity head --tol 1e-2 -o reduced.wave\n  \
     wavestep advise mass-on-fixed-bar --quantity velocity --for mu=1/10..10 --to 2 -o map.svg\n\n\
-    Models are tried from cheap to expensive: rigid bars, bars as springs with a third or another share of\n\
-    their mass, the scene without unneeded elements, the first echoes, modes of vibration; then the exact\n\
-    solution. That a model meets the tolerance is proven on the whole window. A model that misses it is\n\
-    listed with a time at which it does.\n\
-    With --for, the largest difference of each model is proven at several values of the symbol, and the\n\
-    boundaries between models are found by bisection. -o draws the map (.svg, .pdf, .png, .json or .csv).")]
+    Models are tried from cheap to expensive: rigid bars, bars as springs with a share of their mass,\n\
+    the scene without unneeded elements, the first echoes, modes of vibration; then the exact solution.\n\
+    That a model meets the tolerance is proven in the whole window. A model that misses it is listed\n\
+    with a time at which it does.\n\
+    With --for, the largest difference of each model is proven at several values of the symbol, and\n\
+    boundaries between models are found by bisection. -o draws the map: .svg, .pdf, .png, .json, .csv.")]
 pub struct Advise {
     #[command(flatten)]
     pub scene: Scene,

@@ -8,9 +8,9 @@ use clap::Args;
     wavestep events saint-venant --set mu=1\n  \
     wavestep events bars-of-equal-length --format json\n  \
     wavestep events hopkinson-with-release --to 2ms --digits 9\n\n\
-Contacts carry compression only: they open when they would go into tension, and close when bodies meet\n\
-again. No event is missed. A case that no precision can decide is treated as a tie and reported as an\n\
-assumption; one that higher precision might decide ends with exit code 3.")]
+Contacts carry compression only: they open when they would go into tension, and close when bodies\n\
+meet again. No event is missed. A case that no precision can decide is treated as a tie and reported\n\
+as an assumption; one that higher precision might decide ends with exit code 3.")]
 pub struct Events {
     #[command(flatten)]
     pub scene: Scene,

@@ -7,8 +7,8 @@ use clap::{Args, ValueEnum};
 #[command(after_help = "Examples:\n  \
     wavestep export rigid-mass --as c --set mu=1 --quantity f --to 40 -o f.c\n  \
     wavestep export hopkinson --as c --quantity gauge_output --to 2ms --tol 1e-6 -o gauge.c\n\n\
-The file contains polynomials, the function `double wavestep_QUANTITY(double t)`, a function for many\n\
-times, and the proven error bound.")]
+The file contains polynomials, the function `double wavestep_QUANTITY(double t)`, a function for\n\
+many times, and the proven error bound.")]
 pub struct Export {
     #[command(flatten)]
     pub scene: Scene,

@@ -7,8 +7,8 @@ use clap::Args;
 #[command(after_help = "Examples:\n  \
     wavestep hertz local-contact\n  \
     wavestep hertz hertz-striker --rise 1/2,9/10 --at 20us --digits 9\n\n\
-The bars are assumed to be long. The output says until when this holds: no wave has yet returned from a\n\
-far end.")]
+The bars are assumed to be long. The output says until when this holds, before a wave returns from\n\
+a far end.")]
 pub struct Hertz {
     #[command(flatten)]
     pub scene: Scene,

@@ -111,7 +111,7 @@ fn the_way_is_explained() {
     let row = stderr.lines().nth(2).unwrap().trim_start();
     assert!(row.starts_with("compiled "), "{stderr}");
     let (_, stderr) = both(&format!("{line} --points 2 --method compiled --explain"));
-    assert!(stderr.starts_with("compiled, as asked for: at most "), "{stderr}");
+    assert!(stderr.starts_with("compiled, as requested: at most "), "{stderr}");
     assert!(stderr.contains("proven"), "{stderr}");
 }
 
@@ -242,14 +242,14 @@ const REFUSALS: [(&str, i32, &str, &str); 17] = [
     (
         "eval rigid-mass --set mu=1 --quantity f --at 100000000 --method marched",
         1,
-        "50000000 periods, where this method takes at most 10000000",
+        "50000000 periods; this method supports at most 10000000",
         "use a shorter window, or --method certified",
     ),
     (
         "eval rigid-mass --quantity f --at 2 --tol 1e-9",
         2,
         "the symbol mu has no value",
-        "give it one: --set mu=1",
+        "set it: --set mu=1",
     ),
     (
         "export rigid-mass --set mu=1 --as c --quantity f --from 3 --to 2",
@@ -260,13 +260,13 @@ const REFUSALS: [(&str, i32, &str, &str); 17] = [
     (
         "export rigid-mass --set mu=1 --as c --quantity f --to 2 --tol 1e-20",
         3,
-        "doubles are proven to be within ",
+        "doubles are proven to within ",
         "give a larger --tol",
     ),
     (
         "export rigid-mass --set mu=1 --as c --quantity f --to 2 --tol 1%",
         2,
-        "`1%` is no tolerance",
+        "`1%` is not a tolerance",
         "write 1e-9",
     ),
 ];
@@ -360,11 +360,11 @@ fn a_value_outside_its_range_is_one_error() {
 fn values_beyond_a_pulling_contact_are_noted() {
     for accuracy in ["", " --tol 1e-6"] {
         let (_, err) = both(&format!("eval hopkinson --quantity force --at 1ms{accuracy}"));
-        let note = "between striker and incident would pull; with `contacts open` it opens then";
+        let note = "between striker and incident is in tension; with `contacts open` it opens then";
         assert!(err.contains(note), "{err}");
     }
     let (_, err) = both("eval hopkinson --quantity force --at 100us");
-    assert!(!err.contains("would pull"), "{err}");
+    assert!(!err.contains("in tension"), "{err}");
 }
 
 #[test]

@@ -84,7 +84,7 @@ fn scenes_are_listed_and_correct() {
     for scene in linear.iter().filter(|scene| **scene != "incommensurate") {
         let line = format!("check {scene} --verbose");
         let report = output(&line);
-        let derived = ["derived in two ways, equal on periods 0 to", "derived echo by echo"];
+        let derived = ["derived in two ways, equal in periods 0 to", "derived echo by echo"];
         assert!(derived.iter().any(|told| report.contains(told)), "{report}");
         snapshot("command", &format!("check-{scene}"), &line, &report);
     }
@@ -482,9 +482,9 @@ fn the_form_of_a_source_that_says_nothing_is_refused() {
         "recurrence \"plain\"\nperiod 1, local s, time t\nwave f\nequation f[n] = f[n-1] + 1\n";
     fs::write(folder.join("plain.wave"), text).unwrap();
     for (line, expected) in [
-        ("derive plain.wave --source-form", "does not say how its source writes it"),
+        ("derive plain.wave --source-form", "has no `written` statement"),
         ("derive rigid-mass --source-form --format json", "for reading, not for programs"),
-        ("derive rigid-mass --source-form --general", "no form for every n"),
+        ("derive rigid-mass --source-form --general", "has no source form"),
         ("derive rigid-mass --source-form --observable velocity", "cannot be used with"),
     ] {
         let (code, stdout, stderr) = run(&folder, &words(line));

@@ -75,7 +75,9 @@ pub fn drawn(scaled: &ScaledScene) -> String {
                 true => {
                     "Lengths are proportional to travel times, heights to square roots of impedances."
                 }
-                false => "Lengths are to scale, heights proportional to square roots of impedances.",
+                false => {
+                    "Lengths are to scale, heights proportional to square roots of impedances."
+                }
             }
         }
     };

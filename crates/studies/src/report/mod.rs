@@ -87,7 +87,7 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
     add("energies", "Energies", &|| seen(&|all, to| told::energies(problem, all, [&zero, to])));
     add("assumptions", "Assumptions", &|| {
         let of_window = |to| {
-            let closed = (request.closed)(to).map(|note| format!("With contacts closed, {note}."));
+            let closed = (request.closed)(to).map(|note| format!("Contacts stay closed: {note}."));
             [until(problem, to)].into_iter().chain(closed)
         };
         let all = end.iter().flat_map(of_window).chain(assumptions(problem, open));
@@ -252,8 +252,7 @@ fn until(problem: &Problem, to: &Rational) -> String {
 
 fn assumptions(problem: &Problem, open: Option<bool>) -> Vec<String> {
     let found = problem.assumptions();
-    let mut all: Vec<String> =
-        found.iter().map(|one| format!("Assumed: {one}.")).collect();
+    let mut all: Vec<String> = found.iter().map(|one| format!("Assumed: {one}.")).collect();
     if problem.scaled().is_ok() {
         all.extend(open.map(|open| match open {
             true => "Contacts carry compression only: they open, and close again.".to_owned(),

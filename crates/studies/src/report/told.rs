@@ -36,7 +36,9 @@ pub fn events(problem: &Problem, kept_closed: bool) -> String {
     };
     let told = teller(problem).history(&history);
     let about = match kept_closed {
-        true => " All other sections keep contacts closed; here they open when they would go into tension.",
+        true => {
+            " All other sections keep contacts closed; here they open when they would go into tension."
+        }
         false => "",
     };
     paragraph(&format!("No event is missed; this is proven.{about}"))
