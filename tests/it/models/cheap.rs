@@ -198,7 +198,7 @@ fn what_has_waves_or_cannot_move_is_refused() {
         let error = bar.signal(name).unwrap().values_by(&[1.0], method).unwrap_err();
         assert!(error.is_not_supported(), "{error}");
         let text = error.to_string();
-        assert!(text.ends_with(&format!("does not represent this: {told}")), "{text}");
+        assert!(text.ends_with(&format!("does not support this scene: {told}")), "{text}");
     }
 }
 

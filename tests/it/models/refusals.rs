@@ -55,7 +55,7 @@ const REFUSED: [(&str, &str, &str); 9] = [
         "spring k { stiffness = 1 }\nspring j { stiffness = 1 }\nline free - a - k - j - fixed",
         "beside k something moves that has no mass, and nothing resists it",
     ),
-    ("steps", "#units", "have no common measure"),
+    ("steps", "#units", "are incommensurable"),
 ];
 
 #[test]
@@ -116,9 +116,9 @@ fn settings_times_and_symbols_are_checked() {
         (Steps::new(&network, f64::NAN).err(), "the tolerance NaN is not between 1e-13 and 1e-2"),
         (
             Leapfrog::new(&network, 2_000_000_000, 1.0).err(),
-            "ask for earlier times or a coarser model",
+            "choose earlier times or a coarser model",
         ),
-        (Modes::new(&network, 2_000_000).err(), "ask for earlier times or a coarser model"),
+        (Modes::new(&network, 2_000_000).err(), "choose earlier times or a coarser model"),
     ];
     for (error, told) in settings {
         let text = error.expect(told).to_string();

@@ -140,7 +140,7 @@ fn bad_requests_are_refused() {
     }
     let (code, _, errors) =
         run(anywhere(), &["chart", "two-bars", "--set", "r=1", "--quick", "-o", "/dev/null/no"]);
-    assert!(code != 0 && errors.contains("cannot be made"));
+    assert!(code != 0 && errors.contains("cannot be created"));
 }
 
 /// Costs are measured, shown beside those in use, and written so that `eval` reads them.

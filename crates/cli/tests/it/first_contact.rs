@@ -193,7 +193,7 @@ fn other_first_contacts_are_refused_by_name() {
         (
             "bar a { impedance = 1, velocity = -1 }",
             "endless - a - tip - b - endless",
-            "not known that",
+            "may not approach",
         ),
         (
             "bar a { impedance = 1, travel = 1, velocity = 1, strain = -1 }",
@@ -203,7 +203,7 @@ fn other_first_contacts_are_refused_by_name() {
         (
             "symbol V\nbar a { impedance = 1, velocity = V }",
             "endless - a - tip - b - endless",
-            "not known that",
+            "may not approach",
         ),
     ];
     for (element, line, reason) in cases {
