@@ -142,7 +142,10 @@ fn bars_without_waves_are_refused_where_they_make_no_sense() {
     assert!(refused(&bar("as = rigid")).contains("this bar cannot move"));
     assert!(refused(&bar("as = rubber")).contains("a bar is a spring or rigid"));
     assert!(refused(&bar("share = 1/3")).contains("only a bar with `as = spring` has a share"));
-    assert!(refused(&bar("as = rigid, share = 1/3")).contains("only a bar with `as = spring` has a share"));
+    assert!(
+        refused(&bar("as = rigid, share = 1/3"))
+            .contains("only a bar with `as = spring` has a share")
+    );
     assert!(refused(&bar("as = spring, strain = 1")).contains("no strain at the start"));
     assert!(refused(&bar("as = spring, share = 0")).contains("must be positive"));
     let endless = "bar rod { impedance = 1, as = spring }\nmass m { mass = 1, velocity = 1 }\n\

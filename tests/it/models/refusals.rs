@@ -26,7 +26,7 @@ const REFUSED: [(&str, &str, &str); 9] = [
     (
         "modes",
         "bar e { impedance = 1 }\nline free - a - e - endless",
-        "bar e is endless, and waves that leave are no vibration",
+        "bar e is endless, so waves leave and do not vibrate",
     ),
     ("modes", "support s { damping = 1 }\nline free - a - s - free", "s damps the motion"),
     (
@@ -48,12 +48,12 @@ const REFUSED: [(&str, &str, &str); 9] = [
     (
         "leapfrog",
         "spring k { stiffness = 1 }\nspring j { stiffness = 1, damping = 1 }\nline free - a - k - j - fixed",
-        "beside k something moves that has no mass",
+        "a joint without mass moves next to k",
     ),
     (
         "steps",
         "spring k { stiffness = 1 }\nspring j { stiffness = 1 }\nline free - a - k - j - fixed",
-        "beside k something moves that has no mass, and nothing resists it",
+        "a joint without mass moves next to k, and nothing resists it",
     ),
     ("steps", "#units", "are incommensurable"),
 ];
@@ -85,7 +85,7 @@ fn energies_and_momenta_of_endless_bars_are_refused() {
     for model in ["modes", "leapfrog", "steps"] {
         let error = make(model, &energy).unwrap().values(4, &[1.0]).unwrap_err().to_string();
         assert!(
-            error.ends_with("energy observes an energy, of which it keeps no account"),
+            error.ends_with("energy observes an energy, which the model does not compute"),
             "{error}"
         );
     }

@@ -151,8 +151,8 @@ fn forced_methods_warn() {
     };
     warned("--method expanded --tol 1e-12", "warning: expanded is off by ");
     warned("--method stable --tol 1e-9", "note: stable is off by at most ");
-    warned("--method compiled --tol 1e-18", "warning: compiled is proven to be within ");
-    warned("--method marched --tol ulp:4", "not within 4 units in the last place");
+    warned("--method compiled --tol 1e-18", "warning: compiled is proven to within ");
+    warned("--method marched --tol ulp:4", "not to 4 units in the last place");
     let model = "eval mass-on-fixed-bar --set mu=1 --quantity velocity --at 3 --method";
     let (_, stderr) = both(&format!("{model} modes:4 --tol 1e-9"));
     assert!(stderr.starts_with("warning: modes:4 is off by "), "{stderr}");
@@ -194,43 +194,43 @@ const REFUSALS: [(&str, i32, &str, &str); 17] = [
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --method modes:few",
         2,
-        "`few` is no setting of modes",
+        "`few` is not a setting of modes",
         "give one of",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --method compiled:4",
         2,
-        "`4` is no setting of compiled",
+        "`4` is not a setting of compiled",
         "give one of",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --tol often",
         2,
-        "`often` is no tolerance",
+        "`often` is not a tolerance",
         "write 1e-9 (of the largest value), abs:1e-9 or ulp:4",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --tol rel:1e-9",
         2,
-        "`rel:1e-9` is no tolerance",
+        "`rel:1e-9` is not a tolerance",
         "write 1e-9",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --method modes",
         1,
-        "modes models a scene of bars, and this is a recurrence",
+        "modes is a model for scenes of bars, and this is a recurrence",
         "describe the scene by its parts: see docs/scene-language.md",
     ),
     (
         "eval mass-on-fixed-bar --set mu=1 --quantity velocity --at 2 --side left --method modes",
         1,
-        "modes is a model, and has no limits from one side",
+        "modes is a model without one-sided limits",
         "remove --side left",
     ),
     (
         "eval mass-on-fixed-bar --set mu=1 --quantity velocity --at 2 --method rigid",
         1,
-        "the model \"rigid body\" does not represent this",
+        "the model \"rigid body\" does not support this scene",
         "use another model, or a method based on the exact solution",
     ),
     (
