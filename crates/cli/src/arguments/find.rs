@@ -45,7 +45,7 @@ pub struct Find {
     /// The last time of the window
     #[arg(long, value_name = "T", allow_hyphen_values = true, required_unless_present = "equal")]
     pub to: Option<String>,
-    /// The value of this symbol, between two bounds, that makes the extrema in two windows equal
+    /// A value of this symbol, between two bounds, that makes the extrema in two windows equal
     #[arg(long, value_name = "SYMBOL=LOW..HIGH", requires = "between",
           conflicts_with_all = ["from", "to", "zero", "level"])]
     pub equal: Option<String>,

@@ -10,7 +10,7 @@ use wavestep::signal::Limit;
     wavestep chart rigid-mass --set mu=1 -o charts\n  \
     wavestep chart hopkinson --quantity gauge_output --to 2ms -o charts\n  \
     wavestep chart --costs -o costs.txt\n\n\
-To draw a solution, use `plot`. Each chart is written as SVG, JSON and CSV; index.html shows them all.\n\
+To draw a solution, use `plot`. Charts are written as SVG, JSON and CSV; index.html shows all.\n\
 With one symbol set, there are also maps over order and symbol. Times are measured on this machine.\n\
 --costs draws nothing: it measures the building blocks of the methods and compares them with the\n\
 built-in table; `eval --costs FILE` reads the file that -o writes.")]
