@@ -397,5 +397,5 @@ fn intervals_of_extrema_are_joined() {
         force.contains("<td>0 N</td><td>for 0 s ≤ t ≤ 0.0002900123150 s (constant)</td>"),
         "{force}"
     );
-    assert!(page.contains("Proven for all of 0 s ≤ t ≤ 0.0011 s"));
+    assert!(page.contains("Proven for the whole window 0 s ≤ t ≤ 0.0011 s"));
 }
