@@ -258,11 +258,11 @@ fn remedy(error: &ProblemError) -> Option<String> {
         }
         ProblemError::Unknown { name, names } | ProblemError::UnknownThere { name, names, .. } => {
             did_you_mean(name, names.iter().map(String::as_str))
-                .unwrap_or_else(|| format!("ask for one of {}", names.join(", ")))
+                .unwrap_or_else(|| format!("choose one of {}", names.join(", ")))
         }
         ProblemError::Change(ChangeError::Unknown(text)) => {
             let likely = Simpler::corrected(text).map(|text| format!("did you mean `{text}`?"));
-            likely.unwrap_or_else(|| format!("it is one of {}", Simpler::FORMS))
+            likely.unwrap_or_else(|| format!("choose one of {}", Simpler::FORMS))
         }
         ProblemError::Change(ChangeError::NoElement { name, elements }) => {
             did_you_mean(name, elements.iter().map(String::as_str))
@@ -271,10 +271,12 @@ fn remedy(error: &ProblemError) -> Option<String> {
         ProblemError::NoSymbol { symbols, .. } if !symbols.is_empty() => {
             format!("the free symbols are {}", symbols.join(", "))
         }
-        ProblemError::Digits(_) => format!("ask for 1 to {MAX_DIGITS} digits"),
-        ProblemError::OutsidePeriod(times) => format!("give a time from 0 to below {}", times[1]),
+        ProblemError::Digits(_) => format!("give 1 to {MAX_DIGITS} digits"),
+        ProblemError::OutsidePeriod(times) => {
+            format!("give a time from 0 to less than {}", times[1])
+        }
         ProblemError::LocalContact { spring, .. } => {
-            format!("ask for values, or put a spring in its place: {spring}")
+            format!("compute values, or replace it by a spring: {spring}")
         }
         error => return usual_remedy(error).map(str::to_owned),
     })
@@ -288,9 +290,9 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
         ProblemError::History(error) => remedy_of_history(error),
         ProblemError::Way(error) => remedy_of_way(error),
         ProblemError::NoLock(refusal) => remedy_of_lock(refusal),
-        ProblemError::Lock(_) | ProblemError::Undecided { .. } => "ask for fewer digits",
+        ProblemError::Lock(_) | ProblemError::Undecided { .. } => "use fewer digits",
         ProblemError::Field(error) => match **error {
-            FieldError::Undecided { .. } => "give another time, or other cells",
+            FieldError::Undecided { .. } => "choose another time, or another mesh",
             // The others say themselves what to give.
             _ => return None,
         },
@@ -298,62 +300,58 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
         ProblemError::Tolerance(_) => "give a number such as 1e-9, abs:1e-9 or ulp:4",
         ProblemError::Method(_) => "see `Method::NAMES`",
         ProblemError::BeforeStart(_) => "give times from 0 on",
-        ProblemError::EmptyWindow(_) => "let the window end after it begins",
+        ProblemError::EmptyWindow(_) => "the window must end after it begins",
         ProblemError::NoEnd => "give the window an end",
-        ProblemError::WaveOfClosedContacts(_) => {
-            "ask for an observable, or leave out `contacts open`"
-        }
+        ProblemError::WaveOfClosedContacts(_) => "choose an observable, or remove `contacts open`",
         ProblemError::Equations(_) => DESCRIBE,
         ProblemError::Change(ChangeError::NotABar(_)) => "name a bar of the line",
-        ProblemError::Change(_) => "leave something else out",
-        ProblemError::AllZero(_) => "ask for a longer window",
+        ProblemError::Change(_) => "choose another simplification",
+        ProblemError::AllZero(_) => "use a longer window",
         ProblemError::SymbolRange(_) => {
-            "write it as mu=1/10..10, with a positive first value below the last"
+            "write it as mu=1/10..10; the first value must be positive and smaller than the last"
         }
-        ProblemError::NoSymbol { .. } => "every symbol has a value: leave out --for",
+        ProblemError::NoSymbol { .. } => "every symbol has a value: remove --for",
         ProblemError::Apart { .. } => "compare scenes with the same units",
-        ProblemError::NoClosedForm { .. } => {
-            "ask for values of its observables, which any line has"
-        }
-        ProblemError::ModelOfLocalContact(_) => "ask for tested values, by the method of steps",
+        ProblemError::NoClosedForm { .. } => "evaluate its observables, which works for every line",
+        ProblemError::ModelOfLocalContact(_) => "use tested values by the method of steps",
         ProblemError::NoPeriods(_)
         | ProblemError::NoPeriodsWhereContactsOpen
         | ProblemError::NoPeriodsWithLocalContact(_) => "give times",
         ProblemError::EnergyHasNoPieces(_) | ProblemError::ProductsHaveNoPieces(_) => "evaluate it",
         ProblemError::NoCommonPeriods(_) => "evaluate it, or derive its waves",
         ProblemError::UnknownOrder(_) => "give the symbols values, or evaluate it",
-        ProblemError::TooManyTerms(_) => "ask for a smaller order, one wave, or one piece",
-        ProblemError::TooManyEchoes { .. } => "ask for a smaller order, or one wave",
-        ProblemError::NothingArrives(_) => "ask for a larger order",
+        ProblemError::TooManyTerms(_) => "choose a smaller order, one wave, or one piece",
+        ProblemError::TooManyEchoes { .. } => "choose a smaller order, or one wave",
+        ProblemError::NothingArrives(_) => "choose a larger order",
         ProblemError::EchoesOfObservable(_) => "derive the echoes of its waves",
-        ProblemError::NoCommonMeasure(_) => "ask for the echoes of waves, or evaluate",
+        ProblemError::NoCommonMeasure(_) => "derive echoes of waves, or evaluate",
         ProblemError::NoPeriodsToExplain => "derive its echoes",
         ProblemError::NoSourceForm => "add a statement such as `written f in V/c, s as mu*z/L`",
-        ProblemError::NoGeneralSourceForm => "ask for single orders, or for another form",
+        ProblemError::NoGeneralSourceForm => "choose single orders, or another form",
         ProblemError::NoGeneralForm { symbol: Some(_), .. } => {
-            "ask for single orders; where a factor of symbols may vanish, stating `nonzero …` can help"
+            "choose single orders; if a factor may vanish, stating `nonzero …` can help"
         }
-        ProblemError::NoGeneralForm { symbol: None, .. } => "ask for single orders",
+        ProblemError::NoGeneralForm { symbol: None, .. } => "choose single orders",
         ProblemError::Rates { .. } => {
-            "evaluate it, which works with any certified rates; or give values for which the rates are \
-             rational, or roots of one quadratic in rational numbers"
+            "evaluate it, which works with any rates; or give values for which the rates are rational, \
+             or roots of one quadratic with rational coefficients"
         }
         ProblemError::LongEchoes { .. } => {
-            "derive through that order, or evaluate it, which works with any certified rates"
+            "derive through that order, or evaluate it, which works with any rates"
         }
-        ProblemError::Disagreement(..) => "please report this scene: it is a fault of wavestep",
+        ProblemError::Disagreement(..) => "please report this scene: it is a bug in wavestep",
         _ => return None,
     })
 }
 
-const DESCRIBE: &str = "describe it by its parts: see docs/scene-language.md";
+const DESCRIBE: &str = "describe the scene by its parts: see docs/scene-language.md";
 
 fn remedy_of_solve(error: &SolveError) -> String {
     match &error.reason {
         Unsolvable::NotInvertible(NotInvertible::Undeclared(factor)) => {
             format!("give the symbols values, or state `nonzero {factor}` in the scene")
         }
-        Unsolvable::DegreeTooHigh => "ask for a smaller order".to_owned(),
+        Unsolvable::DegreeTooHigh => "choose a smaller order".to_owned(),
         _ => "give the symbols values".to_owned(),
     }
 }
@@ -361,15 +359,15 @@ fn remedy_of_solve(error: &SolveError) -> String {
 fn remedy_of_network(error: &NetworkError) -> &'static str {
     match error {
         NetworkError::Division(_) => "give the symbols values",
-        NetworkError::Incommensurate => "ask for echoes in order of their arrival, or for values",
+        NetworkError::Incommensurate => "derive echoes in order of arrival, or compute values",
         NetworkError::Unobservable { .. } => "observe it at another place",
         NetworkError::Rates { .. } => {
             "give the symbols values; or state the elements by their rates a and b, or sigma and omega, \
              as docs/scene-language.md shows"
         }
-        NetworkError::NotLinear(_) => "ask for values",
+        NetworkError::NotLinear(_) => "compute values",
         NetworkError::Recurrence(_) => {
-            "what has no mass cannot be forced or held against a spring or a moving bar: put a mass there"
+            "a joint without mass cannot be forced or held against a spring or a moving bar: put a mass there"
         }
     }
 }
@@ -379,49 +377,51 @@ fn remedy_of_evaluate(error: &EvaluateError) -> &'static str {
         EvaluateError::NoClosedForm | EvaluateError::NotLinear => {
             "use the method compiled or certified"
         }
-        EvaluateError::EmptyWindow => "let the window end after it begins",
+        EvaluateError::EmptyWindow => "the window must end after it begins",
         EvaluateError::TooManyRoots { .. } | EvaluateError::TooManyCells { .. } => {
-            "ask for a shorter window"
+            "use a shorter window"
         }
-        EvaluateError::NotReal => "observe a wave in which both poles of each complex pair occur",
+        EvaluateError::NotReal => "observe a wave with both poles of each complex pair",
         EvaluateError::TooMuchMemory { .. } => {
-            "ask for an earlier time, allow more with --memory, or take doubles by the method marched"
+            "choose an earlier time, raise --memory, or use doubles by the method marched"
         }
-        EvaluateError::AccuracyNotReached { .. } => "allow more bits, or ask for fewer digits",
-        _ => "ask for an earlier time",
+        EvaluateError::AccuracyNotReached { .. } => "allow more bits, or use fewer digits",
+        _ => "choose an earlier time",
     }
 }
 
 fn remedy_of_history(error: &HistoryError) -> &'static str {
     match error {
-        HistoryError::Undecided { .. } => "change a value a little, or ask for an earlier end",
-        HistoryError::TooManyEvents { .. } => "ask for an earlier end",
+        HistoryError::Undecided { .. } => "change a value slightly, or choose an earlier end",
+        HistoryError::TooManyEvents { .. } => "choose an earlier end",
         HistoryError::TooManyCells { .. } => {
-            "ask for an earlier end, or leave out a light mass or a stiff spring that rings"
+            "choose an earlier end, or remove a light mass or stiff spring that rings"
         }
-        HistoryError::TooMuchMemory { .. } => "ask for an earlier end, or allow more with --memory",
-        HistoryError::Refused(_) => "docs/scene-language.md says under `Contacts` what is followed",
+        HistoryError::TooMuchMemory { .. } => "choose an earlier end, or raise --memory",
+        HistoryError::Refused(_) => {
+            "docs/scene-language.md lists under `Contacts` what is supported"
+        }
         HistoryError::Opens { .. } => {
-            "ask for an earlier time, or use the method compiled or certified"
+            "choose an earlier time, or use the method compiled or certified"
         }
-        _ => "ask for an earlier time",
+        _ => "choose an earlier time",
     }
 }
 
 fn remedy_of_way(error: &WayError) -> &'static str {
     match error {
         WayError::Method(MethodError::NoTaps(_)) => "use the method compiled or certified",
-        WayError::Method(_) => "ask for a shorter window, or use the method certified",
+        WayError::Method(_) => "use a shorter window, or the method certified",
         WayError::Model(ModelError::Setting { .. }) => "give a setting within these bounds",
         WayError::Model(_) | WayError::Reduced(..) => {
-            "use another model, or a method on the exact solution"
+            "use another model, or a method based on the exact solution"
         }
         WayError::NeedsRecurrence(_) => "use the method of steps",
         WayError::NeedsScene(_) => DESCRIBE,
         WayError::NeedsClosedContacts(_) => "use the method compiled or certified",
-        WayError::LeftLimit(_) => "ask for the limit from the right",
+        WayError::LeftLimit(_) => "use the limit from the right",
         WayError::NoNumber(..) | WayError::TooSmall(_) | WayError::NotMet { .. } => {
-            "ask for digits instead"
+            "compute digits instead"
         }
     }
 }
@@ -429,13 +429,13 @@ fn remedy_of_way(error: &WayError) -> &'static str {
 fn remedy_of_equal(error: &EqualError) -> String {
     let usual = match error {
         EqualError::TooManyDigits { limit, .. } => {
-            return format!("ask for 1 to {limit} digits");
+            return format!("give 1 to {limit} digits");
         }
         EqualError::EqualAtEnd => "give another range",
-        EqualError::NoChange(_) => "give a range in which that changes",
-        EqualError::NotAscending { .. } => "give T1 before T2 before T3",
+        EqualError::NoChange(_) => "choose a range in which that changes",
+        EqualError::NotAscending { .. } => "the times must satisfy T1 < T2 < T3",
         EqualError::NoTime { symbol, .. } => {
-            return format!("let it hold no symbol but {symbol}");
+            return format!("use no symbol but {symbol} in it");
         }
     };
     usual.to_owned()

@@ -101,13 +101,13 @@ pub struct Costs {
 pub enum InvalidCosts {
     #[error("1: it does not begin with `{HEADER}`")]
     Header,
-    #[error("{0}: `{1}` is no work that takes time")]
+    #[error("{0}: `{1}` is not an operation in this table")]
     Name(usize, String),
-    #[error("{0}: `{1}` is there already")]
+    #[error("{0}: `{1}` is given twice")]
     Again(usize, String),
     #[error("{0}: after `{1}` a positive number of `{UNIT}` is expected")]
     Number(usize, String),
-    #[error("{0}: nothing is said of `{1}`")]
+    #[error("{0}: `{1}` is missing")]
     Missing(usize, &'static str),
 }
 

@@ -138,7 +138,7 @@ pub enum InvalidMethod {
     #[error("there is no method `{0}`")]
     Name(String),
     /// The method does not take this setting.
-    #[error("`{1}` is no setting of {0}")]
+    #[error("`{1}` is not a setting of {0}")]
     Setting(&'static str, String),
 }
 

@@ -41,7 +41,7 @@ impl Tolerance {
 
 /// What is no tolerance.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-#[error("`{0}` is no tolerance")]
+#[error("`{0}` is not a tolerance")]
 pub struct InvalidTolerance(String);
 
 impl FromStr for Tolerance {
@@ -72,10 +72,10 @@ impl fmt::Display for Tolerance {
         match self {
             Tolerance::Absolute(tolerance) => write!(f, "{tolerance:e}"),
             Tolerance::Relative(tolerance) => {
-                write!(f, "{tolerance:e} of the largest value on the window")
+                write!(f, "{tolerance:e} of the largest value in the window")
             }
             Tolerance::Ulps(tolerance) => {
-                write!(f, "{tolerance} units in the last place of the largest value on the window")
+                write!(f, "{tolerance} units in the last place of the largest value in the window")
             }
         }
     }

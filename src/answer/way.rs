@@ -24,24 +24,24 @@ pub enum WayError {
     #[error(transparent)]
     Model(#[from] ModelError),
     /// A model of bars without waves.
-    #[error("the model \"{0}\" does not represent this: {1}")]
+    #[error("the model \"{0}\" does not support this scene: {1}")]
     Reduced(&'static str, Box<NotReduced>),
     /// A model has no scene to be made of.
-    #[error("{0} models a scene of bars, and this is a recurrence")]
+    #[error("{0} is a model for scenes of bars, and this is a recurrence")]
     NeedsScene(&'static str),
     /// A model knows no contacts that open, as those of this scene do.
-    #[error("{0} is a model of contacts that stay closed, and in this scene they open")]
+    #[error("{0} is a model for closed contacts, and contacts open in this scene")]
     NeedsClosedContacts(&'static str),
     /// A method computes from the recurrence of a scene that has none.
-    #[error("{0} computes from the exact solution, and none is known with a local contact")]
+    #[error("{0} is based on the exact solution, and none is known with a local contact")]
     NeedsRecurrence(&'static str),
     /// Models have values after arrivals only.
-    #[error("{0} is a model, and has no limits from one side")]
+    #[error("{0} is a model without one-sided limits")]
     LeftLimit(&'static str),
     #[error("{} gives no number at {}", .0, in_decimals(.1))]
     NoNumber(Method, Rational),
     /// A tolerance is relative to values so small that doubles near them are too coarse, or are zero.
-    #[error("the largest value on the window, at most {0:e}, is too small for doubles")]
+    #[error("the largest value in the window, at most {0:e}, is too small for doubles")]
     TooSmall(f64),
     /// No method is proven to be good enough.
     #[error("no double is proven to be within {tolerance}")]
@@ -61,7 +61,7 @@ impl From<EvaluateError> for WayError {
 }
 
 /// What is left out where bars are rigid, or springs.
-const RIGID: &str = "Bars do not yield, and all waves in them are left out.";
+const RIGID: &str = "Bars are rigid; all waves in them are neglected.";
 const THIRD: &str = "Bars are strained uniformly at every time, with a third of their mass at the end that moves, or \
     half of it at both; waves are left out.";
 

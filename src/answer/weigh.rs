@@ -51,17 +51,17 @@ pub struct Candidate {
 /// Why a way was picked or not.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum Verdict {
-    #[error("the cheapest that is proven to be good enough")]
+    #[error("the cheapest that is proven to be accurate enough")]
     Picked,
-    #[error("proven to be good enough")]
+    #[error("proven to be accurate enough")]
     GoodEnough,
-    #[error("the bound to be proven is expected to be larger than the tolerance")]
+    #[error("its bound is expected to exceed the tolerance")]
     BoundTooLarge,
     #[error("its error is measured, not proven")]
     Measured,
-    #[error("it has no bound here: its error is measured, not proven")]
+    #[error("no bound here: its error is measured, not proven")]
     MeasuredHere,
-    #[error("it promises nothing")]
+    #[error("no bound on its error")]
     NoPromise,
     #[error("has no values: {0}")]
     NotEvaluated(EvaluateError),

@@ -11,6 +11,6 @@ pub enum BallError {
     ArgumentTooLarge,
     #[error("the enclosure of a divisor contains zero")]
     DivisorMayBeZero,
-    #[error("the enclosure of a number whose logarithm is taken is not positive")]
+    #[error("the argument of a logarithm may not be positive")]
     NotPositive,
 }

@@ -11,7 +11,7 @@ use wavestep_polynomial::Rational;
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum FieldError {
     /// A number of cells that a bar is not divided into.
-    #[error("{cells} cells a bar are none that are made: give from 1 to {limit}")]
+    #[error("{cells} cells per bar are not possible: give 1 to {limit}")]
     Cells {
         /// The name that was asked for.
         cells: usize,
@@ -27,10 +27,10 @@ pub enum FieldError {
         bars: Vec<String>,
     },
     /// A time before the start.
-    #[error("the time {0} lies before the start: give a time from 0 on")]
+    #[error("the time {0} is before the start: give a time from 0 on")]
     Negative(Rational),
     /// A section at a distance below zero.
-    #[error("the distance {0} lies outside of the bar: give one above 0")]
+    #[error("the distance {0} is outside the bar: give one above 0")]
     NegativeReach(Rational),
     /// A wave cannot be evaluated.
     #[error(transparent)]
@@ -38,8 +38,8 @@ pub enum FieldError {
     /// The precision allowed does not tell whether an instant comes before or after a break of a wave
     /// of which only an enclosure is known.
     #[error(
-        "undecided whether a place is before or behind a front that a contact caused as it opened or \
-         closed, which enters the bar about t = {}, with {bits} bits",
+        "with {bits} bits it is undecided whether a place is ahead of or behind the front of an opening \
+         or closing contact, which enters the bar about t = {}",
         at.to_decimal(20)
     )]
     Undecided {

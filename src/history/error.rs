@@ -11,7 +11,7 @@ use wavestep_polynomial::Symbol;
 #[non_exhaustive]
 pub enum HistoryError {
     /// A symbol without a value.
-    #[error("the history needs numbers, and `{0}` has no value")]
+    #[error("events need numbers, and `{0}` has no value")]
     MissingValue(Symbol),
     /// A value of the scene that is no number.
     #[error(transparent)]
@@ -30,7 +30,7 @@ pub enum HistoryError {
         bits: u64,
     },
     /// More events than are followed.
-    #[error("more than {limit} events, the last of them followed at t = {when}")]
+    #[error("more than {limit} events; the last one followed is at t = {when}")]
     TooManyEvents {
         /// How many are followed.
         limit: usize,
@@ -47,7 +47,7 @@ pub enum HistoryError {
     },
     /// More memory than is allowed.
     #[error(
-        "following the scene to the end would take more than {megabytes} MB of memory; that much is clear at \
+        "following the scene to the end would take more than {megabytes} MB of memory; stopped at \
          t = {when}"
     )]
     TooMuchMemory {
@@ -57,7 +57,7 @@ pub enum HistoryError {
         when: When,
     },
     /// A contact that opens, where it has to stay closed.
-    #[error("{} and {} part at t = {at}, and this is for contacts that stay closed", between[0], between[1])]
+    #[error("{} and {} separate at t = {at}, and this method needs closed contacts", between[0], between[1])]
     Opens {
         /// What is at its left and right.
         between: [String; 2],
@@ -65,10 +65,10 @@ pub enum HistoryError {
         at: String,
     },
     /// A time after the last one that was asked for.
-    #[error("a time after the last one that was followed")]
+    #[error("a time after the end of the followed history")]
     AfterLast,
     /// A time before those that were asked for.
-    #[error("a time before what is kept")]
+    #[error("a time before the kept part of the history")]
     Forgotten,
     /// A value that is not enclosed.
     #[error(transparent)]
@@ -98,12 +98,12 @@ impl fmt::Display for When {
 pub enum NotFollowed {
     /// A load, by its name, that imposes a velocity.
     #[error(
-        "the load {0} imposes a velocity, and contacts beside imposed motions are not followed: \
+        "the load {0} imposes a velocity, and contacts that open are not supported with it: \
          replace it by a force"
     )]
     ImposedVelocity(String),
     /// Too many contacts in one place.
-    #[error("{place} {contacts} contacts meet, and at most {limit} in one place are followed")]
+    #[error("{place} {contacts} contacts meet; at most {limit} at one place are supported")]
     ContactsInOnePlace {
         /// Where, in words.
         place: String,
@@ -113,15 +113,15 @@ pub enum NotFollowed {
         limit: usize,
     },
     /// A part without mass, at this place, that nothing resists.
-    #[error("{place} something moves that has no mass, and nothing resists it")]
+    #[error("{place} a joint without mass moves, and nothing resists it")]
     Massless {
         /// Where, in words.
         place: String,
     },
     /// Two masses that meet with different velocities, at this place.
     #[error(
-        "{place} two rigid masses meet with different velocities: what then happens needs a spring \
-         or a bar between them"
+        "{place} two rigid masses meet with different velocities: put a spring or a bar between \
+         them"
     )]
     RigidImpact {
         /// Where, in words.

@@ -26,19 +26,19 @@ const TERMS: usize = 20;
 /// Why motions are not followed over a symbol.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum NotOverSymbol {
-    #[error("contacts that open and local contacts are not followed over a symbol")]
+    #[error("contacts that open and local contacts are not supported over a symbol")]
     Contacts,
-    #[error("`{0}` is not followed over a symbol: it is no constant force")]
+    #[error("`{0}` is not supported over a symbol: it is not a constant force")]
     Load(String),
-    #[error("energies, momenta and displacements are not followed over a symbol")]
+    #[error("energies, momenta and displacements are not supported over a symbol")]
     Integral,
-    #[error("travel times have no common measure that is one for all values of the symbol")]
+    #[error("the travel times have no common divisor for all values of the symbol")]
     NoCommonMeasure,
     #[error("more than {MAX_STEPS_OVER_SYMBOL} steps")]
     TooManySteps,
-    #[error("something without mass moves, and nothing resists it")]
+    #[error("a joint without mass moves, and nothing resists it")]
     Unresisted,
-    #[error("`{0}` is no observable of the scene")]
+    #[error("`{0}` is not an observable of the scene")]
     Unknown(String),
     #[error(transparent)]
     Value(#[from] EnclosureError),

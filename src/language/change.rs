@@ -36,17 +36,17 @@ pub enum Change {
 /// Why a scene is not changed.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum ChangeError {
-    #[error("`{0}` names no change of a scene")]
+    #[error("`{0}` is not a simplification of a scene")]
     Unknown(String),
     #[error("there is no element `{name}` in this scene")]
     NoElement { name: String, elements: Vec<String> },
-    #[error("`{0}` is no bar")]
+    #[error("`{0}` is not a bar")]
     NotABar(String),
-    #[error("the bar `{0}` is rigid, or a spring, already")]
+    #[error("the bar `{0}` is already rigid or a spring")]
     Ideal(String),
     #[error("there is no bar in this scene")]
     NoBar,
-    #[error("the bar `{0}` goes on for ever already")]
+    #[error("the bar `{0}` is already endless")]
     Endless(String),
     #[error("contacts stay closed in this scene")]
     NoContacts,

@@ -142,11 +142,11 @@ fn not_constant(expression: &Expression, source: &Source) -> Diagnostic {
             (format!("`{name}` is not a finite number"), "a finite number is needed here")
         }
         Node::Exponential(_) => (
-            "`exp` of a number is irrational, so it is no exact constant".to_owned(),
+            "`exp` of a number is irrational, so it is not an exact constant".to_owned(),
             "a rational number is needed here",
         ),
         Node::Function { function, .. } => (
-            format!("`{function}` of a number may be irrational, so it is no exact constant"),
+            format!("`{function}` of a number may be irrational, so it is not an exact constant"),
             "a rational number is needed here",
         ),
         _ => ("this is not a constant".to_owned(), "a number is needed here"),

@@ -97,7 +97,7 @@ impl Scope {
         match linear.waves.first() {
             None => Ok(linear.rest),
             Some(term) => Err(self
-                .error(format!("{what} cannot depend on a wave"), term.span, "a wave stands here")
+                .error(format!("{what} cannot depend on a wave"), term.span, "this is a wave")
                 .with_remedy("use numbers and declared symbols")),
         }
     }
@@ -105,8 +105,12 @@ impl Scope {
     /// Lowers an expression that may hold neither waves nor time nor exponentials.
     pub fn lower_fraction(&self, tree: &Tree, what: &'static str) -> Outcome<Fraction> {
         self.lower_constant(tree, what)?.as_fraction().ok_or_else(|| {
-            self.error(format!("{what} holds no exponential"), tree.span, "holds an exponential")
-                .with_remedy("introduce a symbol for it")
+            self.error(
+                format!("{what} cannot contain an exponential"),
+                tree.span,
+                "contains an exponential",
+            )
+            .with_remedy("introduce a symbol for it")
         })
     }
 }
@@ -182,9 +186,9 @@ impl<'a> Lowering<'a> {
         match linear.waves.first() {
             None => Ok(linear.rest),
             Some(term) => Err(self
-                .error(format!("{instead} cannot hold a wave"), term.span, "a wave stands here")
+                .error(format!("{instead} cannot contain a wave"), term.span, "this is a wave")
                 .with_remedy(
-                    "waves may be added, and multiplied or divided by what holds no wave",
+                    "waves may be added, and multiplied or divided by terms without waves",
                 )),
         }
     }
@@ -209,7 +213,7 @@ impl<'a> Lowering<'a> {
             _ if is(&scope.time) => return Ok(Expression::symbol(&symbol(name))),
             _ if is(&scope.local) => {
                 return Err(self
-                    .error("local time cannot be used here", span, "restarts on every period")
+                    .error("local time cannot be used here", span, "restarts in every period")
                     .with_remedy(format!(
                         "write functions of scene time `{}`: they go on over all periods",
                         self.time_name()
@@ -254,7 +258,7 @@ impl<'a> Lowering<'a> {
                 )));
         }
         if FUNCTIONS.contains(&name.value.as_str()) {
-            let message = format!("the function `{}` is not known", name.value);
+            let message = format!("unknown function `{}`", name.value);
             return Err(self.error(message, name.span, "a function").with_remedy(
                 "the functions are `exp`, `cos`, `sin` and `sqrt`: forcing is a sum of terms \
                  `t^k*exp(a*t)*cos(b*t)`",
@@ -312,14 +316,14 @@ impl<'a> Lowering<'a> {
         }
         if *offset > 0 {
             return Err(self
-                .error("this wave lies in the future", *span, "a period that is not known yet")
+                .error("this wave is in the future", *span, "a period that is not known yet")
                 .with_remedy(format!(
                     "shift the equation so that `{wave}[{expected}]` is its latest"
                 )));
         }
         if *offset < -MAX_LAG {
             return Err(self
-                .error("this wave lies too far back", *span, "too many periods before")
+                .error("this wave is too far back", *span, "too many periods before")
                 .with_remedy(format!("look back at most {MAX_LAG} periods")));
         }
         let lag = usize::try_from(-offset).expect("the offset is not positive");
@@ -337,7 +341,7 @@ impl<'a> Lowering<'a> {
             }
         };
         let shape = || {
-            self.error("this is no delayed scene time", argument.span, "must be a delayed time")
+            self.error("this is not a delayed scene time", argument.span, "must be a delayed time")
                 .with_remedy(format!("write `{0}({time})` or `{0}({time} - delay)`", name.value))
         };
         if let Node::Name(own) = &argument.value
@@ -352,7 +356,7 @@ impl<'a> Lowering<'a> {
         }
         if !delay.is_zero() && !self.scope.assumptions.is_positive(&delay) {
             return Err(self
-                .error("this time may lie in the future", argument.span, "not certainly a delay")
+                .error("this time may be in the future", argument.span, "may not be a delay")
                 .with_remedy("subtract something that is certainly positive from the time"));
         }
         Ok(self.one_wave(wave, Reference::Delayed { delay }, span))
@@ -373,7 +377,7 @@ impl<'a> Lowering<'a> {
     ) -> Outcome<Fraction> {
         let Some(value) = self.plain(argument, what)?.as_fraction() else {
             let message = format!("an exponential in {what}");
-            return Err(self.error(message, argument.span, "holds an exponential").with_remedy(
+            return Err(self.error(message, argument.span, "contains an exponential").with_remedy(
                 format!("{plural} are quotients of polynomials in the symbols and the time"),
             ));
         };
@@ -407,13 +411,17 @@ impl<'a> Lowering<'a> {
     fn square_root(&self, value: &Expression, span: Span) -> Outcome<Expression> {
         let Some(number) = value.as_constant() else {
             return Err(self
-                .error("the root of what is no rational number", span, "not a rational number")
+                .error(
+                    "a root of a term that is not a rational number",
+                    span,
+                    "not a rational number",
+                )
                 .with_remedy(
                     "write roots of numbers, such as `sqrt(3)`, and introduce a symbol for others",
                 ));
         };
         let root = Fraction::constant(&number).square_root().ok_or_else(|| {
-            self.error("the factors of this number are not found", span, "too large")
+            self.error("the factors of this number were not found", span, "too large")
                 .with_remedy("write a product of roots of smaller numbers, or introduce a symbol")
         })?;
         Ok(root.into())
@@ -422,7 +430,7 @@ impl<'a> Lowering<'a> {
     fn summation(&self, term: &Tree, index: &Name, bound: &Name, span: Span) -> Outcome<Linear> {
         if self.summed.is_some() {
             return Err(self
-                .error("a sum within a sum is not supported", span, "stands in another sum")
+                .error("a sum within a sum is not supported", span, "inside another sum")
                 .with_remedy("give the inner sum a wave of its own, by an equation"));
         }
         if bound.value != "n" {
@@ -433,14 +441,14 @@ impl<'a> Lowering<'a> {
         let taken = self.scope.known_names().any(|name| name == index.value) || index.value == "n";
         if taken {
             return Err(self
-                .error(format!("`{}` has a meaning already", index.value), index.span, "in use")
+                .error(format!("`{}` already has a meaning", index.value), index.span, "in use")
                 .with_remedy("choose another name for the index of the sum"));
         }
         let inner = Lowering { scope: self.scope, place: self.place, summed: Some(&index.value) };
         let linear = inner.lower(term)?;
         if !linear.rest.is_zero() || linear.waves.is_empty() {
             return Err(self
-                .error("only waves can be summed", span, "a part without a wave stands in here")
+                .error("only waves can be summed", span, "contains a term without a wave")
                 .with_remedy(format!("sum waves, as in `sum(f[{0}], {0} < n)`", index.value)));
         }
         Ok(linear)
@@ -515,11 +523,12 @@ impl<'a> Lowering<'a> {
     }
 
     fn too_large(&self, span: Span) -> Diagnostic {
-        self.error("this expression is too large when worked out", span, "grows too large")
-            .with_remedy(format!(
+        self.error("this expression becomes too large", span, "grows too large").with_remedy(
+            format!(
                 "keep it below {MAX_TERMS} terms, degree {MAX_DEGREE}, and {MAX_CONSTANT_BITS} \
                  bits a number"
-            ))
+            ),
+        )
     }
 
     /// `1/tree`, factor by factor.
@@ -558,12 +567,12 @@ impl<'a> Lowering<'a> {
             && value.terms().any(|(_, coefficient)| coefficient.contains(time))
         {
             return Err(self.error("division by time", span, "depends on time").with_remedy(
-                format!("forcing holds powers such as `{time}^2`, and exponentials of time"),
+                format!("forcing may contain powers such as `{time}^2` and exponentials of time"),
             ));
         }
         if !norm_is_moderate(value) {
             return Err(self
-                .error("this divisor holds too many square roots", span, "divided by here")
+                .error("this divisor contains too many square roots", span, "divided by here")
                 .with_remedy("introduce a symbol for it, or divide by fewer roots at a time"));
         }
         if self.place == Place::Formula {
@@ -580,9 +589,9 @@ impl<'a> Lowering<'a> {
             NotInvertible::Undeclared(factor) => match Fraction::reciprocal(&factor) {
                 Ok(_) => self
                     .error(format!("`{factor}` may be zero"), span, "divided by here")
-                    .with_remedy(format!("state that it is not, with `nonzero {factor}`")),
+                    .with_remedy(format!("state that it is not zero, with `nonzero {factor}`")),
                 Err(_) => self
-                    .error("this cannot be divided by", span, "its factors are not found")
+                    .error("this cannot be a divisor", span, "its factors were not found")
                     .with_remedy("divide by its factors one by one"),
             },
             NotInvertible::SumOfExponentials => self
@@ -593,7 +602,7 @@ impl<'a> Lowering<'a> {
 
     fn exponent(&self, tree: &Tree) -> Outcome<i32> {
         let refuse = |label: &str| {
-            self.error("the exponent is no whole number of moderate size", tree.span, label)
+            self.error("the exponent is not a whole number of moderate size", tree.span, label)
                 .with_remedy(format!("use whole numbers from -{MAX_EXPONENT} to {MAX_EXPONENT}"))
         };
         let value = constant(tree, &self.scope.source).map_err(|_| refuse("not a number"))?;

@@ -145,7 +145,11 @@ impl<'a> Lowering<'a> {
             let period = self.scope.lower_fraction(length, "a period")?;
             if period.roots().next().is_some() {
                 return Err(self
-                    .error("a period holds no square root", length.span, "holds a square root")
+                    .error(
+                        "a period cannot contain a square root",
+                        length.span,
+                        "contains a square root",
+                    )
                     .with_remedy("measure time in units in which it is rational"));
             }
             self.declare(local)?;
@@ -206,9 +210,9 @@ impl<'a> Lowering<'a> {
             form.add_scaled(&right, &Expression::integer(-1), 0);
             if form.is_free_of_waves() && !form.is_zero() {
                 return Err(self
-                    .error("this equation holds no wave", span, "says nothing about the waves")
+                    .error("this equation contains no wave", span, "says nothing about the waves")
                     .with_remedy(
-                        "relate waves by it, or remove it; conditions on symbols stand in \
+                        "relate waves in it, or remove it; conditions on symbols belong in \
                          `symbol` and `nonzero`",
                     ));
             }
@@ -230,7 +234,11 @@ impl<'a> Lowering<'a> {
             if form.is_free_of_waves() {
                 let wave = &self.wave_names[0].value;
                 return Err(self
-                    .error("this continuity rule holds no wave", quantity.span, "no wave in here")
+                    .error(
+                        "this continuity rule contains no wave",
+                        quantity.span,
+                        "no wave in here",
+                    )
                     .with_remedy(format!(
                         "name a wave, as in `continuous {wave}[n] starts at 0`"
                     )));
@@ -309,7 +317,8 @@ impl<'a> Lowering<'a> {
             }
             Fault::DeterminesNothing => (
                 "nothing left to determine once the others are solved",
-                "let each equation hold a wave `[n]` that no other equation gives".to_owned(),
+                "each equation must contain a wave `[n]` that no other equation determines"
+                    .to_owned(),
             ),
             Fault::Coupled(_) => {
                 ("cannot be solved one by one", "solve the equations for one wave each".to_owned())
@@ -324,7 +333,7 @@ impl<'a> Lowering<'a> {
                 "the factor of the newest wave may be zero",
                 match reason {
                     NotInvertible::Undeclared(factor) if Fraction::reciprocal(factor).is_ok() => {
-                        format!("state that it is not, with `nonzero {factor}`")
+                        format!("state that it is not zero, with `nonzero {factor}`")
                     }
                     NotInvertible::Undeclared(_) => "multiply the equation such that this factor \
                          is a product of factors that are linear in a symbol each"
@@ -337,17 +346,17 @@ impl<'a> Lowering<'a> {
                 ("a rate with an exponential", "introduce a symbol for it".to_owned())
             }
             Fault::NoStart(wave) => (
-                "has a differential equation and no start",
+                "has a differential equation but no initial value",
                 format!("add a rule such as `continuous {wave}[n] starts at 0`"),
             ),
             Fault::StartsNothing => (
                 "no wave needs it",
-                "remove it: only waves with a differential equation need one start each".to_owned(),
+                "remove it: only waves with a differential equation need an initial value"
+                    .to_owned(),
             ),
             Fault::IllFormed => (
                 "not of the form of a recurrence",
-                "use declared waves, coefficients free of time, and forcing in scene time"
-                    .to_owned(),
+                "use declared waves, constant coefficients, and forcing in scene time".to_owned(),
             ),
             Fault::DegreeTooHigh => {
                 ("with this one and the others", "use lower powers in the coefficients".to_owned())

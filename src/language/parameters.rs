@@ -67,7 +67,7 @@ pub(super) fn all_known(
         _ => format!("its symbols are {}", names.join(", ")),
     };
     let error = scope.error(
-        format!("a value is given for `{unknown}`, which is no symbol here"),
+        format!("`{unknown}` has a value, but is not a symbol here"),
         title,
         format!("of this {whole}"),
     );
@@ -93,7 +93,7 @@ pub(super) fn nonzero(
     }
     let (label, remedy) = match value.is_zero() {
         true => ("this is zero", "check its signs, or remove the statement"),
-        false => ("its factors are not found", "declare its factors, one a statement"),
+        false => ("its factors were not found", "declare its factors, one per statement"),
     };
     Err(scope.error("this cannot be declared non-zero", tree.span, label).with_remedy(remedy))
 }

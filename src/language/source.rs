@@ -155,7 +155,7 @@ fn not_utf8(name: &str, bytes: &[u8], start: usize) -> Diagnostic {
         &Source::unchecked(name, &shown),
         "the text is not UTF-8",
         Span::new(start, start + char::REPLACEMENT_CHARACTER.len_utf8()),
-        format!("the byte 0x{byte:02X} at offset {start} is no part of a character"),
+        format!("the byte 0x{byte:02X} at offset {start} is not part of a character"),
     )
     .with_remedy("save the file with the encoding UTF-8")
 }

@@ -53,7 +53,7 @@ pub(super) fn notation(
             let message = format!("`{}` is written in two ways", name.value);
             return Err(scope
                 .error(message, name.span, "again here")
-                .with_remedy("say once how the source writes it"));
+                .with_remedy("give one notation for it"));
         }
     }
     items().try_for_each(|item| scope.check_names(item, &notation))?;
@@ -77,7 +77,7 @@ impl Scope {
             Rewriting::Constants { name, .. } => name.span,
             _ => tree.map_or(Span::new(0, 0), |tree| tree.span),
         };
-        let free = "choose a name that no wave, symbol, time or other item has";
+        let free = "choose a name that is not a wave, symbol, time or other item";
         let refuse = |name: &str, what: &str, remedy: &str| {
             let message = format!("`{name}` already means something");
             Err(self.error(message, span, what).with_remedy(remedy))
@@ -94,7 +94,7 @@ impl Scope {
             let waves = notation.waves.values().chain(notation.constants.values()).cloned();
             let all = waves.chain(notation.symbols.values().filter_map(plain));
             if all.filter(|other| other == name).count() > 1 {
-                return refuse(name, "written for two things", free);
+                return refuse(name, "used for two things", free);
             }
         }
         let mut product = SourceProduct::one();
@@ -115,7 +115,7 @@ impl Scope {
 
     fn wave(&self, name: &Spanned<String>) -> Outcome<WaveIndex> {
         self.waves.get(&name.value).copied().ok_or_else(|| {
-            let message = format!("`{}` is no wave of this recurrence", name.value);
+            let message = format!("`{}` is not a wave of this recurrence", name.value);
             let names: Vec<&str> = self.waves.keys().map(String::as_str).collect();
             let error = self.error(message, name.span, "not a wave");
             with_likely(error, &name.value, names.iter().copied())
@@ -163,7 +163,7 @@ impl Scope {
     fn multiply(&self, product: &mut SourceProduct, tree: &Expression, power: i32) -> Outcome<()> {
         let refuse = |label: &str| {
             Err(self
-                .error("this is no notation of a source", tree.span, label)
+                .error("this is not a notation of a source", tree.span, label)
                 .with_remedy("write a product of numbers and powers of symbols, such as `V/c`"))
         };
         match &tree.value {

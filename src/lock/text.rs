@@ -53,8 +53,7 @@ struct Line<'a> {
 impl<'a> Line<'a> {
     fn refused(self, remedy: &str) -> Diagnostic {
         let message = "this line cannot be read";
-        Diagnostic::new(self.source, message, self.span, "in a file of locked results")
-            .with_remedy(remedy)
+        Diagnostic::new(self.source, message, self.span, "in a lock file").with_remedy(remedy)
     }
 
     /// The sides of `name = value`.
@@ -338,7 +337,7 @@ fn version(first: Line<'_>) -> Result<u32, Diagnostic> {
     let Some(version) = first.text.strip_prefix(HEADING) else {
         return Err(Diagnostic::new(
             first.source,
-            "this is no file of locked results",
+            "this is not a lock file",
             first.span,
             format!("expected `{HEADING}{PIECES}`"),
         )
@@ -348,9 +347,9 @@ fn version(first: Line<'_>) -> Result<u32, Diagnostic> {
         Ok(version) if (PIECES..=EVENTS).contains(&version) => Ok(version),
         _ => Err(Diagnostic::new(
             first.source,
-            format!("this file is of version {}", version.trim()),
+            format!("this file has version {}", version.trim()),
             first.span,
-            format!("versions up to {EVENTS} are read"),
+            format!("versions up to {EVENTS} are supported"),
         )
         .with_remedy("use a newer wavestep, or lock again with this one")),
     }

@@ -9,18 +9,18 @@ use wavestep_polynomial::Symbol;
 pub enum ModelError {
     #[error("the symbol {0} has no value; models in doubles need one for each")]
     MissingValue(Symbol),
-    #[error("a value of the scene is no number: {0}")]
+    #[error("a value of the scene is not a number: {0}")]
     Value(#[source] EnclosureError),
-    #[error("the model \"{model}\" does not represent this: {reason}")]
+    #[error("the model \"{model}\" does not support this scene: {reason}")]
     Refused { model: &'static str, reason: NotRepresented },
-    #[error("the model \"{model}\" does not work with this setting: {reason}")]
+    #[error("bad setting for the model \"{model}\": {reason}")]
     Setting { model: &'static str, reason: BadSetting },
     #[error(
-        "the model \"{model}\" would need {count:.1e} {what}, more than {limit:.0e}; ask for earlier \
+        "the model \"{model}\" would need {count:.1e} {what}, more than {limit:.0e}; choose earlier \
          times or a coarser model"
     )]
     TooMuch { model: &'static str, what: &'static str, count: f64, limit: f64 },
-    #[error("the time {0} is no finite number")]
+    #[error("the time {0} is not a finite number")]
     Time(f64),
     #[error("there is no observable {asked}; the scene has {count}, counted from 0")]
     NoObservable { asked: usize, count: usize },
@@ -44,39 +44,39 @@ impl ModelError {
 #[non_exhaustive]
 pub enum NotRepresented {
     #[error(
-        "it takes linear laws, and the force in the local contact {0} is a power of its compression; \
-         the method of steps takes it"
+        "it needs linear elements, and the force in the local contact {0} is a power of its \
+         compression; use the method of steps"
     )]
     LocalContact(String),
-    #[error("beside {0} something moves that has no mass")]
+    #[error("a joint without mass moves next to {0}")]
     Massless(String),
-    #[error("beside {0} something moves that has no mass, and nothing resists it")]
+    #[error("a joint without mass moves next to {0}, and nothing resists it")]
     Unresisted(String),
-    #[error("{0} contacts that open meet in one place")]
+    #[error("{0} contacts that open meet at one place")]
     TooManyContacts(usize),
     #[error("rigid masses of different velocities meet")]
     RigidImpact,
-    #[error("no bar has a finite length, and nothing else says how long a cell is")]
+    #[error("no bar has a finite length that could set the size of a cell")]
     NoFiniteBar,
     #[error("there is no element {0}")]
     NoElement(usize),
-    #[error("{0} is no local contact")]
+    #[error("{0} is not a local contact")]
     NotALocalContact(String),
-    #[error("{0} does not stand between two bars alone")]
+    #[error("{0} is not directly between two bars")]
     NotBetweenBars(String),
-    #[error("{0} has a free end beside it")]
+    #[error("{0} is next to a free end")]
     FreeEnd(String),
-    #[error("what {0} joins does not approach at the start")]
+    #[error("the bodies at {0} do not approach each other at the start")]
     NoApproach(String),
-    #[error("bar {0} is endless, and waves that leave are no vibration")]
+    #[error("bar {0} is endless, so waves leave and do not vibrate")]
     EndlessVibration(String),
-    #[error("it takes a line with at least one bar")]
+    #[error("it needs at least one bar")]
     NoBar,
     #[error("{0} damps the motion")]
     Damping(String),
     #[error("load {0} acts from outside")]
     Load(String),
-    #[error("the times of {0} and of what is before it in the line have no common measure")]
+    #[error("the travel times of {0} and of the elements before it are incommensurable")]
     NoCommonMeasure(String),
     #[error("{observable} observes {term}")]
     Observable { observable: String, term: NotSeen },
@@ -86,11 +86,11 @@ pub enum NotRepresented {
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotSeen {
-    #[error("an energy, of which it keeps no account")]
+    #[error("an energy, which the model does not compute")]
     Energy,
     #[error("the momentum of an endless bar")]
     EndlessMomentum,
-    #[error("what the model does not have")]
+    #[error("a quantity that the model does not have")]
     Other,
 }
 
@@ -98,7 +98,7 @@ pub enum NotSeen {
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum BadSetting {
-    #[error("it takes at least one cell")]
+    #[error("it needs at least one cell")]
     NoCells,
     #[error(
         "a Courant number of {0} is unstable: a wave would cross more than a cell in a step; take at \
@@ -107,7 +107,7 @@ pub enum BadSetting {
     Unstable(f64),
     #[error("the Courant number {0} is not positive; take 1 or less")]
     NoStep(f64),
-    #[error("it takes at least one mode")]
+    #[error("it needs at least one mode")]
     NoModes,
     #[error("the tolerance {0:e} is not between 1e-13 and 1e-2")]
     Tolerance(f64),

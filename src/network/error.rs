@@ -10,9 +10,9 @@ use crate::scene::Mistake;
 pub enum NetworkError {
     #[error(transparent)]
     Division(#[from] NotAUnit),
-    #[error("the travel times have no common measure, or too fine a one")]
+    #[error("the travel times are incommensurable, or their common divisor is too small")]
     Incommensurate,
-    #[error("the laws of this scene cannot be solved for its waves: {0}")]
+    #[error("the equations of this scene cannot be solved for its waves: {0}")]
     Recurrence(#[source] Box<InvalidRecurrence>),
     #[error(
         "{place}, {} decay together at rates that are not known exactly", waves.join(" and ")
@@ -21,8 +21,8 @@ pub enum NetworkError {
     #[error("{name}: {reason}")]
     Unobservable { name: String, reason: Mistake },
     #[error(
-        "the local contact `{0}` only pushes, with a power of its compression, so this scene has no \
-         recurrence, and no exact solution behind its first contact"
+        "the force in the local contact `{0}` is a power of its compression, so this scene has no \
+         recurrence, and no exact solution after its first contact"
     )]
     NotLinear(String),
 }

@@ -243,7 +243,7 @@ impl Adviser<'_> {
             Err(error) => Verdict::Unproven(first_line(&error)),
             Ok(share) if share[1] <= *self.tolerance => Verdict::Enough(share),
             Ok([_, most]) => Verdict::Unproven(format!(
-                "the largest difference may be {:.2e} of the largest value",
+                "the difference may reach {:.2e} of the largest value",
                 num_traits::ToPrimitive::to_f64(&most).unwrap_or(f64::NAN)
             )),
         }

@@ -24,9 +24,9 @@ pub enum ProblemError {
     Text(Vec<Diagnostic>),
     #[error("there is no built-in scene `{0}`")]
     NotBuiltIn(String),
-    #[error("`{0}` gives no number")]
+    #[error("`{0}` is not a number")]
     NoNumber(String),
-    #[error("{0} is no number")]
+    #[error("{0} is not a finite number")]
     NotFinite(f64),
     #[error("{0} significant digits cannot be certified")]
     Digits(usize),
@@ -34,15 +34,15 @@ pub enum ProblemError {
     Tolerance(#[from] InvalidTolerance),
     #[error(transparent)]
     Method(#[from] InvalidMethod),
-    #[error("the time {0} lies before the start")]
+    #[error("the time {0} is before the start")]
     BeforeStart(String),
     #[error("the window from {} to {} is empty", .0[0], .0[1])]
     EmptyWindow([String; 2]),
     #[error("the window has no end")]
     NoEnd,
-    #[error("`{name}` is neither a wave nor an observable here")]
+    #[error("`{name}` is neither a wave nor an observable of this scene")]
     Unknown { name: String, names: Vec<String> },
-    #[error("{0} is a wave of the closed contacts, which open in this scene")]
+    #[error("{0} is a wave for closed contacts, and contacts open in this scene")]
     WaveOfClosedContacts(String),
     #[error("`{name}` is neither a wave nor an observable of \"{title}\"")]
     UnknownThere { name: String, title: String, names: Vec<String> },
@@ -50,13 +50,13 @@ pub enum ProblemError {
     Apart { name: String, title: String },
     #[error(transparent)]
     Change(ChangeError),
-    #[error("`{0}` is no range of a symbol")]
+    #[error("`{0}` is not a range of a symbol")]
     SymbolRange(String),
-    #[error("`{0}` is zero on this window")]
+    #[error("`{0}` is zero in this window")]
     AllZero(String),
     #[error("`{name}` is not a free symbol of this scene")]
     NoSymbol { name: String, symbols: Vec<String> },
-    #[error("\"{0}\" states equations, and no bars along which to look")]
+    #[error("\"{0}\" states equations; it has no bars")]
     Equations(String),
     #[error("{}", NetworkError::NotLinear(contact.clone()))]
     LocalContact {
@@ -66,47 +66,47 @@ pub enum ProblemError {
     },
     #[error("the first contact at `{contact}` has no closed form: {why}")]
     NoClosedForm { contact: String, why: NoClosedForm },
-    #[error("where contacts open there are no periods and no counted echoes")]
+    #[error("if contacts open, there are no periods and no numbered echoes")]
     NoPeriodsWhereContactsOpen,
-    #[error("with the local contact `{0}` there are no echoes and periods")]
+    #[error("with the local contact `{0}` there are no echoes and no periods")]
     NoPeriodsWithLocalContact(String),
     #[error("{0} has no periods of its own")]
     NoPeriods(String),
     /// A local time, and how long the period is.
-    #[error("the local time {} lies outside the period", .0[0])]
+    #[error("the local time {} is outside the period", .0[0])]
     OutsidePeriod(Box<[Rational; 2]>),
     #[error("accuracy not reached at t = {time}: {name} = {best}")]
     Undecided { name: String, time: Rational, best: String },
-    #[error("this would have about {} terms; at most {MAX_DERIVED_TERMS} are derived at once", in_powers(*.0))]
+    #[error("this needs about {} terms; at most {MAX_DERIVED_TERMS} are derived at once", in_powers(*.0))]
     TooManyTerms(f64),
-    #[error("this would be about {echoes} echoes; at most {limit} are derived at once")]
+    #[error("this needs about {echoes} echoes; at most {limit} are derived at once")]
     TooManyEchoes { echoes: usize, limit: usize },
-    #[error("nothing arrives within {0} periods of the lattice")]
+    #[error("no echo arrives within {0} periods")]
     NothingArrives(usize),
-    #[error("{0} is an energy, quadratic in the waves, and has no pieces of its own")]
+    #[error("{0} is an energy, quadratic in the waves, so it has no pieces of its own")]
     EnergyHasNoPieces(String),
-    #[error("{0} holds products of waves, and has no pieces of its own")]
+    #[error("{0} contains products of waves, so it has no pieces of its own")]
     ProductsHaveNoPieces(String),
     #[error("the echoes of {0} are those of its waves")]
     EchoesOfObservable(String),
-    #[error("the waves in {0} do not arrive together, so it has no common periods")]
+    #[error("the waves in {0} arrive at different times, so it has no common periods")]
     NoCommonPeriods(String),
-    #[error("the waves in {0} arrive apart, in an order that is not known")]
+    #[error("the waves in {0} arrive at different times, in an unknown order")]
     UnknownOrder(String),
-    #[error("the travel times have no common measure, so there {0}")]
+    #[error("the travel times are incommensurable, so there {0}")]
     NoCommonMeasure(Missing),
     #[error(
-        "the travel times have no common measure, or too fine a one: there are no periods to explain \
-         this scene by"
+        "the travel times are incommensurable, or their common divisor is too small: there are no \
+         periods to explain"
     )]
     NoPeriodsToExplain,
-    #[error("this scene does not say how its source writes it")]
+    #[error("this scene has no `written` statement, so its source form is unknown")]
     NoSourceForm,
-    #[error("a source gives no form for every n of a wave that is a sum of echoes")]
+    #[error("a form for every n that is a sum of echoes has no source form")]
     NoGeneralSourceForm,
     #[error(
-        "no closed form in n was found for {wave}; with {} the derivative and {} the delay by one \
-         period, its equation is, apart from the start,\n    {operator}",
+        "no closed form in n was found for {wave}; with {} for the derivative and {} for the delay by \
+         one period, its equation after the start is\n    {operator}",
         names[0],
         names[1]
     )]
@@ -120,14 +120,14 @@ pub enum ProblemError {
         symbol: Option<Symbol>,
     },
     #[error(
-        "{place}, {} decay together at the rates {}, which these formulas would have to hold",
+        "{place}, {} decay together at the rates {}, which these formulas cannot express",
         waves.join(" and "),
         rates.join(", ")
     )]
     Rates { place: String, waves: Vec<String>, rates: Vec<String> },
     #[error(
         "{place}, {} decay together at the rates {}; with names for these the echoes of order {n} have {terms} \
-         terms, and later ones many times as many",
+         terms, and later ones many times more",
         waves.join(" and "),
         rates.join(", ")
     )]
@@ -160,35 +160,35 @@ pub enum ProblemError {
 /// Why a problem is not locked as asked for.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum LockRefusal {
-    #[error("where contacts open there are no periods of which pieces could be locked")]
+    #[error("if contacts open, there are no periods and no pieces to lock")]
     PeriodsWhereContactsOpen,
-    #[error("there are no events here: no contacts open")]
+    #[error("there are no events: no contact opens")]
     NoEvents,
-    #[error("it is not said through which period the pieces are to be locked, nor when values")]
+    #[error("neither a last period for pieces nor times for values are given")]
     NoLastPeriod,
-    #[error("pieces are locked, and contacts open now")]
+    #[error("pieces are locked, but contacts open now")]
     PiecesLocked,
-    #[error("events are locked, and no contacts open now")]
+    #[error("events are locked, but no contact opens now")]
     EventsLocked,
 }
 
 /// Why no value of a symbol with equal extrema is found.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum EqualError {
-    #[error("{digits} digits of a symbol are too many")]
+    #[error("{digits} digits are too many for a symbol")]
     TooManyDigits { digits: usize, limit: usize },
     #[error("the extrema cannot be told apart at an end of the range")]
     EqualAtEnd,
     #[error("the extremum in the {} window is the larger one at both ends of the range", larger(*.0))]
     NoChange(Ordering),
-    #[error("the times of {times} do not ascend at {symbol} = {value}")]
+    #[error("the times of {times} are not in ascending order at {symbol} = {value}")]
     NotAscending {
         /// What errors call the times.
         times: String,
         symbol: String,
         value: Rational,
     },
-    #[error("the time `{text}` is no number from 0 on at {value}")]
+    #[error("at {value} the time `{text}` is not a number from 0 on")]
     NoTime { text: String, symbol: String, value: Rational },
 }
 
@@ -199,11 +199,11 @@ fn larger(sign: Ordering) -> &'static str {
 /// What needs commensurate travel times.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum Missing {
-    #[error("is no form for every period")]
+    #[error("is no form for every n")]
     GeneralForm,
     #[error("are no periods")]
     Periods,
-    #[error("are no periods on which pieces hold")]
+    #[error("are no periods and no pieces")]
     Pieces,
 }
 

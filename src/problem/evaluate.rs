@@ -124,9 +124,9 @@ impl Problem {
     /// How values with proven digits are found, in words.
     pub fn how_found(&self, origin: Origin) -> &'static str {
         match origin {
-            Origin::Closed => "in closed form: the echoes that have arrived are added up",
+            Origin::Closed => "in closed form: the sum of the echoes that have arrived",
             Origin::Followed if self.has_periods() => {
-                "followed from cell to cell, which takes less here than the closed form"
+                "followed from cell to cell, which is cheaper here than the closed form"
             }
             Origin::Followed => "followed from cell to cell, since contacts open",
         }

@@ -12,15 +12,13 @@ use std::cmp::Ordering;
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum NoClosedForm {
     #[error(
-        "beside it stands `{0}`. Only between bars, or a bar and a wall, is its equation α' = V − X/Z, which an integral \
+        "it is next to `{0}`. Only between bars, or a bar and a wall, is its equation α' = V − X/Z, which an integral \
          solves"
     )]
     Beside(String),
-    #[error("`{0}` is strained at the start, so that waves come to it from the first moment on")]
+    #[error("`{0}` is strained at the start, so waves reach the contact from the beginning")]
     Strained(String),
-    #[error(
-        "it is not known that what is beside it runs together at the start with a positive velocity"
-    )]
+    #[error("the bodies next to it may not approach each other at the start")]
     NotClosing,
 }
 

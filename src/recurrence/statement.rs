@@ -116,16 +116,16 @@ pub enum Clause {
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum Fault {
     /// The period is not certainly positive.
-    #[error("the period is not certainly positive")]
+    #[error("the period may be zero or negative")]
     PeriodNotPositive,
     /// There are more or fewer equations than waves.
     #[error("{}", counted(*equations, *waves))]
     Count { equations: usize, waves: usize },
     /// The equation holds no wave on the current period that is still to be determined.
-    #[error("this equation determines no wave on the current period")]
+    #[error("this equation determines no wave in the current period")]
     DeterminesNothing,
     /// The waves named depend on each other on the same period.
-    #[error("{} depend on each other on the same period", .0.join(" and "))]
+    #[error("{} depend on each other in the same period", .0.join(" and "))]
     Coupled(Vec<String>),
     /// The waves named are coupled by their derivatives, and their rates, the roots of a
     /// polynomial, are not known exactly.
@@ -142,13 +142,13 @@ pub enum Fault {
     #[error("the rate of this differential equation holds an exponential")]
     RateHoldsExponential,
     /// A wave with a differential equation and no continuity rule to start it.
-    #[error("nothing says how {0} starts and goes on")]
+    #[error("{0} has no initial value and no continuity rule")]
     NoStart(String),
     /// A continuity rule that starts no wave.
-    #[error("this continuity rule starts no wave")]
+    #[error("no wave needs this continuity rule")]
     StartsNothing,
     /// A continuity rule with a derivative or a sum in it.
-    #[error("a continuity rule holds no derivatives and no sums")]
+    #[error("a continuity rule cannot contain derivatives or sums")]
     ContinuityOfSlope,
     /// A wave that is not declared, a coefficient or a start that depends on time, or forcing that
     /// is no exponential polynomial of scene time.

@@ -18,7 +18,7 @@ impl Fault {
     fn sentence(&self) -> String {
         match (self.mistake, self.parts.first()) {
             (Mistake::NotPositive, Some(Part::Property(_, property))) => {
-                format!("{} is not certainly positive", property.words().0)
+                format!("{} must be positive", property.words().0)
             }
             (Mistake::Negative, Some(Part::Property(_, property))) => {
                 format!("{} may be negative", property.words().0)
@@ -80,41 +80,41 @@ pub enum Mistake {
     #[error("the scene is not well formed")]
     IllFormed,
     /// An element stands twice in the line: here, and there before.
-    #[error("an element stands in the line twice")]
+    #[error("an element is in the line twice")]
     Repeated,
-    #[error("an element does not stand in the line")]
+    #[error("an element is not in the line")]
     Unused,
-    #[error("a property is not certainly positive")]
+    #[error("a property may be zero or negative")]
     NotPositive,
     #[error("a property may be negative")]
     Negative,
     #[error("it has neither stiffness nor damping")]
     NoStiffness,
-    #[error("the load does not certainly end after it begins")]
+    #[error("the load may end before it begins")]
     EndsBeforeBegin,
-    #[error("the exponent of a local contact is at least 1/10")]
+    #[error("the exponent of a local contact must be at least 1/10")]
     ExponentTooSmall,
     /// The exponent of a local contact is larger than
     /// [`MAX_CONTACT_EXPONENT`](crate::limits::MAX_CONTACT_EXPONENT).
-    #[error("the exponent of a local contact is at most 100")]
+    #[error("the exponent of a local contact must be at most 100")]
     ExponentTooLarge,
     #[error("nothing moves in this scene")]
     NothingMoves,
     /// `endless` beside a lumped element.
-    #[error("only a bar can go on for ever")]
+    #[error("only a bar can be endless")]
     EndlessWithoutBar,
     /// `endless` beside a bar with a length.
-    #[error("a bar with a length does not go on for ever")]
+    #[error("a bar with a length is not endless")]
     EndlessWithLength,
     /// A bar without length that does not go on for ever.
     #[error("this bar has no length")]
     NoLength,
     #[error("a bar that is endless on both sides has no end")]
     EndlessBothSides,
-    #[error("there is nothing to be in contact with")]
+    #[error("this contact has nothing on its other side")]
     ContactAtEnd,
     /// A lumped element or a load at a place that is fixed.
-    #[error("what is fixed cannot move")]
+    #[error("this place is fixed and cannot move")]
     Held,
     /// A spring with nothing between it and a free end.
     #[error("this spring has nothing to press against")]
@@ -131,28 +131,28 @@ pub enum Mistake {
     #[error("this bar has no strain")]
     NoWaveSpeed,
     /// The end at which a bar goes on for ever.
-    #[error("the bar goes on for ever on this side")]
+    #[error("the bar is endless on this side")]
     NoSuchEnd,
-    #[error("an endless bar has no length to take a share of")]
+    #[error("an endless bar has no length, so a fraction of it has no meaning")]
     ShareOfEndless,
-    #[error("this section may lie outside the bar")]
+    #[error("this section may be outside the bar")]
     OutsideBar,
     #[error("terms of different dimensions cannot be added")]
     MixedDimensions,
-    #[error("an endless bar is no mass and no spring")]
+    #[error("an endless bar cannot be rigid or a spring")]
     IdealEndless,
     #[error("a bar without waves has no strain at the start")]
     IdealStrained,
     #[error("this bar cannot move")]
     IdealHeld,
     /// An ideal bar that would part from a fixed end.
-    #[error("a bar without waves does not part from a fixed end")]
+    #[error("a bar without waves cannot separate from a fixed end")]
     IdealAtWall,
     /// The force in a rigid bar.
-    #[error("what happens in a rigid bar is not known")]
+    #[error("the force in a rigid bar is unknown")]
     NoForceInRigid,
     /// Energy or momentum of an endless bar that moves or is strained as a whole.
-    #[error("what an endless bar holds from the start is infinite")]
+    #[error("this endless bar has infinite energy or momentum from the start")]
     Infinite,
 }
 

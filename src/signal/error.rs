@@ -28,14 +28,14 @@ pub enum EvaluateError {
     #[error("{}", too_many_echoes(*echoes, *limit))]
     TooManyEchoes { echoes: u128, limit: usize },
     #[error(
-        "the waves until this time would take about {megabytes} MB of memory; until about {percent} % of \
-         it they fit"
+        "the waves until this time would take about {megabytes} MB of memory; they fit until about \
+         {percent} % of it"
     )]
     TooMuchMemory { megabytes: u64, percent: u64 },
-    #[error("the time is after the last one that was prepared for")]
+    #[error("the time is after the prepared window")]
     AfterLast,
     /// Waves that are followed from event to event, where sums of echoes or steps of periods are asked for.
-    #[error("this method needs a closed form of the waves, and there is none")]
+    #[error("this method needs waves in closed form, and there are none")]
     NoClosedForm,
     #[error(transparent)]
     Division(#[from] NotAUnit),
@@ -43,16 +43,18 @@ pub enum EvaluateError {
     Network(Box<NetworkError>),
     #[error("the window needs more than {limit} polynomials")]
     TooManyCells { limit: usize },
-    #[error("more than {limit} roots lie in this window")]
+    #[error("this window has more than {limit} roots")]
     TooManyRoots { limit: usize },
     /// For searches, also a single time.
     #[error("the window is empty, or begins before time 0")]
     EmptyWindow,
     #[error("the function is too steep for polynomials between neighbouring doubles")]
     TooSteep,
-    #[error("this method sums waves, and this quantity is quadratic in them")]
+    #[error("this method is for sums of waves, and this quantity is quadratic in them")]
     NotLinear,
-    #[error("the scene is followed no further with {bits} bits, and fewer do not tell this")]
+    #[error(
+        "with {bits} bits the scene is followed only up to an earlier time, and fewer bits do not decide this"
+    )]
     NotFollowed { bits: u64 },
     /// The waves have one pole of a complex pair each.
     #[error("the value is not real")]
@@ -62,19 +64,19 @@ pub enum EvaluateError {
 fn too_many_periods(periods: &Integer, limit: usize) -> String {
     if periods.bits() > 64 {
         return format!(
-            "far more than the {limit} periods that are worked out lie before this time"
+            "there are far more periods before this time than the {limit} that are computed"
         );
     }
-    format!("{periods} periods lie before this time, and at most {limit} are worked out")
+    format!("there are {periods} periods before this time; at most {limit} are computed")
 }
 
 fn too_many_echoes(echoes: u128, limit: usize) -> String {
     if echoes == u128::MAX {
         return format!(
-            "far more echoes arrive until this time than the {limit} that are worked out"
+            "far more echoes arrive until this time than the {limit} that are computed"
         );
     }
-    format!("about {echoes} echoes arrive until this time, and at most {limit} are worked out")
+    format!("about {echoes} echoes arrive until this time; at most {limit} are computed")
 }
 
 impl EvaluateError {

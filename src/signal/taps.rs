@@ -61,19 +61,19 @@ pub struct Taps {
 #[expect(missing_docs, reason = "the messages say it")]
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum NoTaps {
-    #[error("echoes arrive on no common grid")]
+    #[error("echoes do not arrive on a common grid")]
     NoGrid,
     #[error("the echoes of {0} have no closed form with one pole and one lag")]
     NoForm(String),
-    #[error("{0} is constant on each period")]
+    #[error("{0} is constant in each period")]
     Sequence(String),
     #[error("the echoes of {0} are powers of time, not Laguerre polynomials")]
     Powers(String),
-    #[error("the waves that are seen have different poles")]
+    #[error("the observed waves have different poles")]
     TwoPoles,
-    #[error("the slope of {0} is seen")]
+    #[error("the slope of {0} is observed")]
     Slope(String),
-    #[error("what is added to the waves is not known by its values")]
+    #[error("the forcing has no values at single times")]
     Forcing,
 }
 

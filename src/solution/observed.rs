@@ -34,7 +34,7 @@ pub struct ObservedStretch {
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum ObserveError {
     /// Its waves do not arrive together, so that no period suits all of them.
-    #[error("its waves do not arrive together, so it has no common periods")]
+    #[error("its waves arrive at different times, so it has no common periods")]
     MixedOffsets,
     /// A piece cannot be given exactly.
     #[error(transparent)]

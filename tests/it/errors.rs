@@ -44,5 +44,5 @@ fn causes_stand_beneath() {
     assert!(matches!(error.cause(), ProblemError::Solve(_)));
     assert_eq!(error.to_string(), "f[3] cannot be given exactly: its degree may exceed 4095");
     assert_eq!(error.source().unwrap().to_string(), "its degree may exceed 4095");
-    assert_eq!(error.remedy().as_deref(), Some("ask for a smaller order"));
+    assert_eq!(error.remedy().as_deref(), Some("choose a smaller order"));
 }

@@ -330,7 +330,7 @@ fn deeper_lines_continue() {
         assert_eq!(slices, expected);
     }
     let error = parse_recurrence(&source("\n  \t\n   # a\n#b")).unwrap_err();
-    assert_eq!(error.message(), "the text holds no statement");
+    assert_eq!(error.message(), "the text has no statement");
 }
 
 /// The first word of a text says what it states.

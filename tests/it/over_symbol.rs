@@ -438,7 +438,7 @@ fn what_is_not_followed_over_a_symbol_is_told() {
             "the window is another one",
         ),
         (builtin("saint-venant"), "mu", "velocity", "closed", &zero_to_two, "contacts that open"),
-        (apart(), "a", "force", "endless:one.left", &zero_to_two, "no common measure"),
+        (apart(), "a", "force", "endless:one.left", &zero_to_two, "no common divisor"),
         (builtin("mass-on-fixed-bar"), "mu", "velocity", "without:rod", &zero_to_two, ""),
     ];
     for (problem, symbol, quantity, simpler, window, why) in cases {

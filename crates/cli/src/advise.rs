@@ -71,7 +71,7 @@ impl Told<'_> {
     /// How long a value took, where that is asked for.
     fn each(&self, time: Duration) -> String {
         match self.options.stats {
-            true => format!(", {:.3} ms a value", time.as_secs_f64() * 1e3),
+            true => format!(", {:.3} ms per value", time.as_secs_f64() * 1e3),
             false => String::new(),
         }
     }
@@ -98,7 +98,7 @@ impl Told<'_> {
                 format!("{by} at t = {}", self.time(at))
             }
             Verdict::Unproven(why) => format!("not proven: {why}"),
-            Verdict::Unsuited(why) => format!("does not suit: {why}"),
+            Verdict::Unsuited(why) => format!("not applicable: {why}"),
         }
     }
 
@@ -120,16 +120,16 @@ impl Told<'_> {
         let width = rows.iter().map(|[what, _]| what.chars().count()).max().unwrap_or_default();
         let tolerance = whole(&self.need.tolerance);
         let mut text =
-            format!("{name} within {tolerance} of its largest value, {}\n\n", self.window());
+            format!("{name} to within {tolerance} of its largest value, {}\n\n", self.window());
         for [what, verdict] in &rows {
             text += &format!("{what:<width$}  {verdict}\n");
         }
         text.push('\n');
         text += &match enough {
             Some(own) => {
-                format!("Enough: `{}`, {}, proven.\n", own.simpler, self.verdict(&own.verdict))
+                format!("Enough: `{}`, proven error {}.\n", own.simpler, self.verdict(&own.verdict))
             }
-            None => "None of these is proven to be enough.\n".to_owned(),
+            None => "No simpler model is proven to be enough.\n".to_owned(),
         };
         if let Some(next) = self.advice.next_cheaper() {
             let off = self.verdict(&next.verdict);
@@ -183,7 +183,7 @@ impl Told<'_> {
         let (changes, proven): (&[Change], String) = match self.advice.scene() {
             Some((own, changes)) => {
                 let verdict = self.verdict(&own.verdict);
-                (changes, format!("# `{}`: off by {verdict} of it, proven.\n", own.simpler))
+                (changes, format!("# `{}`: proven error {verdict} of it.\n", own.simpler))
             }
             None => match self.advice.enough() {
                 Some(own) => (
@@ -209,7 +209,7 @@ impl Told<'_> {
         let values: String = values.collect();
         let values = if values.is_empty() { values } else { format!(", with{values}") };
         let comment = format!(
-            "# What is left of \"{}\" for {} within {} of its largest value,\n# {}{values}.\n{proven}",
+            "# \"{}\" simplified, for {} to within {} of its largest value,\n# {}{values}.\n{proven}",
             self.problem.title(),
             self.need.wanted.name,
             whole(&self.need.tolerance),

@@ -24,8 +24,8 @@ pub fn run(options: &Book) -> Result<String, Failure> {
         });
     };
     if options.format == Format::Markdown {
-        let remedy = "ask for --format text, latex or json, or leave out the number";
-        return Err(Failure::usage("only the whole table is written as Markdown", remedy));
+        let remedy = "use --format text, latex or json, or omit the number";
+        return Err(Failure::usage("only the whole table can be written as Markdown", remedy));
     }
     // What is not there is told before anything is derived.
     book::find(number).map_err(unknown)?;

@@ -44,13 +44,13 @@ fn costs(options: &Options, file: Option<&str>) -> Result<String, Failure> {
 fn drawn(options: &Options, scene: &Scene, folder: &str) -> Result<String, Failure> {
     if options.points == 0 || options.points > MAX_POINTS {
         let message = format!("{} times cannot be measured", options.points);
-        return Err(Failure::usage(message, format!("ask for 1 to {MAX_POINTS}")));
+        return Err(Failure::usage(message, format!("give 1 to {MAX_POINTS}")));
     }
     check(folder)?;
     let problem = input::problem(scene)?;
     let quantity = options.quantity.as_deref().or_else(|| problem.usual_quantity());
     let Some(quantity) = quantity else {
-        return Err(Failure::usage("the scene observes nothing", "give --quantity NAME"));
+        return Err(Failure::usage("the scene has no observables", "give --quantity NAME"));
     };
     let to = match &options.to {
         Some(to) => problem.time("--to", to.as_str())?,
@@ -70,7 +70,7 @@ fn drawn(options: &Options, scene: &Scene, folder: &str) -> Result<String, Failu
         charts(&problem, window, &asked, &tick)?
     };
     for (name, reason) in &charts.left_out {
-        eprintln!("note: {name} is left out: {reason}");
+        eprintln!("note: {name} is omitted: {reason}");
     }
     let title = format!("{}: accuracy and speed of {quantity}", scene.scene);
     write(folder, &title, &charts)

@@ -17,8 +17,8 @@ pub fn check(folder: &str) -> Result<(), Failure> {
 }
 
 fn unusable(folder: &str, reason: impl std::fmt::Display) -> Failure {
-    let message = format!("the folder `{folder}` cannot be made: {reason}");
-    Failure::usage(message, "name a folder that can be written to with -o")
+    let message = format!("the folder `{folder}` cannot be created: {reason}");
+    Failure::usage(message, "name a writable folder with -o")
 }
 
 pub fn write(folder: &str, title: &str, charts: &Charts) -> Result<String, Failure> {

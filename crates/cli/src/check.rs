@@ -29,7 +29,7 @@ pub fn run(options: &Check) -> Result<String, Failure> {
         Checked::LocalContact(contact) => {
             let _ = writeln!(
                 report,
-                "  `{contact}` is a local contact: no recurrence; what it does is followed with proof"
+                "  `{contact}` is a local contact: no recurrence; events and values are proven"
             );
         }
         Checked::Lattice { echoes } => {
@@ -37,7 +37,7 @@ pub fn run(options: &Check) -> Result<String, Failure> {
             add_observables(&mut report, &problem.observables());
             let _ = writeln!(
                 report,
-                "  the travel times have no common measure: no periods, echoes in order of arrival\n  \
+                "  incommensurable travel times: no periods; echoes in order of arrival\n  \
                  derived echo by echo: {echoes} echoes"
             );
         }
@@ -45,8 +45,8 @@ pub fn run(options: &Check) -> Result<String, Failure> {
             add_symbols(&mut report, &symbols);
             let _ = writeln!(report, "  waves: {}", problem.waves().join(", "));
             add_observables(&mut report, &problem.observables());
-            let _ = writeln!(report, "  not derived without values: {reason}");
-            let _ = writeln!(report, "  for pieces, values and events give {}", listed(&symbols));
+            let _ = writeln!(report, "  not derived: {reason}");
+            let _ = writeln!(report, "  pieces, values and events need {}", listed(&symbols));
         }
         Checked::Periods(periods) => add_periods(&mut report, &periods, &problem.observables()),
     }
@@ -58,10 +58,10 @@ fn verdict(checked: &Checked, problem: &Problem) -> String {
     let observed = plural(problem.observables().len(), "observable");
     match checked {
         Checked::LocalContact(_) => {
-            format!("consistent; it is followed with proof: events, and values of {observed}")
+            format!("consistent; proven events and values of {observed}")
         }
         Checked::Lattice { .. } => {
-            format!("consistent; it has echoes in order of arrival, and values of {observed}")
+            format!("consistent; echoes in order of arrival, values of {observed}")
         }
         Checked::NeedsValues { symbols, .. } => {
             let symbols = listed(symbols);
@@ -73,11 +73,9 @@ fn verdict(checked: &Checked, problem: &Problem) -> String {
             let general = if has_general { ", a general form" } else { "" };
             let needed = match &found.symbols[..] {
                 [] => String::new(),
-                symbols => format!(", which need {}", listed(symbols)),
+                symbols => format!(" (with {})", listed(symbols)),
             };
-            format!(
-                "consistent; it has formulas for each period{general}, and values of {observed}{needed}"
-            )
+            format!("consistent; formulas for each period{general}, values of {observed}{needed}")
         }
     }
 }
@@ -104,7 +102,7 @@ fn add_observables<T: std::borrow::Borrow<str>>(report: &mut String, observables
 fn add_periods(report: &mut String, found: &Periods, observables: &[&str]) {
     add_symbols(report, &found.symbols);
     if !found.factors.is_empty() {
-        let _ = writeln!(report, "  taken to be non-zero: {}", found.factors.join(", "));
+        let _ = writeln!(report, "  assumed nonzero: {}", found.factors.join(", "));
     }
     for (wave, solved) in &found.steps {
         let kind = match solved {
@@ -120,10 +118,10 @@ fn add_periods(report: &mut String, found: &Periods, observables: &[&str]) {
     add_observables(report, observables);
     let _ = match found.derived {
         (Derivations::InTwoWays, last) => {
-            writeln!(report, "  derived in two ways, equal on periods 0 to {last}")
+            writeln!(report, "  derived in two ways, equal in periods 0 to {last}")
         }
         (Derivations::ByEchoes, last) => {
-            writeln!(report, "  derived echo by echo, with names for rates, to echo {last}")
+            writeln!(report, "  derived echo by echo to echo {last}, with named rates")
         }
     };
     for (wave, general) in &found.general {
@@ -132,6 +130,6 @@ fn add_periods(report: &mut String, found: &Periods, observables: &[&str]) {
             General::Echoes => "echoes in closed form",
             General::Unknown => "no closed form found",
         };
-        let _ = writeln!(report, "  general n of {wave}: {general}");
+        let _ = writeln!(report, "  general form of {wave}: {general}");
     }
 }

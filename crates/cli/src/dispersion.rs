@@ -89,7 +89,7 @@ pub fn run(options: &Dispersion) -> Result<String, Failure> {
         Told::Shape(shape) => {
             let is_length = |symbol: &Symbol| symbol.name() == "b";
             if answer.relation.parameters().iter().any(is_length) {
-                let message = "`b` is the length of the pulse, and a parameter of the relation too";
+                let message = "`b` is both the length of the pulse and a parameter of the relation";
                 return Err(Failure::usage(message, "give the parameter another name"));
             }
             let name = format!("{} pulse of length b", shape.name());
@@ -181,7 +181,7 @@ fn pulse(options: &Dispersion) -> Result<Told, Failure> {
                 (None, _) => Ok(Told::Nothing),
                 (Some(_), Some(shape)) => Ok(Told::Shape(shape)),
                 (Some(_), None) => {
-                    let message = "a spectrum of one's own needs a cut-off";
+                    let message = "a custom spectrum needs a cut-off";
                     Err(Failure::usage(message, "give --length or --duration"))
                 }
             };
@@ -231,9 +231,9 @@ fn text(answer: &Answer) -> String {
     if let Some((time, seen)) = &answer.seen {
         lines.extend([
             String::new(),
-            format!("seen at t = {time}, not proven"),
+            format!("observed at t = {time}, not proven"),
             format!("x/t   = {}", seen_number(seen.velocity)),
-            format!("height {} of what it was", seen_number(seen.height / seen.first_height)),
+            format!("height {} of the initial one", seen_number(seen.height / seen.first_height)),
         ]);
     }
     lines.join("\n") + "\n"

@@ -44,9 +44,7 @@ pub fn tell(found: &Doubles, points: usize, tolerance: Option<Tolerance>, explai
         match remark {
             Remark::Tested(tested) => note_tested(tested),
             Remark::BoundTooLarge(bound) => {
-                eprintln!(
-                    "warning: {method} is proven to be within {bound:.1e}, not within {tolerance}"
-                );
+                eprintln!("warning: {method} is proven to within {bound:.1e}, not to {tolerance}");
             }
             Remark::Off(error, time) => eprintln!(
                 "warning: {method} is off by {error:.1e} at {}, more than {tolerance}",
@@ -54,19 +52,19 @@ pub fn tell(found: &Doubles, points: usize, tolerance: Option<Tolerance>, explai
             ),
             Remark::OffAtMost(error, compared) => eprintln!(
                 "note: {method} is off by at most {error:.1e} at {compared} of the times, which proves \
-                 nothing of the others"
+                 nothing about the others"
             ),
             _ if !explain => {}
             Remark::Weighed(weighed, absolute) => {
                 eprint!("{}", explained(weighed, points, &tolerance, *absolute));
             }
-            Remark::AsAskedFor => eprintln!("{method}, as asked for: {}", found.law),
+            Remark::AsAskedFor => eprintln!("{method}, as requested: {}", found.law),
             Remark::Law => eprintln!("{method}: {}", found.law),
             Remark::PromiseNotKept(method) => {
-                eprintln!("{method} did not keep its promise: certified instead");
+                eprintln!("{method} failed its check; certified is used instead");
             }
             Remark::NearSpring(spring) => {
-                eprintln!("near to it is the exact solution with the equivalent spring: {spring}");
+                eprintln!("the exact solution with the equivalent spring is close: {spring}");
             }
         }
     }
@@ -76,21 +74,21 @@ pub fn tell(found: &Doubles, points: usize, tolerance: Option<Tolerance>, explai
 pub fn count(echoes: Option<EchoCount>) {
     let Some(EchoCount { expanded, arriving, needed }) = echoes else {
         return eprintln!(
-            "echoes expanded: none one by one: values come from a closed form or from whole pieces"
+            "echoes computed: none; values come from a closed form or from whole pieces"
         );
     };
     let needed = match needed == arriving {
         true => String::new(),
-        false => format!(", {needed} of which are needed for the tolerance"),
+        false => format!(", of which the tolerance needs {needed}"),
     };
-    eprintln!("echoes expanded: {expanded} of {arriving} that can reach what is observed{needed}");
+    eprintln!("echoes computed: {expanded} of {arriving} that reach the observed place{needed}");
 }
 
 /// Says on standard error how sure values with a local contact, or with contacts that open, are.
 fn note_tested(Tested { contact, tolerance, differs }: &Tested) {
     let why = match contact {
         Some(contact) => format!("`{contact}` is a local contact"),
-        None => "contacts open here".to_owned(),
+        None => "contacts open".to_owned(),
     };
     eprintln!(
         "note: {why}; these values are tested, not certified: computed to \
@@ -98,7 +96,7 @@ fn note_tested(Tested { contact, tolerance, differs }: &Tested) {
     );
     if let Some(differs) = differs {
         eprintln!(
-            "note: a change by {:e} whenever a contact opens or closes changes them by {differs:.1e} at most",
+            "note: a change of {:e} at each opening and closing changes them by at most {differs:.1e}",
             Tested::NUDGE
         );
     }

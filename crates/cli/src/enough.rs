@@ -66,7 +66,7 @@ impl Told<'_> {
     fn window(&self) -> String {
         match self.options.to.as_deref() {
             Some(to) => format!("{} <= t <= {to}", self.options.from),
-            None => "on the usual window of each".to_owned(),
+            None => "in the default window of each".to_owned(),
         }
     }
 
@@ -86,7 +86,7 @@ impl Told<'_> {
             .map(|i| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or_default())
             .collect();
         let mut text = format!(
-            "{}, off by at most this share of its largest value, {}, proven at these values:\n\n",
+            "{}, largest error relative to its largest value, {}, proven at these values:\n\n",
             self.asked.quantity,
             self.window()
         );
@@ -95,20 +95,20 @@ impl Told<'_> {
             text += cells.collect::<Vec<_>>().join("  ").trim_end();
             text.push('\n');
         }
-        text +=
-            &format!("\nWithin {}, the first that is enough:\n\n", whole(&self.asked.tolerance));
+        text += &format!("\nThe simplest model within {}:\n\n", whole(&self.asked.tolerance));
         for (Run { between: [from, to], state: first }, open) in
             self.map.runs.iter().zip(&self.map.open)
         {
             let what = first.map_or_else(|| "exact".to_owned(), |place| self.name(place));
-            let how = if open.is_empty() { "for all of these" } else { "at both ends" };
+            let how = if open.is_empty() { "for the whole range" } else { "at both ends" };
             let range = format!("{} <= {symbol} <= {}", in_decimals(from), in_decimals(to));
             text += &format!("{range}  {what}, proven {how}\n");
             for (place, Unproven { why, undecided }) in open {
                 let between = undecided.as_deref().map_or(String::new(), |[from, to]| {
                     format!(" from {} to {}", in_decimals(from), in_decimals(to))
                 });
-                text += &format!("  open between, of {}: {why}{between}\n", self.name(*place));
+                text +=
+                    &format!("  undecided in between, for {}: {why}{between}\n", self.name(*place));
             }
         }
         text
@@ -126,7 +126,7 @@ impl Told<'_> {
             [((low * high).sqrt(), tolerance), (f64::NAN, f64::NAN)]
         };
         let points: Vec<_> = self.map.runs.windows(2).flat_map(border).collect();
-        let name = format!("borders at {}", whole(&self.asked.tolerance));
+        let name = format!("boundaries at {}", whole(&self.asked.tolerance));
         (!points.is_empty()).then_some(Curve { name, points })
     }
 
@@ -154,7 +154,7 @@ impl Told<'_> {
         };
         let caption = Caption {
             norm:
-                "the largest difference on the window over the largest value, proven at the marks"
+                "the largest difference in the window over the largest value, proven at the marks"
                     .to_owned(),
             remarks: vec![
                 "Above its line an answer is enough, proven at the marks and drawn between; a region has the colour of the \
@@ -174,7 +174,7 @@ impl Told<'_> {
         let chart = Curves::new(
             &format!("What is enough for {}", self.asked.quantity),
             Axis::logarithmic(symbol),
-            Axis::logarithmic("tolerance, share of the largest value"),
+            Axis::logarithmic("tolerance, relative to the largest value"),
             self.map.useful().into_iter().map(curve).chain(self.borders(tolerance)).collect(),
             caption,
         )?;

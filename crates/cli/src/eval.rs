@@ -79,8 +79,8 @@ fn answered(
         let (how, took) = (problem.how_found(found.origin), begin.elapsed().as_secs_f64());
         let several = plural(times.len(), "value");
         eprintln!(
-            "{several} with {count} proven digits, {took:.1} s\n  {how}\n  bound: enclosed more and \
-             more narrowly, until the last digit is rounded correctly"
+            "{several} with {count} proven digits, {took:.1} s\n  {how}\n  bound: interval arithmetic \
+             of rising precision, until the rounding is certain"
         );
     }
     if options.stats {

@@ -45,8 +45,8 @@ fn explain(history: &History, took: Duration, digits: usize) {
     }
     let History { cells, bits, .. } = history;
     eprintln!(
-        "followed from cell to cell: {cells} cells with {bits} bits, {:.1} s\n  bound: on every cell \
-         it is proven that nothing else happens; numbers are correctly rounded to {digits} digits",
+        "followed from cell to cell: {cells} cells with {bits} bits, {:.1} s\n  bound: proven for every \
+         cell that nothing else happens; numbers are correctly rounded to {digits} digits",
         took.as_secs_f64()
     );
 }
@@ -68,7 +68,7 @@ impl Told<'_> {
         for (sentence, lines) in teller.history(self.history) {
             let _ = write!(text, "\n{sentence}");
             if matches!(self.history.ending, Ending::Followed(_)) && lines.is_empty() {
-                text += " --to asks for another end.";
+                text += " --to sets another end.";
             }
             text.push('\n');
             text.extend(lines.iter().map(|line| format!("  {line}\n")));

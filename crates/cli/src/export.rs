@@ -29,8 +29,7 @@ pub fn run(options: &Export) -> Result<String, Failure> {
     drop(spinner);
     let bound = compiled.bound().expect("compiled polynomials have a bound");
     if bound > absolute {
-        let message =
-            format!("doubles are proven to be within {bound:.1e}, not within {tolerance}");
+        let message = format!("doubles are proven to within {bound:.1e}, not to {tolerance}");
         return Err(Failure::new(ACCURACY, message, "give a larger --tol"));
     }
     let set: String = options.scene.set.iter().map(|set| format!(" --set {set}")).collect();

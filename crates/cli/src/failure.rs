@@ -136,7 +136,7 @@ impl From<PictureError> for Failure {
             }
             PictureError::Plot(error) => error.into(),
             PictureError::NoFigure { .. } => {
-                Failure::usage(error.to_string(), "`wavestep figure` lists them with their titles")
+                Failure::usage(error.to_string(), "`wavestep figure` lists all figures")
             }
             error => Failure::usage(error.to_string(), "see `wavestep plot --help`"),
         }
@@ -147,7 +147,7 @@ impl From<PlotError> for Failure {
     fn from(error: PlotError) -> Failure {
         let message = error.to_string();
         match error {
-            PlotError::NotDrawn(_) => Failure::usage(message, "give another --width"),
+            PlotError::NotDrawn(_) => Failure::usage(message, "choose another --width"),
             _ => Failure::new(COMPUTATION, message, "choose another quantity or window"),
         }
     }
@@ -156,7 +156,7 @@ impl From<PlotError> for Failure {
 /// The remedy, where it takes options or subcommands of this program.
 fn in_options(cause: &ProblemError) -> Option<String> {
     if let Some(symbol) = cause.missing_value() {
-        return Some(format!("give it one: --set {symbol}=1"));
+        return Some(format!("set it: --set {symbol}=1"));
     }
     Some(match cause {
         ProblemError::Solve(error) => match &error.reason {
@@ -167,7 +167,7 @@ fn in_options(cause: &ProblemError) -> Option<String> {
             _ => VALUES.to_owned(),
         },
         ProblemError::LocalContact { spring, .. } => {
-            format!("ask for values, with `eval`, or put a spring in its place: {spring}")
+            format!("compute values with `eval`, or replace it by a spring: {spring}")
         }
         ProblemError::EnergyHasNoPieces(name) | ProblemError::ProductsHaveNoPieces(name) => {
             format!("evaluate it: wavestep eval SCENE --quantity {name} --at T")
@@ -193,38 +193,40 @@ fn usual(cause: &ProblemError) -> Option<&'static str> {
             FieldError::Undecided { .. } => return None,
             _ => "see `wavestep field --help`",
         },
-        ProblemError::ModelOfLocalContact(error) if error.is_of_measure() => "leave out --method",
+        ProblemError::ModelOfLocalContact(error) if error.is_of_measure() => "remove --method",
         ProblemError::ModelOfLocalContact(_) => STEPS,
-        ProblemError::NoClosedForm { .. } => "ask for values, with `eval`, which follows any line",
+        ProblemError::NoClosedForm { .. } => {
+            "compute values with `eval`, which works for every line"
+        }
         ProblemError::NoCommonPeriods(_) => "evaluate it with `wavestep eval`, or derive its waves",
         ProblemError::UnknownOrder(_) => {
             "give values with --set, or evaluate it with `wavestep eval`"
         }
-        ProblemError::NoPeriodsToExplain => "derive its echoes: leave out --explain",
-        ProblemError::NothingArrives(_) => "ask for a larger --through",
+        ProblemError::NoPeriodsToExplain => "derive its echoes: remove --explain",
+        ProblemError::NothingArrives(_) => "choose a larger --through",
         ProblemError::NoGeneralForm { symbol: Some(_), .. } => {
-            "ask for single orders, with --through or --piece; where a factor of symbols may vanish, \
+            "choose single orders with --through or --piece; if a factor may vanish, \
              stating `nonzero …` can help"
         }
         ProblemError::NoGeneralForm { symbol: None, .. } => {
-            "ask for single orders, with --through or --piece"
+            "choose single orders with --through or --piece"
         }
         ProblemError::NoPeriods(_)
         | ProblemError::NoPeriodsWhereContactsOpen
         | ProblemError::NoPeriodsWithLocalContact(_) => "give --at T, or --from, --to and --points",
         ProblemError::NoEnd => "give --to T",
         ProblemError::TooManyTerms(_) => {
-            "ask for a smaller order, one wave, one piece, or --form echo"
+            "choose a smaller order, one wave, one piece, or --form echo"
         }
-        ProblemError::TooManyEchoes { .. } => "ask for a smaller --through, or one wave",
+        ProblemError::TooManyEchoes { .. } => "choose a smaller --through, or one wave",
         ProblemError::EchoesOfObservable(_) => "derive the waves with --form echo",
         ProblemError::NoCommonMeasure(_) => {
-            "ask for the echoes of waves, with --quantity NAME and --through N, or evaluate"
+            "derive echoes with --quantity NAME and --through N, or evaluate"
         }
         ProblemError::NoSourceForm => {
-            "add a statement such as `written f in V/c, s as mu*z/L`, or leave out --source-form"
+            "add a statement such as `written f in V/c, s as mu*z/L`, or remove --source-form"
         }
-        ProblemError::NoGeneralSourceForm => "leave out --source-form, or --general",
+        ProblemError::NoGeneralSourceForm => "remove --source-form or --general",
         _ => return None,
     })
 }
@@ -232,14 +234,14 @@ fn usual(cause: &ProblemError) -> Option<&'static str> {
 fn for_network(error: &NetworkError) -> Option<&'static str> {
     Some(match error {
         NetworkError::Incommensurate => {
-            "ask `derive` for echoes in order of their arrival, with --form echo, or `eval` for values"
+            "use `derive --form echo` for echoes in order of arrival, or `eval` for values"
         }
         NetworkError::Rates { .. } => {
             "give values with --set; or state the elements by their rates a and b, or sigma and \
              omega, as docs/scene-language.md shows"
         }
         NetworkError::NotLinear(_) => {
-            "ask for values, with `eval`: its methods certified, compiled and steps serve such a scene"
+            "compute values with `eval`: its methods certified, compiled and steps support such scenes"
         }
         NetworkError::Division(_) => VALUES,
         _ => return None,
@@ -248,7 +250,7 @@ fn for_network(error: &NetworkError) -> Option<&'static str> {
 
 fn for_evaluate(error: &EvaluateError) -> Option<&'static str> {
     Some(match error {
-        EvaluateError::AccuracyNotReached { .. } => "raise --max-bits, or ask for fewer digits",
+        EvaluateError::AccuracyNotReached { .. } => "raise --max-bits, or use fewer digits",
         EvaluateError::EmptyWindow => WINDOW,
         _ => return None,
     })
@@ -257,11 +259,11 @@ fn for_evaluate(error: &EvaluateError) -> Option<&'static str> {
 fn for_way(error: &WayError) -> Option<&'static str> {
     Some(match error {
         WayError::Method(MethodError::NoTaps(_)) => "use --method compiled or certified",
-        WayError::Method(_) => "ask for a shorter window, or use --method certified",
+        WayError::Method(_) => "use a shorter window, or --method certified",
         WayError::NeedsRecurrence(_) => STEPS,
-        WayError::LeftLimit(_) => "leave out --side left",
+        WayError::LeftLimit(_) => "remove --side left",
         WayError::NoNumber(..) | WayError::TooSmall(_) | WayError::NotMet { .. } => {
-            "ask for digits instead: --digits 25"
+            "compute digits instead: --digits 25"
         }
         _ => return None,
     })
@@ -270,7 +272,7 @@ fn for_way(error: &WayError) -> Option<&'static str> {
 fn for_lock(refusal: &LockRefusal) -> Option<&'static str> {
     Some(match refusal {
         LockRefusal::PeriodsWhereContactsOpen => {
-            "leave out --through: events are locked, until --to T"
+            "remove --through: events are locked, until --to T"
         }
         LockRefusal::NoEvents => "give --through N for pieces and --at T for values",
         LockRefusal::NoLastPeriod => "give --through N, for the periods 0 … N, or --at T",
@@ -280,4 +282,4 @@ fn for_lock(refusal: &LockRefusal) -> Option<&'static str> {
 
 const VALUES: &str = "give values with --set";
 const WINDOW: &str = "give --from before --to";
-const STEPS: &str = "leave out --method, or ask for `--method steps:1e-10`";
+const STEPS: &str = "remove --method, or use `--method steps:1e-10`";

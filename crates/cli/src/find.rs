@@ -129,8 +129,8 @@ fn distances(
 fn scenes(options: &Find) -> Result<(input::Asked, Option<Compared>), Failure> {
     let Some(minus) = &options.minus else { return Ok((input::problem(&options.scene)?, None)) };
     if minus.trim().is_empty() {
-        let remedy = "name a scene, or what is left out of this one, such as `third`";
-        return Err(Failure::usage("`--minus` names nothing", remedy));
+        let remedy = "name a scene or a simplification, such as `third`";
+        return Err(Failure::usage("`--minus` is empty", remedy));
     }
     let scene = &options.scene.scene;
     if !input::is_scene(minus) {
@@ -164,7 +164,7 @@ fn settled(report: String, undecided: usize, what: &str) -> Result<String, Failu
     let message = format!("{} {stay} undecided", plural(undecided, what));
     let remedy = match what {
         "distance" | "value" => "ask for fewer digits, or a shorter window",
-        _ => "raise --max-bits; roots of even order stay undecided with any precision",
+        _ => "raise --max-bits; roots of even order stay undecided at any precision",
     };
     Err(Failure::new(ACCURACY, message, remedy).with_report(report))
 }
@@ -177,7 +177,7 @@ fn quantity(options: &Find) -> Result<(&str, &str), Failure> {
                 Ok((name.trim(), value.trim()))
             }
             _ => {
-                let message = format!("`--level {level}` is no quantity with a value");
+                let message = format!("`--level {level}` is not of the form QUANTITY=VALUE");
                 Err(Failure::usage(message, "write --level QUANTITY=VALUE"))
             }
         };

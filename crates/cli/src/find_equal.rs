@@ -29,7 +29,7 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     let (symbol, digits) = (&*symbol, options.digits);
     let asked = EqualExtrema { name, goal, symbol, range, times, times_name: "--between", digits };
     let found = {
-        let _progress = progress::spinner("halving");
+        let _progress = progress::spinner("bisecting");
         problem.equal_extrema(&asked)?
     };
     let report = written(&asked, &found, options);
@@ -37,7 +37,7 @@ pub fn run(options: &Find) -> Result<String, Failure> {
         None => Ok(report),
         Some(bits) => {
             let message = format!("extrema cannot be told apart with {bits} bits in this range");
-            Err(Failure::new(ACCURACY, message, "ask for fewer digits").with_report(report))
+            Err(Failure::new(ACCURACY, message, "use fewer digits").with_report(report))
         }
     }
 }
@@ -47,7 +47,7 @@ fn symbol(text: &str) -> Result<(String, [BigRational; 2]), Failure> {
     let parts =
         text.split_once('=').and_then(|(name, range)| Some((name, range.split_once("..")?)));
     let Some((name, (low, high))) = parts.filter(|(name, _)| !name.trim().is_empty()) else {
-        let message = format!("`--equal {text}` is no symbol with a range");
+        let message = format!("`--equal {text}` is not a symbol with a range");
         return Err(Failure::usage(message, "write --equal SYMBOL=LOW..HIGH"));
     };
     let (low, high) = (number("--equal", low)?, number("--equal", high)?);
@@ -88,7 +88,7 @@ fn written(asked: &EqualExtrema<'_>, found: &Crossing, options: &Find) -> String
         _ => format!(
             "{name} = {enclosure}\n\
              The {which} {quantity} for {first} <= t < {second} and for {second} <= t < {third} \
-             change places there.\nThat there is no other such value in the range is not proven.\n"
+             change places there.\nOther such values in the range are not excluded.\n"
         ),
     }
 }

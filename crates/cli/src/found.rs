@@ -173,9 +173,9 @@ fn root_line(root: &Root, told: &Told<'_>) -> String {
         Root::End { time } => format!("{} (exactly, at an end of the window)", at(time)),
         Root::Arrival { time, before, after } => {
             let limits = match (before, after) {
-                (true, true) => "in both limits",
-                (true, false) => "in the limit before, not after",
-                _ => "from then on, not in the limit before",
+                (true, true) => "both limits",
+                (true, false) => "left limit only",
+                _ => "right limit only",
             };
             format!("{} (exactly, at an arrival, {limits})", at(time))
         }

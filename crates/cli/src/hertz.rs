@@ -19,8 +19,8 @@ impl From<HertzError> for Failure {
     fn from(error: HertzError) -> Failure {
         let remedy = match error {
             HertzError::Enclosure(_) => "give it one: --set NAME=VALUE",
-            HertzError::NotPositive(..) => "let the left bar run into the right one",
-            HertzError::Share(_) => "give shares such as 1/10,1/2,9/10",
+            HertzError::NotPositive(..) => "let the left bar move towards the right one",
+            HertzError::Share(_) => "give fractions such as 1/10,1/2,9/10",
             HertzError::Time(_) => "give times from 0 on",
             HertzError::Exponent(_) => "give an exponent such as 3/2",
             _ => "see `wavestep scenes local-contact` for an example",
@@ -128,7 +128,7 @@ impl Told<'_> {
                 key: "distance_from_spring".to_owned(),
                 unit: "of the largest force".to_owned(),
                 digits: self.options.digits.min(PLACES as usize - 2),
-                ..self.row("its force is off by at most", &distance, Dimension::NONE)
+                ..self.row("its largest error in force", &distance, Dimension::NONE)
             },
         ])
     }
@@ -168,8 +168,8 @@ impl Told<'_> {
 fn told_past_return(contact: &ContactOfScene, name: &str, time: &Ball) {
     if contact.first_return.as_ref().is_some_and(|until| until.is_below(time)) {
         eprintln!(
-            "note: {name} is that of endless bars, and a wave from a far end is felt earlier; `eval` \
-             follows it"
+            "note: {name} assumes endless bars, but a wave from a far end returns earlier; `eval` takes \
+             it into account"
         );
     }
 }

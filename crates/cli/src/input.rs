@@ -102,7 +102,7 @@ pub fn bytes(name: &str, limit: usize) -> std::io::Result<Vec<u8>> {
 pub fn digits(digits: usize) -> Result<usize, Failure> {
     if digits == 0 || digits > MAX_DIGITS {
         let message = format!("{digits} significant digits cannot be certified");
-        return Err(Failure::usage(message, format!("ask for 1 to {MAX_DIGITS} digits")));
+        return Err(Failure::usage(message, format!("give 1 to {MAX_DIGITS} digits")));
     }
     Ok(digits)
 }
@@ -118,7 +118,7 @@ pub fn values(settings: &[String]) -> Result<Values, Failure> {
             return Err(Failure::usage(message, "write --set NAME=VALUE"));
         }
         if value.trim().is_empty() {
-            let message = format!("`--set {setting}` gives no value");
+            let message = format!("`--set {setting}` has no value");
             return Err(Failure::usage(message, format!("write --set {name}=1")));
         }
         let value = number(&format!("--set {name}"), value)?;

@@ -35,7 +35,7 @@ pub fn run(options: &Options) -> Result<String, Failure> {
 fn refused(error: ProblemError) -> Failure {
     match error {
         ProblemError::TooManyTerms(_) => {
-            Failure::from(error).with_remedy("ask for a smaller --through")
+            Failure::from(error).with_remedy("use a smaller --through")
         }
         error => error.into(),
     }
@@ -45,15 +45,15 @@ fn refused(error: ProblemError) -> Failure {
 fn write(options: &Options, lock: &Lock) -> Result<String, Failure> {
     let text = lock.to_text();
     if text.len() > MAX_LOCK_BYTES {
-        let message = format!("this would be a file of {} bytes", text.len());
-        let remedy = format!("files have at most {MAX_LOCK_BYTES}: ask for a smaller --through");
+        let message = format!("this file would have {} bytes", text.len());
+        let remedy = format!("the limit is {MAX_LOCK_BYTES}: use a smaller --through");
         return Err(Failure::usage(message, remedy));
     }
     // What cannot be read back, such as numbers of a thousand digits, is not written.
     let source = Source::with_limit("lock", &text, MAX_LOCK_BYTES);
     if !source.is_ok_and(|text| Lock::read(&text).is_ok_and(|read| read == *lock)) {
         let message = "the numbers or powers in these pieces are too long to be read back";
-        return Err(Failure::usage(message, "ask for a smaller --through, or shorter values"));
+        return Err(Failure::usage(message, "use a smaller --through, or fewer digits"));
     }
     let Some(file) = options.output.output.as_ref().filter(|file| *file != "-") else {
         return Ok(text);
@@ -61,17 +61,14 @@ fn write(options: &Options, lock: &Lock) -> Result<String, Failure> {
     if fs::canonicalize(file)
         .is_ok_and(|file| fs::canonicalize(&options.scene.scene).ok() == Some(file))
     {
-        return Err(Failure::usage(
-            "the scene itself would be replaced",
-            "name another file with -o",
-        ));
+        return Err(Failure::usage("this would overwrite the scene", "name another file with -o"));
     }
     write_whole(Path::new(file), text.as_bytes())?;
     Ok(format!("{file}: locked {}\n", counted(lock)))
 }
 
 /// What a differing scene is to be treated with.
-const AGAIN: &str = "undo what was changed in the scene, or lock it again";
+const AGAIN: &str = "undo the change of the scene, or lock it again";
 
 pub fn check(scene: &str, file: &str) -> Result<String, Failure> {
     let bytes = input::bytes(file, MAX_LOCK_BYTES).map_err(|error| {
@@ -82,11 +79,12 @@ pub fn check(scene: &str, file: &str) -> Result<String, Failure> {
     let problem = input::problem_with(scene, &locked.request().set)?;
     let progress = progress::spinner("deriving");
     let differences = problem.differences(&locked).map_err(|error| match error {
-        ProblemError::NoLock(LockRefusal::PiecesLocked) => {
-            Failure::usage(format!("{file} holds pieces, and contacts open in {scene} now"), AGAIN)
-        }
+        ProblemError::NoLock(LockRefusal::PiecesLocked) => Failure::usage(
+            format!("{file} contains pieces, but contacts now open in {scene}"),
+            AGAIN,
+        ),
         ProblemError::NoLock(LockRefusal::EventsLocked) => {
-            let message = format!("{file} holds events, and no contacts open in {scene} now");
+            let message = format!("{file} contains events, but no contact opens in {scene} now");
             Failure::usage(message, AGAIN)
         }
         error => Failure::from(error).with_remedy(AGAIN),
@@ -98,7 +96,7 @@ pub fn check(scene: &str, file: &str) -> Result<String, Failure> {
     let report: String = differences.iter().map(ToString::to_string).collect();
     let count = plural(differences.len(), "place");
     let message = format!("{scene} differs in {count} from {file}");
-    let remedy = "if that is meant, lock again; else undo what was changed in the scene";
+    let remedy = "if the change is intended, lock again; otherwise undo it";
     Err(Failure::new(COMPUTATION, message, remedy).with_report(report))
 }
 

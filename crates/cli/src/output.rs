@@ -51,7 +51,7 @@ pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
     };
     written.map_err(|error| {
         let message = format!("the file `{}` cannot be written: {error}", file.display());
-        Failure::usage(message, "name a file in a folder that exists and can be written to")
+        Failure::usage(message, "name a file in an existing, writable folder")
     })
 }
 

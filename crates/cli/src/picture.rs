@@ -27,13 +27,13 @@ pub fn draw(
             "json" => |chart, _| Ok(format!("{:#}\n", chart.json()).into_bytes()),
             "csv" => |chart, _| Ok(chart.csv().into_bytes()),
             _ => {
-                let message = format!("`{file}` does not say what to write");
+                let message = format!("the extension of `{file}` is not a known format");
                 let likely = language::closest(ending, ["svg", "pdf", "png", "json", "csv"]);
                 let remedy = match likely {
                     Some(likely) => {
                         format!("did you mean `{}`?", path.with_extension(likely).display())
                     }
-                    None => "name a file that ends with .svg, .pdf, .png, .json or .csv".to_owned(),
+                    None => "use the extension .svg, .pdf, .png, .json or .csv".to_owned(),
                 };
                 return Err(Failure::usage(message, remedy));
             }

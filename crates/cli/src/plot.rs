@@ -63,8 +63,8 @@ fn fields(options: &Plot) -> Result<Vec<Quantity>, Failure> {
     let field = |name: &String| {
         let found = Quantity::ALL.into_iter().find(|quantity| quantity.name() == name);
         found.ok_or_else(|| {
-            let message = format!("`{name}` is no field along the line");
-            Failure::usage(message, "ask for velocity, strain, displacement or force")
+            let message = format!("`{name}` is not a field along the line");
+            Failure::usage(message, "choose velocity, strain, displacement or force")
         })
     };
     options.quantity.iter().map(field).collect()

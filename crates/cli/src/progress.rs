@@ -75,8 +75,8 @@ fn shown(length: Option<u64>, template: &str, work: &'static str) -> Progress {
             let minutes = left.as_secs().div_ceil(60);
             bar.suspend(|| {
                 eprintln!(
-                    "note: {percent} is followed, and the rest takes about {minutes} minutes more; an earlier \
-                     end takes less, and Ctrl-C stops it"
+                    "note: {percent} is done; the rest takes about {minutes} minutes more; an earlier end takes \
+                     less, and Ctrl-C stops it"
                 );
             });
         }

@@ -71,13 +71,13 @@ pub fn times(problem: &Problem, name: &str, options: &Eval) -> Result<Vec<BigRat
         }
         if points == 0 || points > MAX_POINTS {
             let message = format!("{points} points cannot be evaluated at once");
-            return Err(Failure::usage(message, format!("ask for 1 to {MAX_POINTS} points")));
+            return Err(Failure::usage(message, format!("give 1 to {MAX_POINTS} points")));
         }
         return Ok(evenly_spaced(&from, &to, points));
     }
     if options.at.is_empty() {
         let remedy = "give --at T, or --from T --to T --points N, or --piece N --local S";
-        return Err(Failure::usage("no time is given", remedy));
+        return Err(Failure::usage("no times are given", remedy));
     }
     options.at.iter().map(|time| Ok(problem.time("--at", time.as_str())?)).collect()
 }

@@ -18,17 +18,14 @@ pub fn note_derivation(problem: &Problem) {
 pub fn derivation(problem: &Problem) -> Option<String> {
     Some(match problem.holds(DIGITS)? {
         Holds::UntilTheyPart(time, [left, right]) => {
-            format!(
-                "this holds until t = {}, when {left} and {right} move apart",
-                text(problem, &time)
-            )
+            format!("valid until t = {}, when {left} and {right} separate", text(problem, &time))
         }
         Holds::UntilItPulls(time, [left, right]) => format!(
-            "this holds until t = {}, when the contact between {left} and {right} would pull",
+            "valid until t = {}, when the contact between {left} and {right} goes into tension",
             text(problem, &time)
         ),
         Holds::AtLeastUntil(time) => format!(
-            "this holds until t = {} at least: no contact would pull before",
+            "valid at least until t = {}: no contact goes into tension before",
             text(problem, &time)
         ),
         Holds::AsLongAs(contacts) => {
@@ -37,7 +34,7 @@ pub fn derivation(problem: &Problem) -> Option<String> {
                 format!("{force} >= 0 at the contact between {left} and {right}")
             };
             let conditions: Vec<String> = contacts.iter().map(condition).collect();
-            format!("this is valid as long as {}", conditions.join(" and "))
+            format!("valid as long as {}", conditions.join(" and "))
         }
     })
 }
@@ -53,11 +50,11 @@ pub fn note_pulling(problem: &Problem, last: &BigRational) {
 pub fn pulling(problem: &Problem, last: &BigRational) -> Option<String> {
     Some(match problem.pulls(last, DIGITS)? {
         Pulls::From(time, [left, right]) => format!(
-            "from t = {} on the contact between {left} and {right} would pull; with `contacts open` it opens then",
+            "from t = {} on, the contact between {left} and {right} is in tension; with `contacts open` it opens then",
             text(problem, &time)
         ),
         Pulls::NotKnownFrom(time) => format!(
-            "no contact would pull before t = {}; later ones were not looked for: `contacts open` follows them",
+            "no contact goes into tension before t = {}; later times were not checked: `contacts open` follows contacts that open",
             text(problem, &time)
         ),
     })

@@ -62,10 +62,10 @@ impl Teller<'_> {
         let [left, right] = &event.between;
         let exact = event.exact.as_ref().map(|exact| format!(" = {}", expression_text(exact)));
         let happens = match event.kind {
-            EventKind::Impact => "press on each other",
-            EventKind::Opening => "part",
-            EventKind::Release => "touch without force from now on",
-            EventKind::Closing => "meet again",
+            EventKind::Impact => "make contact",
+            EventKind::Opening => "separate",
+            EventKind::Release => "touch without force from here on",
+            EventKind::Closing => "make contact again",
         };
         let time = self.value(&event.time, Dimension::TIME) + &exact.unwrap_or_default();
         let mut lines = vec![format!("force    {}", self.pair(&event.forces, Dimension::FORCE))];
@@ -83,7 +83,7 @@ impl Teller<'_> {
     fn body(&self, body: &Body) -> String {
         let named = [
             ("energy", &body.energy, Dimension::ENERGY),
-            ("of vibration", &body.vibration, Dimension::ENERGY),
+            ("vibration energy", &body.vibration, Dimension::ENERGY),
             ("momentum", &body.momentum, Dimension::MOMENTUM),
             ("mean velocity", &body.velocity, Dimension::VELOCITY),
         ];
@@ -103,12 +103,12 @@ impl Teller<'_> {
                         self.value(duration, Dimension::TIME)
                     )
                 }
-                None => format!("closed still, impulse so far {impulse}"),
+                None => format!("still closed, impulse so far {impulse}"),
             }
         });
         let mut lines: Vec<String> = closed.collect();
         if lines.is_empty() {
-            lines.push("no force until the end".to_owned());
+            lines.push("no force throughout".to_owned());
         }
         let restitution = contact.restitution.as_ref();
         lines.extend(
@@ -122,13 +122,13 @@ impl Teller<'_> {
     fn ending(&self, ending: &Ending) -> String {
         match ending {
             Ending::Parted => {
-                "Nothing meets again: the bodies move apart, or rest, and their energy of vibration \
-                 does not\nsuffice to bring them together."
+                "No further contact: the bodies move apart or stay at rest, and their vibration energy \
+                 is too\nsmall to bring them together."
                     .to_owned()
             }
             Ending::Followed(end) => {
                 let end = self.value(end, Dimension::TIME);
-                format!("Followed until t = {end}; what comes later is not known.")
+                format!("Followed until t = {end}; later events are not known.")
             }
             Ending::NoContact => "Nothing can open: there is no contact.".to_owned(),
         }
@@ -141,9 +141,9 @@ impl Teller<'_> {
             Place::End(time) => format!("at t = {} (end of the window)", self.time(time)),
             Place::Arrival { time, before, after } => {
                 let limit = match (before, after) {
-                    (true, true) => "in both limits",
-                    (false, _) => "from then on",
-                    _ => "limit before; not attained",
+                    (true, true) => "both limits",
+                    (false, _) => "right limit",
+                    _ => "left limit, not attained",
                 };
                 format!("at t = {} (arrival, {limit})", self.time(time))
             }

@@ -14,7 +14,7 @@ type Plain = [&'static str; 3];
 
 /// `**`
 pub(super) const DOUBLE_STAR: Plain =
-    ["`**` is no operator", "a power?", "write powers with `^`: `x^2`"];
+    ["`**` is not an operator", "a power?", "write powers with `^`: `x^2`"];
 
 /// `1.2.3`
 pub(super) const TWO_POINTS: Plain =
@@ -33,7 +33,7 @@ pub(super) const SUM_OF_UNITS: Plain = [
 
 /// `line free - fixed`
 pub(super) const EMPTY_LINE: Plain = [
-    "the line holds no element",
+    "the line has no element",
     "the right end",
     "name elements between the ends: `line free - rod - fixed`",
 ];
@@ -42,12 +42,12 @@ pub(super) const EMPTY_LINE: Plain = [
 pub(super) const TWO_MEASURES: Plain = [
     "a product of measures cannot be observed",
     "times this",
-    "observe both, each by a statement of its own, or add them",
+    "observe each in its own statement, or add them",
 ];
 
 /// `1/force(a)`
 pub(super) const DIVIDED_BY_MEASURE: Plain = [
-    "a measure cannot be divided by",
+    "a measure cannot be a divisor",
     "divided by here",
     "observe a sum of measures, each with a factor: `2*force(rod.left)`",
 ];
@@ -60,13 +60,13 @@ const POWER_OF_MEASURE: Plain =
 pub(super) const NOTHING_MEASURED: Plain = [
     "this measures nothing",
     "no measure in here",
-    "each term holds a measure at a place, such as `velocity(ram)` or `2*force(rod.left)`",
+    "each term needs a measure at a place, such as `velocity(ram)` or `2*force(rod.left)`",
 ];
 
 /// `(force(a) - force(b))/2`
 pub(super) const GROUPED_MEASURES: Plain = [
-    "measures cannot stand in parentheses",
-    "opens around a measure",
+    "measures cannot be in parentheses",
+    "encloses a measure",
     "multiply out: `force(a.left)/2 - force(b.left)/2`",
 ];
 
@@ -75,7 +75,7 @@ type Lack = [&'static str; 2];
 
 /// `sum(a[i])`
 pub(super) const RANGE: Lack =
-    ["`,` and the range of the sum", "a sum says over what it runs: `sum(f[i], i < n)`"];
+    ["`,` and the range of the sum", "a sum needs its range: `sum(f[i], i < n)`"];
 
 /// `f[2*n]`, `f[]`
 pub(super) const INDEX: Lack = ["a wave index", INDEX_REMEDY];
@@ -85,7 +85,7 @@ pub(super) const COMMA: Lack = ["`,` or a unit", COMMAS];
 
 /// `N/2`
 pub(super) const UNIT: Lack =
-    ["the name of a unit", "numbers stand before the unit: `3/2 m`, `7850 kg/m^3`"];
+    ["the name of a unit", "numbers come before the unit: `3/2 m`, `7850 kg/m^3`"];
 
 /// Something is needed, and the remedy is always the same, unless the text suggests a better one.
 pub(super) fn lacking(input: Input<'_>, [what, remedy]: Lack) -> Diagnostic {
@@ -191,12 +191,12 @@ fn replacement(character: char) -> Option<&'static str> {
         '√' => "write `sqrt(2)`",
         '“' | '”' | '„' | '«' | '»' => "write straight quotation marks: \"…\"",
         '{' | '}' => "group with parentheses: `(…)`",
-        '!' => "there is no factorial; `!` only stands in `!=`",
+        '!' => "there is no factorial; `!` is only used in `!=`",
         '%' => "there is no percent sign; write `0.05` for 5 %",
         ';' => "end a statement by ending the line; separate names by `,`",
         '"' => "only the title is quoted",
         '|' => "there is no absolute value",
-        '\\' => "this is no LaTeX: write `mu`, `exp(…)`, `a/b`",
+        '\\' => "this is not LaTeX: write `mu`, `exp(…)`, `a/b`",
         ':' => "write `=`, not `:=`",
         _ => return None,
     })
@@ -268,7 +268,7 @@ fn stray(input: Input<'_>) -> Option<Diagnostic> {
             Some(at(input, message, span, "closes nothing").with_remedy(remedy))
         }
         '[' if before(input) == Some(')') => Some(
-            at(input, "only a wave has an index", span, "this index belongs to no name")
+            at(input, "only a wave has an index", span, "this index has no name before it")
                 .with_remedy("write the index after each wave: `f[n] + g[n]`"),
         ),
         '\'' | '′' | '’' | '″' => Some(misplaced_prime(input, span, "f")),
@@ -321,7 +321,7 @@ pub(super) fn expected_expression(input: Input<'_>) -> Diagnostic {
     let previous = before(input).filter(|_| input.offset > 0);
     if start.text.starts_with('=') && previous == Some('=') {
         let span = Span::new(input.offset - 1, start.offset + 1);
-        return at(input, "`==` is no sign of the language", span, "an equation?")
+        return at(input, "`==` is not an operator", span, "an equation?")
             .with_remedy("write one `=`");
     }
     let remedy = match previous {
@@ -357,7 +357,7 @@ pub(super) fn unclosed(input: Input<'_>, opener: Span, closing: &str) -> Diagnos
             .with_remedy(missing);
     }
     let remedy = match next.kind == FoundKind::Word && input.context.extent == Extent::Unit {
-        true => "a unit stands behind the whole value, and multiplication is always written".into(),
+        true => "a unit follows the whole value, and products need `*`".into(),
         false => missing,
     };
     expected_with(input, &format!("an operator or `{closing}`"), remedy)
@@ -383,7 +383,7 @@ pub(super) fn missing_operator(left: &Expression, input: Input<'_>) -> Diagnosti
     let applied = source.text()[next.span.end..].starts_with('(');
     let remedy = match &left.value {
         Node::Name(_) if is_number && extent == Extent::Unit => format!(
-            "a unit stands behind the value, as in `{after} {before}`; a product is written \
+            "a unit follows the value, as in `{after} {before}`; a product is written \
              `{before}*{after}`"
         ),
         Node::Number(_) if is_number => {
@@ -396,21 +396,20 @@ pub(super) fn missing_operator(left: &Expression, input: Input<'_>) -> Diagnosti
         _ => format!("write `{before}*{after}`"),
     };
     let message = format!("an operator is missing before {}", next.description);
-    at(input, message, next.span, "multiplication is always written")
+    at(input, message, next.span, "products need `*`")
         .with_secondary(left.span, "the factor before")
         .with_remedy(remedy)
 }
 
 /// `f'` or `f'[n]`
 pub(super) fn misplaced_prime(input: Input<'_>, span: Span, name: &str) -> Diagnostic {
-    at(input, "a prime stands only after the index of a wave", span, "not after an index")
+    at(input, "a prime may only follow the index of a wave", span, "not after an index")
         .with_remedy(format!("write the derivative of a wave as `{name}[n]'`"))
 }
 
 /// `exp` or another function where a name is needed.
 pub(super) fn reserved(input: Input<'_>, name: &str, span: Span) -> Diagnostic {
-    let message =
-        format!("`{name}` is a function of the language, so nothing else can have this name");
+    let message = format!("`{name}` is a function, so nothing else can have this name");
     at(input, message, span, "reserved").with_remedy("choose another name")
 }
 
@@ -471,7 +470,7 @@ pub(super) fn literal(input: Input<'_>, span: Span, error: LiteralError) -> Diag
         LiteralError::ExponentTooLarge => (
             format!("the decimal exponent is beyond ±{MAX_DECIMAL_EXPONENT}"),
             "out of range",
-            "choose units in which the numbers are of moderate size",
+            "choose units that give numbers of moderate size",
         ),
     };
     at(input, message, span, label).with_remedy(remedy)
@@ -480,14 +479,14 @@ pub(super) fn literal(input: Input<'_>, span: Span, error: LiteralError) -> Diag
 /// Too many levels.
 pub(super) fn too_deep(input: Input<'_>, span: Span) -> Diagnostic {
     at(input, format!("nested deeper than {MAX_NESTING} levels"), span, "one level too many")
-        .with_remedy("remove needless parentheses and signs, or name a part with a symbol")
+        .with_remedy("remove unneeded parentheses and signs, or use a symbol for a part")
 }
 
 /// A quotation mark without partner.
 pub(super) fn unclosed_string(input: Input<'_>, opener: Span, end: Span) -> Diagnostic {
     at(input, "the quotation mark is never closed", opener, "opened here")
         .with_secondary(end, "`\"` expected before the end of the line")
-        .with_remedy("a title stands on one line, and contains no quotation mark")
+        .with_remedy("a title is on one line and contains no quotation mark")
 }
 
 /// The first statement is another than `recurrence`.
@@ -501,7 +500,7 @@ pub(super) fn second_title(input: Input<'_>, span: Span, first: Span) -> Diagnos
     let whole = input.context.forms[0].0;
     at(input, "a second title", span, format!("another {whole} begins here"))
         .with_secondary(first, "the first title")
-        .with_remedy(format!("a text holds one {whole}; put the other into a file of its own"))
+        .with_remedy(format!("a text has one {whole}; put the other in a separate file"))
 }
 
 /// A statement that begins with no word at all.
@@ -558,7 +557,7 @@ fn keywords(input: Input<'_>) -> String {
 
 /// A text of blanks and comments.
 pub(super) fn no_statement(source: &Source, form: &str) -> Diagnostic {
-    Diagnostic::new(source, "the text holds no statement", Span::new(0, 0), "no statement here")
+    Diagnostic::new(source, "the text has no statement", Span::new(0, 0), "no statement here")
         .with_remedy(format!("begin with a line like `{form}`"))
 }
 
@@ -577,13 +576,13 @@ pub(super) fn open_brace(input: Input<'_>, opener: Span, what: &str) -> Diagnost
     expected_with(input, what, remedy).with_secondary(opener, "the properties open here")
 }
 
-const COMMAS: &str = "separate properties by commas, also at the ends of lines";
+const COMMAS: &str = "separate properties by commas, even at line ends";
 
 /// A power of a unit that is no small whole number.
 pub(super) fn unit_power(from: Input<'_>, to: Input<'_>) -> Diagnostic {
     let start = from.after_blanks().offset;
     let span = Span::new(start, to.offset.max(start));
-    let message = "the power of a unit is a small whole number";
+    let message = "the power of a unit must be a small whole number";
     at(from, message, span, "not a whole number from -9 to 9")
         .with_remedy("write it like `m^3`, `s^-1` or `m³`")
 }
@@ -604,7 +603,7 @@ pub(super) fn expected_right_end(input: Input<'_>, last: &Name) -> Diagnostic {
 
 fn end_of_line_expected(input: Input<'_>, side: &str, word: &str) -> Diagnostic {
     let remedy = did_you_mean(word, End::ALL.map(End::word));
-    let what = format!("what is at the {side} end: `free`, `fixed` or `endless`");
+    let what = format!("the {side} end: `free`, `fixed` or `endless`");
     expected_with(input, &what, remedy.unwrap_or_else(|| END_TO_END.to_owned()))
 }
 
@@ -621,16 +620,16 @@ pub(super) fn measure_alone(input: Input<'_>, word: &str, span: Span) -> Diagnos
 
 /// `observe v = rod.left`
 pub(super) fn place_alone(input: Input<'_>, word: &str, span: Span) -> Diagnostic {
-    at(input, "a place alone is no quantity", span, "what is measured here?")
-        .with_remedy(format!("name what is measured: `velocity({word}.left)`"))
+    at(input, "a place alone is not a quantity", span, "what is measured here?")
+        .with_remedy(format!("name the measure: `velocity({word}.left)`"))
 }
 
 /// `speed(ram)`
 pub(super) fn unknown_measure(input: Input<'_>, word: &str, span: Span) -> Diagnostic {
     let words = Measure::ALL.map(Measure::word);
-    at(input, format!("{} cannot be measured", quoted(word)), span, "no measure")
+    at(input, format!("{} cannot be measured", quoted(word)), span, "not a measure")
         .with_closest(word, words)
-        .or_remedy(format!("what can be measured: {}", choice(words)))
+        .or_remedy(format!("the measures are {}", choice(words)))
 }
 
 /// The parenthesis of a place is not closed.

@@ -218,12 +218,8 @@ impl<'a> Lowering<'a> {
             return Some(());
         }
         let span = property.map_or(self.tree.title.span, |property| property.value.span);
-        let error = self.not_positive(
-            format!("{what} is not certainly positive"),
-            span,
-            value,
-            Least::Positive,
-        );
+        let error =
+            self.not_positive(format!("{what} must be positive"), span, value, Least::Positive);
         self.refuse(error)
     }
 
@@ -313,7 +309,7 @@ impl<'a> Lowering<'a> {
             }
             (None | Some(Ok(Ideal::Rigid)), Some(share)) => {
                 let name = &share.name.value;
-                let message = format!("a bar has a {name} where it is a spring");
+                let message = format!("only a bar with `as = spring` has a {name}");
                 let error = self.error(message, share.name.span, "of no spring");
                 let remedy = format!("write `as = spring` too, or remove `{name}`");
                 self.refuse(error.with_remedy(remedy))
@@ -411,7 +407,7 @@ impl<'a> Lowering<'a> {
                 let span = outer_property.map_or(given.span(), |outer| outer.value.span);
                 let error = self
                     .error(
-                        "the inner diameter is not certainly smaller than the diameter",
+                        "the inner diameter must be smaller than the diameter",
                         property.value.span,
                         "the inner diameter",
                     )
@@ -445,7 +441,7 @@ impl<'a> Lowering<'a> {
         let drive = given.get("force").map(|force| (force, Drive::Force, FORCE));
         let velocity = given.get("velocity").map(|velocity| (velocity, Drive::Velocity, VELOCITY));
         let Some((property, drive, (_, what, needed))) = drive.or(velocity) else {
-            let message = "this load gives neither force nor velocity";
+            let message = "this load has neither force nor velocity";
             return self.lack(given, message, "force = 3 kN` or `velocity = 2 m/s");
         };
         let course = self.course(&property.value, property.unit.as_ref(), needed, what);

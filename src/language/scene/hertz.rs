@@ -68,7 +68,7 @@ impl Lowering<'_> {
             self.refuse_both(given, "stiffness", point)?;
         }
         if LAW[..3].iter().all(|name| given.get(name).is_none()) {
-            let message = "this local contact has neither a law nor bodies";
+            let message = "this local contact has neither a force law nor bodies";
             let example = "force = 10 kN, compression = 1/10 mm` or \
                            `radius = 6 mm, modulus = 210 GPa, poisson = 3/10";
             return self.lack(given, message, example);
@@ -174,11 +174,11 @@ impl Lowering<'_> {
         }
         let span = given.get(body.poisson.0).map_or(given.span(), |property| property.value.span);
         let label = match poisson.as_constant() {
-            Some(_) => "outside of this",
-            None => "may be outside of this",
+            Some(_) => "outside this range",
+            None => "may be outside this range",
         };
         let error = self
-            .error("Poisson's ratio is above -1 and at most 1/2", span, label)
+            .error("Poisson's ratio must be above -1 and at most 1/2", span, label)
             .with_remedy("metals have about 3/10, rubber has nearly 1/2");
         self.refuse(error)
     }
@@ -192,7 +192,7 @@ impl Lowering<'_> {
             let radius = self.optional(given, body.radius).ok()??;
             if radius.is_zero() {
                 let error = self
-                    .error("a radius is not zero", property.value.span, "this is zero")
+                    .error("a radius cannot be zero", property.value.span, "this is zero")
                     .with_remedy("leave it out for a flat body, or give the radius of the tip");
                 return self.refuse(error);
             }
@@ -200,15 +200,14 @@ impl Lowering<'_> {
             widest = Some(property.value.span);
         }
         let Some(span) = widest else {
-            let message = "this local contact is of two flat bodies";
+            let message = "both bodies of this local contact are flat";
             return self.lack(given, message, "radius = 6 mm");
         };
         if !self.scope.assumptions.is_positive(&curvature) {
             let message = "the bodies do not certainly touch at one point: 1/R1 + 1/R2 is not \
                            certainly positive";
-            let error = self.error(message, span, "too hollow").with_remedy(
-                "a hollow, of negative radius, has to be wider than the ball in it: give it a larger \
-                 radius",
+            let error = self.error(message, span, "too concave").with_remedy(
+                "a concave body, of negative radius, needs a larger radius than the ball in it",
             );
             return self.refuse(error);
         }
@@ -218,7 +217,7 @@ impl Lowering<'_> {
     /// One over a value that is not zero.
     fn reciprocal(&mut self, span: Span, value: &Fraction) -> Option<Fraction> {
         let inverse = value.inverse().map_err(|_| {
-            let message = "this would have to be divided by, and is not known to be non-zero";
+            let message = "this is a divisor, and may be zero";
             self.error(message, span, "divides")
                 .with_remedy("give its symbols values with --set, or write numbers")
         });

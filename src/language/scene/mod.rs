@@ -258,7 +258,7 @@ impl<'a> Lowering<'a> {
                     let error = self
                         .error("a scene has one line", statement.span, "a second line")
                         .with_secondary(first, "the first line")
-                        .with_remedy("remove one of the two, or put it into a file of its own");
+                        .with_remedy("remove one of the two, or put it in a separate file");
                     self.errors.push(error);
                 }
             }
@@ -266,7 +266,7 @@ impl<'a> Lowering<'a> {
         let Some((line, _)) = found else {
             let error = self
                 .error("no line is stated", self.tree.title.span, "of this scene")
-                .with_remedy("say how the elements are joined, as in `line free - rod - fixed`");
+                .with_remedy("state how the elements are joined, as in `line free - rod - fixed`");
             return self.refuse(error);
         };
         let mut elements = Vec::new();

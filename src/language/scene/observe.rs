@@ -106,7 +106,11 @@ impl Lowering<'_> {
             let symbol = needed.unit();
             let shown = self.shown(tree);
             return Err(self
-                .error("an endless bar has no length to take a share of", tree.span, "a share")
+                .error(
+                    "an endless bar has no length, so a fraction of it has no meaning",
+                    tree.span,
+                    "a fraction",
+                )
                 .with_secondary(
                     self.elements[element].declaration.name.span,
                     format!("`{}` is endless", name.value),

@@ -123,12 +123,12 @@ impl Lowering<'_> {
                 return (fault.to_string(), labels, "observe them by a statement each".to_owned());
             }
             Mistake::Unused => (
-                format!("`{name}` does not stand in the line"),
+                format!("`{name}` is not in the line"),
                 &["declared here", "not in this line"],
-                format!("put `{name}` into the line, or remove it"),
+                format!("add `{name}` to the line, or remove it"),
             ),
             Mistake::Held => (
-                format!("the {} `{name}` can do nothing at a fixed end", noun()),
+                format!("the {} `{name}` has no effect at a fixed end", noun()),
                 &["cannot move", "fixed here"],
                 format!("remove `{name}`, or put a bar or a spring between it and the fixed end"),
             ),
@@ -148,14 +148,14 @@ impl Lowering<'_> {
                     _ => "length",
                 };
                 let remedy = format!(
-                    "leave out the `{property}` of `{second}`, or end the line with `free` or `fixed`"
+                    "remove the `{property}` of `{second}`, or end the line with `free` or `fixed`"
                 );
                 (fault.to_string(), &["`endless` here", "this bar", "has a length"], remedy)
             }
             mistake => {
                 let (labels, remedy) = plain(mistake);
                 let message = match mistake {
-                    Mistake::Repeated => format!("`{name}` stands in the line twice"),
+                    Mistake::Repeated => format!("`{name}` is in the line twice"),
                     _ => fault.to_string(),
                 };
                 (message, labels, remedy.to_owned())
@@ -175,7 +175,7 @@ impl Lowering<'_> {
             Some(Part::Right) => Some(scene.line.right),
             _ => None,
         };
-        let mut labels = vec!["more lies beyond it".to_owned(), format!("no `{property}`")];
+        let mut labels = vec!["there is more beyond it".to_owned(), format!("no `{property}`")];
         let mut remedy = format!("give `{name}` a `{property}`");
         if let Some(end) = end {
             labels[0] = "without length".to_owned();
@@ -239,9 +239,9 @@ impl Lowering<'_> {
         let beside = match (&scene.elements[element].kind, seen.measure) {
             (Kind::Bar(_), _) => "",
             (_, Measure::Velocity | Measure::Displacement) => {
-                ", or the end of a bar or a mass beside it"
+                ", or the end of a bar or a mass next to it"
             }
-            (Kind::Mass(_), Measure::Force) => ", or the force at the end of a bar beside it",
+            (Kind::Mass(_), Measure::Force) => ", or the force at the end of a bar next to it",
             _ => "",
         };
         (
@@ -262,10 +262,9 @@ fn plain(mistake: Mistake) -> (&'static [&'static str], &'static str) {
         Mistake::NoStiffness => {
             (&["both are zero"], "give a positive `stiffness` or a positive `damping`")
         }
-        Mistake::EndsBeforeBegin => (
-            &["ends here", "begins here"],
-            "let `until` be later than `from`, which is 0 if it is left out",
-        ),
+        Mistake::EndsBeforeBegin => {
+            (&["ends here", "begins here"], "`until` must be later than `from` (default 0)")
+        }
         Mistake::ExponentTooSmall => {
             (&["smaller"], "give a larger `exponent`; a ball on a flat body has 3/2")
         }
@@ -274,7 +273,7 @@ fn plain(mistake: Mistake) -> (&'static [&'static str], &'static str) {
         }
         Mistake::NothingMoves => (
             &["at rest, and without load"],
-            "give something in the line a `velocity` or a `strain`, or add a load",
+            "give an element a `velocity` or a `strain`, or add a load",
         ),
         Mistake::EndlessBothSides => (
             &["this bar", "endless here", "and here"],
@@ -285,7 +284,7 @@ fn plain(mistake: Mistake) -> (&'static [&'static str], &'static str) {
         }
         Mistake::TwoVelocities => (
             &["imposes a velocity", "imposes one too"],
-            "impose one velocity, the sum of both if that is meant",
+            "impose one velocity, such as the sum of both",
         ),
         Mistake::NoArea => (
             &["given by impedance, without an area"],
@@ -293,38 +292,38 @@ fn plain(mistake: Mistake) -> (&'static [&'static str], &'static str) {
         ),
         Mistake::NoWaveSpeed => (
             &["given by impedance, without a wave speed", "this bar"],
-            "give the bar by an area, a modulus and a density",
+            "define the bar by an area, a modulus and a density",
         ),
         Mistake::NoSuchEnd => {
             (&["no such end"], "observe the other end, or `at` a distance from it")
         }
-        Mistake::ShareOfEndless => (&["a share"], "give a distance from the end of the bar"),
+        Mistake::ShareOfEndless => (&["a fraction"], "give a distance from the end of the bar"),
         Mistake::OutsideBar => (
             &["not certainly inside"],
-            "give a share from 0 to 1, or a distance from 0 to the length",
+            "give a fraction from 0 to 1, or a distance from 0 to the length",
         ),
         Mistake::IdealEndless => {
             (&["has no end"], "leave out `as`: what enters an endless bar does not return")
         }
         Mistake::IdealStrained => {
-            (&["strained"], "leave out the strain, or `as`: only waves can let it go")
+            (&["strained"], "remove the strain, or `as`: only waves can release it")
         }
         Mistake::IdealHeld => (
             &["fixed to the end of the line"],
-            "leave out `as`, or a rigid bar altogether; `as = spring` needs one end that can move",
+            "remove `as`, or remove the rigid bar; `as = spring` needs one end that can move",
         ),
         Mistake::IdealAtWall => (
             &["in contact with the end of the line"],
-            "leave out `as`, join the bar to the end with `-`, or leave out `contacts open`",
+            "remove `as`, join the bar to the end with `-`, or remove `contacts open`",
         ),
         Mistake::NoForceInRigid => (
             &["of a rigid bar"],
-            "observe its velocity, or the force in a spring or another bar beside it",
+            "observe its velocity, or the force in a spring or bar next to it",
         ),
         Mistake::Infinite => (
             &["of an endless bar", "in motion or strained from the start"],
-            "observe a finite bar, or let the endless one start at rest",
+            "observe a finite bar, or start the endless one at rest",
         ),
-        _ => (&["not possible"], "check the values given"),
+        _ => (&["not possible"], "check the values"),
     }
 }

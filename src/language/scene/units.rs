@@ -133,7 +133,7 @@ const MAX_POWER: i32 = 40;
 const MAX_FACTORS: usize = 12;
 
 fn unknown(scope: &Scope, name: &str, span: crate::language::Span) -> Diagnostic {
-    let error = scope.error(format!("unknown unit `{name}`"), span, "no unit");
+    let error = scope.error(format!("unknown unit `{name}`"), span, "not a unit");
     let (letters, digits) =
         name.split_at(name.trim_end_matches(|c: char| c.is_ascii_digit()).len());
     let parted = (1..name.len())
@@ -148,9 +148,7 @@ fn unknown(scope: &Scope, name: &str, span: crate::language::Span) -> Diagnostic
     let spelt = closest(&lower, SPELT.iter().map(|(word, _)| *word));
     let spelt = spelt.and_then(|spelt| SPELT.iter().find(|(word, _)| *word == spelt));
     if scope.symbols.contains_key(name) || name == "t" {
-        error.with_remedy(format!(
-            "no unit has this name; multiplication is written, as in `2*{name}`"
-        ))
+        error.with_remedy(format!("no unit has this name; a product needs `*`, as in `2*{name}`"))
     } else if !digits.is_empty() && named(letters).is_some() {
         error.with_remedy(format!("write powers with `^`: `{letters}^{digits}`"))
     } else if let Some((left, right)) = parted {

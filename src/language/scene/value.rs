@@ -62,7 +62,7 @@ impl Lowering<'_> {
                 let (message, remedy) = match needed {
                     Dimension::NONE => (
                         format!("{what} is needed, a plain number; this is {found}"),
-                        "leave out the unit".to_owned(),
+                        "remove the unit".to_owned(),
                     ),
                     _ => (
                         format!("{what} is needed, {}; this is {found}", needed.units()),
@@ -95,7 +95,7 @@ impl Lowering<'_> {
         match &tree.value {
             Node::Name(name) => self.refuse_stranger(name, tree.span),
             Node::Wave(_) | Node::Summation { .. } => Err(self
-                .error("there are no waves by period in a scene", tree.span, "not here")
+                .error("a scene has no waves with period indices", tree.span, "not here")
                 .with_remedy("use numbers and declared symbols")),
             Node::Call { name, argument } => {
                 let word = name.value.as_str();
@@ -108,7 +108,11 @@ impl Lowering<'_> {
                     false => "use numbers, declared symbols, and `exp`".to_owned(),
                 };
                 Err(self
-                    .error(format!("`{word}` is no function"), name.span, format!("in `{shown}`"))
+                    .error(
+                        format!("`{word}` is not a function"),
+                        name.span,
+                        format!("in `{shown}`"),
+                    )
                     .with_remedy(remedy))
             }
             Node::Exponential(operand) | Node::Negate(operand) => self.refuse_strangers(operand),
@@ -130,7 +134,7 @@ impl Lowering<'_> {
         match self.declared.get(name) {
             None if units::is_unit(name) => {
                 let remedy =
-                    format!("a unit stands behind the whole value, without a sign: `3/2 {name}`");
+                    format!("a unit follows the whole value, without a sign: `3/2 {name}`");
                 let error = self.error(format!("unknown name `{name}`"), span, "not declared");
                 Err(error.with_remedy(remedy))
             }

@@ -44,7 +44,7 @@ impl From<BallError> for MethodError {
 
 fn too_many_periods(periods: usize, limit: usize) -> String {
     match periods {
-        usize::MAX => format!("far more periods than the {limit} that this method takes at most"),
-        _ => format!("{periods} periods, where this method takes at most {limit}"),
+        usize::MAX => format!("far more periods than the {limit} that this method supports"),
+        _ => format!("{periods} periods; this method supports at most {limit}"),
     }
 }

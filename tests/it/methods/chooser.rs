@@ -197,7 +197,7 @@ fn tolerances_are_read_as_they_are_documented() {
     }
     for text in ["", "0", "-1e-9", "nan", "inf", "1e-9%", "ulp:", "ulp:-1", "rel:1e-9", "1e999"] {
         let error = text.parse::<Tolerance>().unwrap_err();
-        assert_eq!(error.to_string(), format!("`{text}` is no tolerance"));
+        assert_eq!(error.to_string(), format!("`{text}` is not a tolerance"));
     }
 }
 
@@ -216,7 +216,7 @@ fn every_method_is_named_as_it_is_read() {
     for text in ["modes:", "modes:-1", "leapfrog:4,x", "steps:tight", "compiled:3"] {
         let error = text.parse::<Method>().unwrap_err().to_string();
         let (name, setting) = text.split_once(':').unwrap();
-        assert_eq!(error, format!("`{setting}` is no setting of {name}"));
+        assert_eq!(error, format!("`{setting}` is not a setting of {name}"));
     }
 }
 

@@ -171,7 +171,7 @@ fn what_has_waves_or_cannot_move_is_refused() {
         (
             Method::Rigid,
             "bar e { impedance = 1 }\nline free - a - e - endless",
-            "`e`: an endless bar is no mass and no spring",
+            "`e`: an endless bar cannot be rigid or a spring",
         ),
         (
             Method::Rigid,
@@ -182,13 +182,13 @@ fn what_has_waves_or_cannot_move_is_refused() {
         (
             Method::Rigid,
             "line free - a - free\nobserve X = force(a.at(1/4))",
-            "`X`: what happens in a rigid bar is not known",
+            "`X`: the force in a rigid bar is unknown",
         ),
         (Method::Third, "line fixed - a - fixed", "`a`: this bar cannot move"),
         (
             Method::Third,
             "bar e { impedance = 1 }\nline free - a - e - endless",
-            "`e`: an endless bar is no mass and no spring",
+            "`e`: an endless bar cannot be rigid or a spring",
         ),
     ];
     for (method, scene, told) in refused {
@@ -198,7 +198,7 @@ fn what_has_waves_or_cannot_move_is_refused() {
         let error = bar.signal(name).unwrap().values_by(&[1.0], method).unwrap_err();
         assert!(error.is_not_supported(), "{error}");
         let text = error.to_string();
-        assert!(text.ends_with(&format!("does not represent this: {told}")), "{text}");
+        assert!(text.ends_with(&format!("does not support this scene: {told}")), "{text}");
     }
 }
 

@@ -26,7 +26,7 @@ const REFUSED: [(&str, &str, &str); 9] = [
     (
         "modes",
         "bar e { impedance = 1 }\nline free - a - e - endless",
-        "bar e is endless, and waves that leave are no vibration",
+        "bar e is endless, so waves leave and do not vibrate",
     ),
     ("modes", "support s { damping = 1 }\nline free - a - s - free", "s damps the motion"),
     (
@@ -38,24 +38,24 @@ const REFUSED: [(&str, &str, &str); 9] = [
     (
         "modes",
         "mass m { mass = 1, velocity = 1 }\nspring k { stiffness = 1 }\nline free - m - k - fixed\n#no a",
-        "it takes a line with at least one bar",
+        "it needs at least one bar",
     ),
     (
         "leapfrog",
         "mass m { mass = 1 }\nbar e { impedance = 1, velocity = 1 }\nline free - m | e - endless\n#no a",
-        "no bar has a finite length, and nothing else says how long a cell is",
+        "no bar has a finite length that could set the size of a cell",
     ),
     (
         "leapfrog",
         "spring k { stiffness = 1 }\nspring j { stiffness = 1, damping = 1 }\nline free - a - k - j - fixed",
-        "beside k something moves that has no mass",
+        "a joint without mass moves next to k",
     ),
     (
         "steps",
         "spring k { stiffness = 1 }\nspring j { stiffness = 1 }\nline free - a - k - j - fixed",
-        "beside k something moves that has no mass, and nothing resists it",
+        "a joint without mass moves next to k, and nothing resists it",
     ),
-    ("steps", "#units", "have no common measure"),
+    ("steps", "#units", "are incommensurable"),
 ];
 
 #[test]
@@ -85,7 +85,7 @@ fn energies_and_momenta_of_endless_bars_are_refused() {
     for model in ["modes", "leapfrog", "steps"] {
         let error = make(model, &energy).unwrap().values(4, &[1.0]).unwrap_err().to_string();
         assert!(
-            error.ends_with("energy observes an energy, of which it keeps no account"),
+            error.ends_with("energy observes an energy, which the model does not compute"),
             "{error}"
         );
     }
@@ -110,15 +110,15 @@ fn settings_times_and_symbols_are_checked() {
             Leapfrog::new(&network, 4, f64::NAN).err(),
             "the Courant number NaN is not positive; take 1 or less",
         ),
-        (Leapfrog::new(&network, 0, 1.0).err(), "it takes at least one cell"),
-        (Modes::new(&network, 0).err(), "it takes at least one mode"),
+        (Leapfrog::new(&network, 0, 1.0).err(), "it needs at least one cell"),
+        (Modes::new(&network, 0).err(), "it needs at least one mode"),
         (Steps::new(&network, 0.5).err(), "the tolerance 5e-1 is not between 1e-13 and 1e-2"),
         (Steps::new(&network, f64::NAN).err(), "the tolerance NaN is not between 1e-13 and 1e-2"),
         (
             Leapfrog::new(&network, 2_000_000_000, 1.0).err(),
-            "ask for earlier times or a coarser model",
+            "choose earlier times or a coarser model",
         ),
-        (Modes::new(&network, 2_000_000).err(), "ask for earlier times or a coarser model"),
+        (Modes::new(&network, 2_000_000).err(), "choose earlier times or a coarser model"),
     ];
     for (error, told) in settings {
         let text = error.expect(told).to_string();

@@ -9,11 +9,11 @@ use clap::Args;
     wavestep book 6.75\n  \
     wavestep book 6.80 --format latex\n\n\
     The source is Harrison and Nettleton, Advanced Engineering Dynamics, sections 6.6 to 6.11. Every\n\
-    equation is held against what is derived from the scene it is about.")]
+    equation is compared with the one derived from its scene.")]
 pub struct Book {
-    /// Show the equation of this number: as read, as derived, and the proof
+    /// Show the equation with this number: as printed, as derived, and the proof
     pub number: Option<String>,
-    /// Written how
+    /// The output format
     #[arg(long, default_value = "text", value_parser = named([
         ("text", Format::Text, "Plain text"),
         ("latex", Format::Latex, "LaTeX with amsmath"),

@@ -34,7 +34,7 @@ pub struct Derive {
     /// Derive the form for every n
     #[arg(long)]
     pub general: bool,
-    /// In which form
+    /// The form of the result
     #[arg(long, default_value = "period", conflicts_with = "general", value_parser = named([
         ("period", Form::Period, "One function of local time for each period"),
         ("echo", Form::Echo, "The echoes that arrive period by period, and add up"),
@@ -56,7 +56,7 @@ pub struct Derive {
     /// third of their mass), or another change of the scene, as `find --minus` takes it
     #[arg(long, value_name = "MODEL", conflicts_with_all = ["explain", "exercise", "source_form"])]
     pub model: Option<String>,
-    /// Written how
+    /// The output format
     #[arg(long, default_value = "text", value_parser = named([
         ("text", Format::Text, "Plain text; pieces and echoes in the scene's own symbols can be read back"),
         ("latex", Format::Latex, "An `align*` environment for amsmath"),
@@ -65,7 +65,7 @@ pub struct Derive {
     pub format: Format,
     #[command(flatten)]
     pub output: Output,
-    /// The most characters in a line, on the page in LaTeX [default: 100 for text, 84 for LaTeX]
+    /// The maximum line length, on the page in LaTeX [default: 100 for text, 84 for LaTeX]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(20..))]
     pub line_length: Option<u16>,
 }

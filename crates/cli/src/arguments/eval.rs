@@ -14,15 +14,15 @@ use wavestep::signal::Limit;
     wavestep eval rigid-mass --set mu=1 --quantity f --piece 2 --local 1/2 --format json\n  \
     wavestep eval rigid-mass --set mu=1 --quantity f --from 0 --to 80 --points 9 --tol 1e-9 --explain\n  \
     wavestep eval mass-on-fixed-bar --set mu=1 --quantity velocity --at 3 --method modes:100 --tol 1e-3\n\n\
-    Times and values are exact: 33/10, 12.34, 1e3. Rational values are printed exactly where\n\
-    they have no more digits than asked for; all others are rounded correctly, ties to even.")]
+    Times and values are exact: 33/10, 12.34, 1e3. Rational values are printed exactly if they\n\
+    fit into the requested digits; all others are rounded correctly, ties to even.")]
 pub struct Eval {
     #[command(flatten)]
     pub scene: Scene,
-    /// These waves and observables, separated by commas [default: all observables]
+    /// Waves and observables, separated by commas [default: all observables]
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     pub quantity: Vec<String>,
-    /// At these scene times, separated by commas
+    /// Scene times, separated by commas
     #[arg(long, value_name = "T", value_delimiter = ',', allow_hyphen_values = true,
           conflicts_with_all = ["from", "to", "points", "piece", "local"])]
     pub at: Vec<String>,
@@ -32,44 +32,42 @@ pub struct Eval {
     /// Last of evenly spaced times
     #[arg(long, value_name = "T", allow_hyphen_values = true, requires_all = ["from", "points"])]
     pub to: Option<String>,
-    /// How many evenly spaced times
+    /// Number of evenly spaced times
     #[arg(long, value_name = "N", requires_all = ["from", "to"])]
     pub points: Option<usize>,
-    /// On this period of the quantity, at the local time given by --local
+    /// In this period of the quantity, at the local time given by --local
     #[arg(long, value_name = "N", requires = "local", conflicts_with_all = ["from", "to", "points"])]
     pub piece: Option<usize>,
-    /// Local time on the period given by --piece
+    /// Local time in the period given by --piece
     #[arg(long, value_name = "S", allow_hyphen_values = true, requires = "piece")]
     pub local: Option<String>,
-    /// How many significant digits
+    /// Number of significant digits
     #[arg(long, value_name = "D", default_value_t = 15)]
     pub digits: usize,
-    /// Which limit is meant where an echo arrives
+    /// Which limit to take at the arrival of an echo
     #[arg(long, value_parser = limits("From earlier times", "From later times"), default_value = "right")]
     pub side: Limit,
-    /// Say on standard error how many echoes were worked out, of how many that arrive, and with --tol of how
-    /// many that are needed
+    /// Report on standard error how many of the arriving echoes were computed, and with --tol how many are needed
     #[arg(long)]
     pub stats: bool,
-    /// The most bits of working precision
+    /// The largest working precision, in bits
     #[arg(long, value_name = "BITS", default_value_t = VALUE_BITS)]
     pub max_bits: u64,
-    /// In doubles, by the cheapest method that is proven to be off by at most so much: 1e-9 of the
-    /// largest value, abs:1e-9 in the unit of the quantity, ulp:4 units in the last place of the
-    /// largest value
+    /// Doubles by the cheapest method with a proven error of at most TOL: 1e-9 of the largest value,
+    /// abs:1e-9 in the unit of the quantity, ulp:4 units in the last place of the largest value
     #[arg(long, value_name = "TOL", conflicts_with_all = ["digits", "max_bits", "piece"])]
     pub tol: Option<String>,
-    /// Weigh the methods for --tol by the costs in this file, which `wavestep chart --costs -o FILE` writes
+    /// Choose the method for --tol by the costs in this file, written by `wavestep chart --costs -o FILE`
     #[arg(long, value_name = "FILE", requires = "tol", value_hint = ValueHint::FilePath)]
     pub costs: Option<String>,
-    /// In doubles, by this method or model: certified, compiled, marched, marched-unproven, stable,
+    /// Doubles by this method or model: certified, compiled, marched, marched-unproven, stable,
     /// double-double, plain, expanded; rigid, third, modes[:N], leapfrog[:CELLS[,CFL]], steps[:TOL]
     #[arg(long, value_name = "NAME", conflicts_with_all = ["digits", "stats", "max_bits", "piece"])]
     pub method: Option<String>,
-    /// Say on standard error how values are found, at which cost, and how sure they are
+    /// Report on standard error how values are computed, at what cost, and what is proven
     #[arg(long)]
     pub explain: bool,
-    /// Written how
+    /// The output format
     #[arg(long, value_parser = value_formats(), default_value = "text")]
     pub format: Format,
     #[command(flatten)]

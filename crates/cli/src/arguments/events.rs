@@ -8,25 +8,25 @@ use clap::Args;
     wavestep events saint-venant --set mu=1\n  \
     wavestep events bars-of-equal-length --format json\n  \
     wavestep events hopkinson-with-release --to 2ms --digits 9\n\n\
-Contacts push and never pull: they open where they would, and close where bodies meet again.\n\
-What no precision decides is taken for a tie, and told as an assumption; what may still be decided is\n\
-refused with exit code 3. Nothing is passed over.")]
+Contacts carry compression only: they open when they would go into tension, and close when bodies\n\
+meet again. No event is missed. A case that no precision can decide is treated as a tie and reported\n\
+as an assumption; one that higher precision might decide ends with exit code 3.")]
 pub struct Events {
     #[command(flatten)]
     pub scene: Scene,
-    /// Follow the scene until this time [default: until nothing can meet again, at most for a hundred
-    /// of the longest travel times, or ten beside a local contact]
+    /// Follow the scene until this time [default: until nothing can meet again, but at most a hundred
+    /// times the longest travel time, or ten times with a local contact]
     #[arg(long, alias = "until", value_name = "T", allow_hyphen_values = true)]
     pub to: Option<String>,
-    /// How many significant digits
+    /// Number of significant digits
     #[arg(long, value_name = "D", default_value_t = 12)]
     pub digits: usize,
-    /// Say on standard error how events were found, at which cost, and how sure they are
+    /// Report on standard error how events were found, at what cost, and what is proven
     #[arg(long)]
     pub explain: bool,
-    /// Written how
+    /// The output format
     #[arg(long, default_value = "text", value_parser = named([
-        ("text", Format::Text, "A paragraph an event"),
+        ("text", Format::Text, "One paragraph per event"),
         ("json", Format::Json, "Decimal strings with proven radii"),
         ("latex", Format::Latex, "A table"),
     ]))]

@@ -7,12 +7,12 @@ use clap::{Args, ValueEnum};
 #[command(after_help = "Examples:\n  \
     wavestep export rigid-mass --as c --set mu=1 --quantity f --to 40 -o f.c\n  \
     wavestep export hopkinson --as c --quantity gauge_output --to 2ms --tol 1e-6 -o gauge.c\n\n\
-The file holds polynomials, the function `double wavestep_QUANTITY(double t)`, one for many times, and\n\
-the proven bound.")]
+The file contains polynomials, the function `double wavestep_QUANTITY(double t)`, a function for\n\
+many times, and the proven error bound.")]
 pub struct Export {
     #[command(flatten)]
     pub scene: Scene,
-    /// In which language
+    /// The programming language
     #[arg(long = "as", value_enum)]
     pub language: ExportLanguage,
     /// A wave or an observable
@@ -24,7 +24,7 @@ pub struct Export {
     /// The last time of the window
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub to: String,
-    /// How far off values may be, as for eval [default: ulp:4]
+    /// The tolerance, as for eval [default: ulp:4]
     #[arg(long, value_name = "TOL")]
     pub tol: Option<String>,
     #[command(flatten)]

@@ -13,9 +13,9 @@ use wavestep::signal::Goal;
     wavestep find hopkinson --max force --from 0 --to 350us --digits 9\n  \
     wavestep find mass-on-fixed-bar --set mu=1/10 --distance velocity --minus third --to 2\n  \
     wavestep find rigid-mass --min strain_fixed --equal mu=1/10..1 --between 3*mu,5*mu,7*mu\n\n\
-    Both ends of the window belong to it. Every root in it is told, with what is proven of it.\n\
-    An extremum may be known to all its digits though not where it is taken. Exit code 3 when a\n\
-    root, or a digit of an extremum, stays undecided. Levels are in the unit of the quantity, or have one.")]
+    The window includes both ends. Every root is listed, with what is proven about it. An extremum may\n\
+    be known to all digits even if its time is not. Exit code 3 if a root, or a digit of an extremum,\n\
+    stays undecided. A level is in the unit of the quantity, or has a unit of its own.")]
 pub struct Find {
     #[command(flatten)]
     pub scene: Scene,
@@ -31,12 +31,11 @@ pub struct Find {
     /// All times at which it has this value
     #[arg(long, value_name = "QUANTITY=VALUE", allow_hyphen_values = true)]
     pub level: Option<String>,
-    /// How far it is from that of --minus at most, and which share of its largest value that is; of all observables
-    /// where none is named
+    /// The largest difference from --minus, also relative to the largest value; without a name, for all observables
     #[arg(long, value_name = "QUANTITY", requires = "minus", num_args = 0..=1, default_missing_value = "")]
     pub distance: Option<String>,
-    /// Subtract the quantity of the same name in another scene, or in this one with something left out: `rigid` (no bar
-    /// yields), `third` (bars are springs with a third of their mass), `rigid:BAR`, `spring:BAR`, `without:ELEMENT`,
+    /// Subtract the same quantity in another scene, or in this scene simplified: `rigid` (all bars are rigid),
+    /// `third` (bars are springs with a third of their mass), `rigid:BAR`, `spring:BAR`, `without:ELEMENT`,
     /// `endless:BAR.right`, `closed` (contacts stay closed), several of these joined by `+`; `modes:N`, `echoes:N`
     #[arg(long, value_name = "WHAT", conflicts_with = "equal")]
     pub minus: Option<String>,
@@ -46,22 +45,20 @@ pub struct Find {
     /// The last time of the window
     #[arg(long, value_name = "T", allow_hyphen_values = true, required_unless_present = "equal")]
     pub to: Option<String>,
-    /// A value of this symbol between two bounds for which the largest or smallest values in two
-    /// windows are equal
+    /// A value of this symbol, between two bounds, that makes the extrema in two windows equal
     #[arg(long, value_name = "SYMBOL=LOW..HIGH", requires = "between",
           conflicts_with_all = ["from", "to", "zero", "level"])]
     pub equal: Option<String>,
-    /// The windows from T1 to T2 and from T2 to T3, without their last instants; times may hold the
-    /// symbol of --equal
+    /// The two windows for --equal, T1 <= t < T2 and T2 <= t < T3; times may contain its symbol
     #[arg(long, value_name = "T1,T2,T3", requires = "equal")]
     pub between: Option<String>,
-    /// How many significant digits
+    /// Number of significant digits
     #[arg(long, value_name = "D", default_value_t = 15)]
     pub digits: usize,
-    /// The most bits of working precision
+    /// The largest working precision, in bits
     #[arg(long, value_name = "BITS", default_value_t = SEARCH_BITS)]
     pub max_bits: u64,
-    /// Written how
+    /// The output format
     #[arg(long, value_parser = value_formats(), default_value = "text")]
     pub format: Format,
     #[command(flatten)]

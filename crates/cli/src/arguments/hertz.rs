@@ -7,11 +7,12 @@ use clap::Args;
 #[command(after_help = "Examples:\n  \
     wavestep hertz local-contact\n  \
     wavestep hertz hertz-striker --rise 1/2,9/10 --at 20us --digits 9\n\n\
-The bars are taken to be long: all is valid until a wave from a far end may be felt, which is told.")]
+The bars are assumed to be long. The output says until when this holds, before a wave returns from\n\
+a far end.")]
 pub struct Hertz {
     #[command(flatten)]
     pub scene: Scene,
-    /// Rise times to these shares of the largest force, separated by commas
+    /// Rise times to these fractions of the largest force, separated by commas
     #[arg(
         long,
         value_name = "SHARE",
@@ -23,12 +24,12 @@ pub struct Hertz {
     /// The force at these times, separated by commas
     #[arg(long, value_name = "T", value_delimiter = ',', allow_hyphen_values = true)]
     pub at: Vec<String>,
-    /// How many significant digits
+    /// Number of significant digits
     #[arg(long, value_name = "D", default_value_t = 12)]
     pub digits: usize,
-    /// Written how
+    /// The output format
     #[arg(long, default_value = "text", value_parser = named([
-        ("text", Format::Text, "A line a value"),
+        ("text", Format::Text, "One line per value"),
         ("json", Format::Json, "Decimal strings"),
     ]))]
     pub format: Format,

@@ -11,10 +11,10 @@ use clap::{Args, ValueHint};
 pub struct Check {
     #[command(flatten)]
     pub scene: Scene,
-    /// Compare with what `wavestep lock` wrote to this file, with the values that stand there
+    /// Compare with this file written by `wavestep lock`, using the values given in it
     #[arg(long, value_name = "FILE", conflicts_with = "set", value_hint = ValueHint::FilePath)]
     pub locked: Option<String>,
-    /// Say too what was found: symbols and conditions, equations, derivations, general forms
+    /// Also print symbols and conditions, equations, derivations and general forms
     #[arg(long, conflicts_with = "locked")]
     pub verbose: bool,
 }
@@ -25,17 +25,17 @@ pub struct Check {
     wavestep lock rigid-mass --through 2 --set mu=1/4 --at 33/10,5\n  \
     wavestep lock saint-venant --set mu=1 --at 2 -o my.lock\n  \
     wavestep check my.wave --locked my.lock\n\n\
-    The file holds what the scene states of its period, symbols and observables, the pieces of all\n\
-    waves on the periods 0 … N, and at each time the values of all waves and observables, just\n\
-    after arrivals. Of a scene whose contacts open it holds events instead of pieces, and values of\n\
-    observables. A file that exists is replaced.")]
+    The file contains the period, symbols and observables of the scene, the pieces of all waves in the\n\
+    periods 0 … N, and the values of all waves and observables at each time, just after arrivals. If\n\
+    contacts open, it contains events instead of pieces, and values of observables only. An existing\n\
+    file is replaced.")]
 pub struct Lock {
     #[command(flatten)]
     pub scene: Scene,
-    /// Lock the pieces on the periods 0 … N
+    /// Lock the pieces in the periods 0 … N
     #[arg(long, value_name = "N")]
     pub through: Option<usize>,
-    /// Lock the events until this scene time, where contacts open [default: as in `events`]
+    /// Lock the events until this scene time, if contacts open [default: as in `events`]
     #[arg(
         long,
         alias = "until",
@@ -47,7 +47,7 @@ pub struct Lock {
     /// Lock values at these scene times, separated by commas
     #[arg(long, value_name = "T", value_delimiter = ',', allow_hyphen_values = true)]
     pub at: Vec<String>,
-    /// How many significant digits values have
+    /// Number of significant digits
     #[arg(long, value_name = "D", default_value_t = 20)]
     pub digits: usize,
     #[command(flatten)]

@@ -62,16 +62,16 @@ fn limits(left: &'static str, right: &'static str) -> impl TypedValueParser<Valu
 /// Where a report goes.
 #[derive(Args)]
 pub struct Output {
-    /// The file to write; standard output without it, or for -
+    /// The output file [default: standard output, also for -]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<String>,
 }
 
 fn value_formats() -> impl TypedValueParser<Value = Format> {
     named([
-        ("text", Format::Text, "A line a time"),
+        ("text", Format::Text, "One line per time"),
         ("json", Format::Json, "Decimal strings with proven radii"),
-        ("csv", Format::Csv, "Columns with a heading"),
+        ("csv", Format::Csv, "Columns with a header line"),
     ])
 }
 
@@ -85,17 +85,17 @@ fn value_formats() -> impl TypedValueParser<Value = Format> {
         wavestep derive rigid-mass\n  \
         wavestep derive rigid-mass --quantity f --through 8 --format latex\n  \
         wavestep eval rigid-mass --set mu=1/4 --quantity f --at 33/10 --digits 30\n\n\
-        Exit codes: 0 done, 1 could not compute or not as locked, 2 usage or bad scene,\n\
+        Exit codes: 0 success, 1 computation failed or lock differs, 2 usage error or bad scene,\n\
         3 accuracy not reached."
 )]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub subcommand: Subcommand,
-    /// How much memory waves may take, such as 500MB or 2GB [default: a quarter of the machine's]
+    /// Memory limit for waves, such as 500MB or 2GB [default: a quarter of the machine's memory]
     #[arg(long, global = true, value_name = "SIZE", value_parser = bytes, allow_hyphen_values = true, value_hint = ValueHint::Other)]
     pub memory: Option<u64>,
-    /// How long the answer may take, such as 15s or 10min [default: as long as it needs]
+    /// Time limit, such as 15s or 10min [default: none]
     #[arg(long, global = true, value_name = "TIME", value_parser = duration, allow_hyphen_values = true, value_hint = ValueHint::Other)]
     pub time_limit: Option<Duration>,
 }
@@ -105,7 +105,7 @@ fn duration(text: &str) -> Result<Duration, String> {
     match with_unit(text, &[("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)]) {
         // More than a human life is no limit.
         Some(seconds) if seconds >= 0.1 => Ok(Duration::from_secs_f64(seconds.min(1e10))),
-        _ => Err("give at least 0.1 s, with its unit, such as 15s or 10min".to_owned()),
+        _ => Err("give at least 0.1 s, with a unit, such as 15s or 10min".to_owned()),
     }
 }
 
@@ -113,7 +113,7 @@ fn duration(text: &str) -> Result<Duration, String> {
 fn bytes(text: &str) -> Result<u64, String> {
     match with_unit(text, &[("TB", 1e12), ("GB", 1e9), ("MB", 1e6), ("kB", 1e3)]) {
         Some(bytes) if bytes >= 1e6 => Ok(bytes as u64),
-        _ => Err("give at least 1 MB, with its unit, such as 500MB or 2GB".to_owned()),
+        _ => Err("give at least 1 MB, with a unit, such as 500MB or 2GB".to_owned()),
     }
 }
 
@@ -132,39 +132,39 @@ pub enum Subcommand {
     Derive(Derive),
     /// Evaluate a wave or an observable with certified digits
     Eval(Eval),
-    /// Write values on a window as a program with a proven bound
+    /// Write a function of time as C code with a proven error bound
     Export(Export),
-    /// Measure accuracy and speed of all methods, as charts with their data and one page
+    /// Measure the accuracy and speed of all methods, as charts with data and one page
     Chart(Chart),
-    /// Draw observables against time, a diagram of place and time, or fields along the line
+    /// Draw observables against time, a space-time diagram, or fields along the line
     Plot(Plot),
-    /// Write one page about a scene: its line, formulas, events, signals and extrema
+    /// Write a page about a scene: its line, formulas, events, signals and extrema
     Report(Report),
     /// Give velocity, strain, displacement and force along the bars at a time, with bounds
     Field(Field),
-    /// Find all roots, or the largest or smallest value, in a window of time, with proof
+    /// Find all roots, or the largest or smallest value, in a time window, with proof
     Find(Find),
-    /// Tell the smallest model that is enough for a tolerance, with a proven distance from the exact answer
+    /// Find the simplest model that meets a tolerance, with a proven difference from the exact solution
     Advise(Advise),
-    /// Velocities of crests, groups and pulses for a dispersion relation omega(k)
+    /// Phase, group and pulse velocities for a dispersion relation omega(k)
     Dispersion(Dispersion),
     /// Closed forms of a local contact between two bars: largest force, rise times, equivalent spring
     Hertz(Hertz),
-    /// Draw a figure of the source
+    /// Draw a figure of the textbook
     Figure(Figure),
-    /// List the equations of the source with what is found about each, or show one of them
+    /// List the equations of the textbook with a verdict on each, or show one of them
     Book(Book),
-    /// Tell when contacts open and close: a time line with forces, velocities and energies
+    /// List when contacts open and close, with forces, velocities and energies
     Events(Events),
     /// Check a scene: read it, order its equations, and derive it in two ways
     Check(Check),
-    /// Write a certificate of pieces or of a value, which a checker of its own verifies
+    /// Write a certificate of pieces or of a value, for an independent checker
     Certify(Certify),
-    /// Lock derived forms and certified values in a file, for `check --locked`
+    /// Lock formulas and proven values in a file, for `check --locked`
     Lock(Lock),
     /// List the built-in scenes, or show the text of one
     Scenes(Scenes),
-    /// Write the completions of a shell, or the manual page
+    /// Write shell completions, the manual page, or the table of options
     Generate(Generate),
 }
 
@@ -174,7 +174,7 @@ pub struct Scene {
     /// A file, the name of a built-in scene (see `wavestep scenes`), which comes first, or - for standard input
     #[arg(value_hint = ValueHint::FilePath)]
     pub scene: String,
-    /// Put an exact value in place of a symbol, before anything is derived; may be given several times
+    /// Replace a symbol by an exact value before deriving; may be repeated
     #[arg(long = "set", value_name = "NAME=VALUE", allow_hyphen_values = true,
           value_hint = ValueHint::Other)]
     pub set: Vec<String>,

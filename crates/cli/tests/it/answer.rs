@@ -99,7 +99,7 @@ fn the_way_is_explained() {
         assert!(stdout.starts_with("f(0) = 1\n"), "{stdout}");
         let mut rows = stderr.lines().skip(2);
         let first = rows.next().unwrap().trim_start().to_owned();
-        assert!(first.contains("the cheapest that is proven to be good enough"), "{stderr}");
+        assert!(first.contains("the cheapest that is proven to be accurate enough"), "{stderr}");
         assert_eq!(rows.count(), 6, "{stderr}");
         first.split(' ').next().unwrap().to_owned()
     };
@@ -111,7 +111,7 @@ fn the_way_is_explained() {
     let row = stderr.lines().nth(2).unwrap().trim_start();
     assert!(row.starts_with("compiled "), "{stderr}");
     let (_, stderr) = both(&format!("{line} --points 2 --method compiled --explain"));
-    assert!(stderr.starts_with("compiled, as asked for: at most "), "{stderr}");
+    assert!(stderr.starts_with("compiled, as requested: at most "), "{stderr}");
     assert!(stderr.contains("proven"), "{stderr}");
 }
 
@@ -151,8 +151,8 @@ fn forced_methods_warn() {
     };
     warned("--method expanded --tol 1e-12", "warning: expanded is off by ");
     warned("--method stable --tol 1e-9", "note: stable is off by at most ");
-    warned("--method compiled --tol 1e-18", "warning: compiled is proven to be within ");
-    warned("--method marched --tol ulp:4", "not within 4 units in the last place");
+    warned("--method compiled --tol 1e-18", "warning: compiled is proven to within ");
+    warned("--method marched --tol ulp:4", "not to 4 units in the last place");
     let model = "eval mass-on-fixed-bar --set mu=1 --quantity velocity --at 3 --method";
     let (_, stderr) = both(&format!("{model} modes:4 --tol 1e-9"));
     assert!(stderr.starts_with("warning: modes:4 is off by "), "{stderr}");
@@ -170,19 +170,19 @@ const REFUSALS: [(&str, i32, &str, &str); 17] = [
         "eval rigid-mass --set mu=1 --quantity f --at 2 --tol 1e-20",
         3,
         "no double is proven to be within 1e-20 of the largest value",
-        "ask for digits instead: --digits 25",
+        "compute digits instead: --digits 25",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --tol abs:1e-17",
         3,
         "no double is proven to be within 1e-17",
-        "ask for digits instead",
+        "compute digits instead",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --tol ulp:0.49",
         3,
         "no double is proven to be within 0.49 units in the last place of the largest value",
-        "ask for digits instead",
+        "compute digits instead",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --method magic",
@@ -194,62 +194,62 @@ const REFUSALS: [(&str, i32, &str, &str); 17] = [
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --method modes:few",
         2,
-        "`few` is no setting of modes",
+        "`few` is not a setting of modes",
         "give one of",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --method compiled:4",
         2,
-        "`4` is no setting of compiled",
+        "`4` is not a setting of compiled",
         "give one of",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --tol often",
         2,
-        "`often` is no tolerance",
+        "`often` is not a tolerance",
         "write 1e-9 (of the largest value), abs:1e-9 or ulp:4",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --tol rel:1e-9",
         2,
-        "`rel:1e-9` is no tolerance",
+        "`rel:1e-9` is not a tolerance",
         "write 1e-9",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --method modes",
         1,
-        "modes models a scene of bars, and this is a recurrence",
-        "describe it by its parts: see docs/scene-language.md",
+        "modes is a model for scenes of bars, and this is a recurrence",
+        "describe the scene by its parts: see docs/scene-language.md",
     ),
     (
         "eval mass-on-fixed-bar --set mu=1 --quantity velocity --at 2 --side left --method modes",
         1,
-        "modes is a model, and has no limits from one side",
-        "leave out --side left",
+        "modes is a model without one-sided limits",
+        "remove --side left",
     ),
     (
         "eval mass-on-fixed-bar --set mu=1 --quantity velocity --at 2 --method rigid",
         1,
-        "the model \"rigid body\" does not represent this",
-        "use another model, or a method on the exact solution",
+        "the model \"rigid body\" does not support this scene",
+        "use another model, or a method based on the exact solution",
     ),
     (
         "eval incommensurate --quantity wall_force --at 100us --method stable",
         1,
-        "echoes arrive on no common grid",
+        "echoes do not arrive on a common grid",
         "use --method compiled or certified",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 100000000 --method marched",
         1,
-        "50000000 periods, where this method takes at most 10000000",
-        "ask for a shorter window, or use --method certified",
+        "50000000 periods; this method supports at most 10000000",
+        "use a shorter window, or --method certified",
     ),
     (
         "eval rigid-mass --quantity f --at 2 --tol 1e-9",
         2,
         "the symbol mu has no value",
-        "give it one: --set mu=1",
+        "set it: --set mu=1",
     ),
     (
         "export rigid-mass --set mu=1 --as c --quantity f --from 3 --to 2",
@@ -260,13 +260,13 @@ const REFUSALS: [(&str, i32, &str, &str); 17] = [
     (
         "export rigid-mass --set mu=1 --as c --quantity f --to 2 --tol 1e-20",
         3,
-        "doubles are proven to be within ",
+        "doubles are proven to within ",
         "give a larger --tol",
     ),
     (
         "export rigid-mass --set mu=1 --as c --quantity f --to 2 --tol 1%",
         2,
-        "`1%` is no tolerance",
+        "`1%` is not a tolerance",
         "write 1e-9",
     ),
 ];
@@ -360,11 +360,11 @@ fn a_value_outside_its_range_is_one_error() {
 fn values_beyond_a_pulling_contact_are_noted() {
     for accuracy in ["", " --tol 1e-6"] {
         let (_, err) = both(&format!("eval hopkinson --quantity force --at 1ms{accuracy}"));
-        let note = "between striker and incident would pull; with `contacts open` it opens then";
+        let note = "between striker and incident is in tension; with `contacts open` it opens then";
         assert!(err.contains(note), "{err}");
     }
     let (_, err) = both("eval hopkinson --quantity force --at 100us");
-    assert!(!err.contains("would pull"), "{err}");
+    assert!(!err.contains("in tension"), "{err}");
 }
 
 #[test]

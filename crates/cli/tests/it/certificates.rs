@@ -130,7 +130,7 @@ fn what_has_no_certificate_is_told() {
     std::fs::write(folder.join("rates.wave"), rates).unwrap();
     for (line, message) in [
         ("certify rates.wave", "which has no formula"),
-        ("certify incommensurate", "no common measure"),
+        ("certify incommensurate", "incommensurable"),
         ("certify hertz-striker", "local contact"),
         ("certify mass-on-fixed-bar --set mu=1 --quantity energy --at 1", "energy"),
         ("certify rigid-mass --quantity f --at 1", "mu"),

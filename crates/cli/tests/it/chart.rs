@@ -113,7 +113,10 @@ fn charts_of_a_recurrence() {
     );
     assert_eq!(code, 0, "{errors}");
     let work = json(&folder, "work-precision.json").to_string();
-    assert!(work.contains("rigid models a scene of bars, and this is a recurrence"), "{work}");
+    assert!(
+        work.contains("rigid is a model for scenes of bars, and this is a recurrence"),
+        "{work}"
+    );
 }
 
 #[test]
@@ -140,7 +143,7 @@ fn bad_requests_are_refused() {
     }
     let (code, _, errors) =
         run(anywhere(), &["chart", "two-bars", "--set", "r=1", "--quick", "-o", "/dev/null/no"]);
-    assert!(code != 0 && errors.contains("cannot be made"));
+    assert!(code != 0 && errors.contains("cannot be created"));
 }
 
 /// Costs are measured, shown beside those in use, and written so that `eval` reads them.
@@ -168,7 +171,10 @@ fn costs_are_measured_and_used() {
     assert!(code == 0 && errors.contains("by own.txt"), "{errors}");
     std::fs::write(folder.join("bad.txt"), file.replace("ball ", "bell ")).unwrap();
     for (name, message) in [
-        ("bad.txt", "error: the costs in `bad.txt` cannot be read, line 4: `bell` is no work"),
+        (
+            "bad.txt",
+            "error: the costs in `bad.txt` cannot be read, line 4: `bell` is not an operation",
+        ),
         ("none.txt", "error: the costs in `none.txt` cannot be read: "),
     ] {
         let (code, out, errors) = run(&folder, &words(&format!("{eval} --costs {name}")));

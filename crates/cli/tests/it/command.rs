@@ -84,7 +84,7 @@ fn scenes_are_listed_and_correct() {
     for scene in linear.iter().filter(|scene| **scene != "incommensurate") {
         let line = format!("check {scene} --verbose");
         let report = output(&line);
-        let derived = ["derived in two ways, equal on periods 0 to", "derived echo by echo"];
+        let derived = ["derived in two ways, equal in periods 0 to", "derived echo by echo"];
         assert!(derived.iter().any(|told| report.contains(told)), "{report}");
         snapshot("command", &format!("check-{scene}"), &line, &report);
     }
@@ -484,9 +484,9 @@ fn the_form_of_a_source_that_says_nothing_is_refused() {
         "recurrence \"plain\"\nperiod 1, local s, time t\nwave f\nequation f[n] = f[n-1] + 1\n";
     fs::write(folder.join("plain.wave"), text).unwrap();
     for (line, expected) in [
-        ("derive plain.wave --source-form", "does not say how its source writes it"),
+        ("derive plain.wave --source-form", "has no `written` statement"),
         ("derive rigid-mass --source-form --format json", "for reading, not for programs"),
-        ("derive rigid-mass --source-form --general", "no form for every n"),
+        ("derive rigid-mass --source-form --general", "has no source form"),
         ("derive rigid-mass --source-form --general --quantity velocity", "sum of echoes"),
     ] {
         let (code, stdout, stderr) = run(&folder, &words(line));
@@ -494,7 +494,7 @@ fn the_form_of_a_source_that_says_nothing_is_refused() {
         assert!(stderr.contains(expected), "{line}: {stderr}");
     }
     for (line, expected) in [
-        ("derive mass-on-fixed-bar --general --quantity momentum", "do not arrive together"),
+        ("derive mass-on-fixed-bar --general --quantity momentum", "arrive at different times"),
         ("derive mass-on-fixed-bar --general --quantity energy", "quadratic in the waves"),
         ("derive mass-that-bounces --general --quantity displacement", "no closed form in n"),
     ] {

@@ -63,7 +63,7 @@ fn mistakes_are_told_with_a_remedy() {
         (&["latice"][..], 2, ["no relation `latice`", "did you mean `lattice`?"]),
         (&["k/0"], 2, ["division by zero", "relation:1:3"]),
         (&["love", "--at", "1"], 2, ["the parameter kappa has no value", "--set kappa=1"]),
-        (&["cubic", "--set", "a=1"], 2, ["no parameter `a`", "leave it out"]),
+        (&["cubic", "--set", "a=1"], 2, ["no parameter `a`", "remove it"]),
         (&["cubic", "--length", "-1"], 2, ["the length of the pulse is -1", "positive"]),
         (&["cubic", "--length", "1"], 1, ["ω is negative at k = 6.28", "longer pulse"]),
         (&["lattice", "--duration", "3"], 1, ["has no root", "longer duration"]),
@@ -90,7 +90,7 @@ fn a_wavenumber_with_a_negative_frequency_is_named() {
 #[test]
 fn a_parameter_is_not_the_length_of_the_pulse() {
     let (code, errors) = refused(&["k - b*k^3", "--pulse", "square"]);
-    assert!(code != 0 && errors.contains("`b` is the length of the pulse"), "{errors}");
+    assert!(code != 0 && errors.contains("`b` is both the length of the pulse"), "{errors}");
     // With a value it is a parameter as others are.
     let [b, a] = ["b", "a"].map(|name| {
         let formula = format!("k - {name}*k^3");

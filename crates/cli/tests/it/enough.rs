@@ -248,10 +248,8 @@ fn the_smallest_scene_is_a_file_that_runs() {
     assert_eq!((code, errors.as_str()), (0, ""));
     assert!(told.contains("\nEnough: `"), "{told}");
     let reduced = fs::read_to_string(here.join("reduced.wave")).unwrap();
-    assert!(
-        reduced
-            .starts_with("# What is left of \"Collar\" for v within 0.1 % of its largest value,\n")
-    );
+    let comment = "# \"Collar\" simplified, for v to within 0.1 % of its largest value,\n";
+    assert!(reduced.starts_with(comment), "{reduced}");
     assert!(reduced.contains("# 0 <= t <= 9, with --set m=1.\n"), "{reduced}");
     assert!(!reduced.contains("collar {"), "{reduced}");
     let line = "find collar.wave --set m=1 --distance v --minus reduced.wave --to 9 --format json";
@@ -337,19 +335,19 @@ fn what_cannot_be_weighed_is_told() {
         (format!("advise {scene} --from 3 --to 2"), "is empty", ""),
         (format!("advise {scene} --quantity strain_fixed --to 1/2"), "is zero", "longer window"),
         ("advise mass-on-fixed-bar --for nu=1..2".to_owned(), "`nu` is not a free symbol", "mu"),
-        (format!("advise {scene} --for mu=1..2"), "`mu` is not a free symbol", "leave out --for"),
-        ("advise mass-on-fixed-bar --for mu=2..1".to_owned(), "no range", "mu=1/10..10"),
+        (format!("advise {scene} --for mu=1..2"), "`mu` is not a free symbol", "remove --for"),
+        ("advise mass-on-fixed-bar --for mu=2..1".to_owned(), "not a range", "mu=1/10..10"),
         ("advise mass-on-fixed-bar --for mu=1..2 -o map.eps".to_owned(), "map.eps", ".svg"),
         ("advise mass-on-fixed-bar --for mu=1..2 --models x:y".to_owned(), "x:y", "third"),
         ("advise mass-on-fixed-bar --to 1".to_owned(), "mu", "--set"),
         ("advise hertz-striker".to_owned(), "no end", "--to"),
-        ("advise rigid-mass --set mu=1".to_owned(), "states equations", "describe it"),
+        ("advise rigid-mass --set mu=1".to_owned(), "states equations", "describe the scene"),
         (format!("find {scene} --distance velocity --to 1"), "--minus", ""),
         (format!("find {scene} --distance velocity --minus thirds:x --to 1"), "thirds:x", "third"),
         (
             format!("find {scene} --distance velocity --minus rigid --to 1"),
             "cannot move",
-            "leave out",
+            "remove `as`",
         ),
         (format!("derive {scene} --model modes:3"), "no scene", "third"),
     ] {

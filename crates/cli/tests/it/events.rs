@@ -91,7 +91,7 @@ fn what_does_not_follow_contacts_says_so() {
         let (code, told) = refusal(&words(&(asked.to_owned() + method)));
         assert_eq!(code, 1);
         assert!(
-            told.contains("part at t = 3.06766764162, and this is for contacts that"),
+            told.contains("separate at t = 3.06766764162, and this method needs closed contacts"),
             "{told}"
         );
         assert!(told.contains("use the method compiled or certified"), "{told}");
@@ -126,5 +126,5 @@ fn derive_says_until_when_its_form_holds() {
     let line = "derive saint-venant --set mu=1 --through 1";
     let (code, _, told) = run(anywhere(), &words(line));
     assert_eq!(code, 0);
-    assert_eq!(told, "note: this holds until t = 3.06766764162, when hammer and rod move apart\n");
+    assert_eq!(told, "note: valid until t = 3.06766764162, when hammer and rod separate\n");
 }

@@ -32,7 +32,7 @@ fn answers_look_as_recorded() {
         // This window reaches beyond the end of what is true of its contact.
         let note = match name {
             "critical" => {
-                "note: from t = 3.37156268062 on the contact between striker and cushion would pull; \
+                "note: from t = 3.37156268062 on, the contact between striker and cushion is in tension; \
                  with `contacts open` it opens then\n"
             }
             _ => "",
@@ -56,7 +56,11 @@ fn differences_of_two_scenes_are_told() {
     assert!(text.starts_with("largest velocity - velocity of mass-on-free-bar = "), "{text}");
     for (line, reason, remedy) in [
         ("--minus hopkinson --max velocity", "neither a wave nor an observable of", "gauge"),
-        ("--minus rigid-mass --max velocity", "states equations, and no bars", "describe it"),
+        (
+            "--minus rigid-mass --max velocity",
+            "states equations; it has no bars",
+            "describe the scene",
+        ),
         ("--minus nowhere --max velocity", "the scene `nowhere` cannot be read", "name a file"),
         ("--minus saint-venant --max velocity --set nu=1", "nu", "mu"),
     ] {
@@ -186,8 +190,13 @@ fn mistakes_are_told_with_a_remedy() {
             "strain_fixed",
         ),
         ("rigid-mass --zero f --from 0 --to 2", 2, "mu has no value", "--set mu=1"),
-        ("rigid-mass --set mu=1 --level f --from 0 --to 2", 2, "no quantity", "QUANTITY=VALUE"),
-        ("rigid-mass --set mu=1 --level f= --from 0 --to 2", 2, "no quantity", "QUANTITY=VALUE"),
+        ("rigid-mass --set mu=1 --level f --from 0 --to 2", 2, "not of the form", "QUANTITY=VALUE"),
+        (
+            "rigid-mass --set mu=1 --level f= --from 0 --to 2",
+            2,
+            "not of the form",
+            "QUANTITY=VALUE",
+        ),
         ("rigid-mass --set mu=1 --zero f --from 0 --to 1e9", 1, "echoes arrive", "earlier time"),
         ("rigid-mass --set mu=1 --zero f --from -1 --to 1", 2, "before the start", "from 0 on"),
         ("rigid-mass --set mu=1 --zero f --from 0 --to 1 --digits 0", 2, "0 significant", "1 to"),
@@ -195,11 +204,16 @@ fn mistakes_are_told_with_a_remedy() {
         ("rigid-mass --set mu=1 --from 0 --to 1", 2, "required", "--help"),
         ("rigid-mass --set mu=1 --zero f", 2, "--to", "--help"),
         ("hopkinson --level force=1mm --from 0 --to 1us", 2, "force", "N"),
-        ("rigid-mass --max f --equal mu --between 1,2,3", 2, "no symbol", "LOW..HIGH"),
+        ("rigid-mass --max f --equal mu --between 1,2,3", 2, "not a symbol", "LOW..HIGH"),
         ("rigid-mass --max f --equal mu=2..1 --between 1,2,3", 2, "empty", "lower bound"),
         ("rigid-mass --max f --equal mu=1..2 --between 1,2", 2, "three times", "T1,T2,T3"),
-        ("rigid-mass --max f --equal mu=1..2 --between 3,2,4", 2, "do not ascend", "T1 before"),
-        ("rigid-mass --max f --equal mu=1..2 --between 1,2,x*mu", 2, "no number", "but mu"),
+        (
+            "rigid-mass --max f --equal mu=1..2 --between 3,2,4",
+            2,
+            "not in ascending order",
+            "T1 < T2",
+        ),
+        ("rigid-mass --max f --equal mu=1..2 --between 1,2,x*mu", 2, "not a number", "but mu"),
         ("rigid-mass --max f --equal mu=1..2 --between 1/9,1/8,1/7", 2, "both ends", "a range in"),
         (
             "rigid-mass --max f --equal mu=1..2 --between 1,2,3 --digits 99",

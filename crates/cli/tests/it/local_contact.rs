@@ -34,7 +34,7 @@ fn the_command_tells_tested_values_from_certified_ones() {
     for (line, expected, reason) in [
         ("derive hertz-striker --general", 1, "no recurrence"),
         ("derive local-contact --explain", 1, "stiffness = 335423000 N/m"),
-        ("eval hertz-striker --quantity force --at 0 --method modes", 1, "linear laws"),
+        ("eval hertz-striker --quantity force --at 0 --method modes", 1, "linear elements"),
         ("eval hertz-striker --quantity force --at 0 --method plain", 1, "exact solution"),
         ("eval hertz-striker --quantity other --at 0", 2, "neither a wave nor"),
     ] {

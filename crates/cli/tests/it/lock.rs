@@ -85,7 +85,7 @@ fn bad_requests_are_refused() {
         (&["lock", "rigid-mass", "--through", "500"], "terms"),
         (&["lock", "rigid-mass", "--through", "1", "-o", "nowhere/my.lock"], "cannot be written"),
         (&["lock", "rigid-mass", "--through", "1", "--digits", "0"], "cannot be certified"),
-        (&["lock", "m.wave", "--through", "0", "-o", "m.wave"], "the scene itself"),
+        (&["lock", "m.wave", "--through", "0", "-o", "m.wave"], "overwrite the scene"),
         (&["lock", "long.wave", "--through", "15"], "too long to be read back"),
         (&["lock", "rigid-mass", "--through", "1", "--at", "-1"], "before the start"),
         (&["check", "rigid-mass", "--locked", "nowhere.lock"], "cannot be read"),
@@ -126,14 +126,14 @@ fn the_command_locks_events_and_checks_them() {
     let closed = ["lock", "closed.wave", "--through", "1", "-o", "closed.lock"];
     assert_eq!(run(&folder, &closed).0, 0);
     let cases: [(&[&str], &str); 8] = [
-        (&["lock", "saint-venant"], "the history needs numbers, and `mu` has no value"),
-        (&["lock", "my.wave", "--through", "1"], "where contacts open there are no periods"),
+        (&["lock", "saint-venant"], "events need numbers, and `mu` has no value"),
+        (&["lock", "my.wave", "--through", "1"], "if contacts open, there are no periods"),
         (&["lock", "my.wave", "--to", "-1"], "before the start"),
-        (&["lock", "my.wave", "-o", "my.wave"], "the scene itself"),
-        (&["lock", "closed.wave"], "through which period"),
-        (&["lock", "closed.wave", "--to", "3"], "there are no events here"),
-        (&["check", "closed.wave", "--locked", "my.lock"], "no contacts open in closed.wave now"),
-        (&["check", "my.wave", "--locked", "closed.lock"], "contacts open in my.wave now"),
+        (&["lock", "my.wave", "-o", "my.wave"], "overwrite the scene"),
+        (&["lock", "closed.wave"], "neither a last period"),
+        (&["lock", "closed.wave", "--to", "3"], "there are no events"),
+        (&["check", "closed.wave", "--locked", "my.lock"], "no contact opens in closed.wave now"),
+        (&["check", "my.wave", "--locked", "closed.lock"], "contacts now open in my.wave"),
     ];
     for (arguments, expected) in cases {
         let (code, out, err) = run(&folder, arguments);

@@ -241,13 +241,13 @@ fn what_cannot_be_drawn_leaves_no_file() {
     fs::write(folder.join("old.svg"), "kept").unwrap();
     for (arguments, code, message) in [
         (&["rigid-mass", "-o", "a.svg"][..], 2, "mu has no value"),
-        (&["rigid-mass", "--set", "mu=1", "-o", "a.eps"], 2, "ends with .svg, .pdf"),
+        (&["rigid-mass", "--set", "mu=1", "-o", "a.eps"], 2, "use the extension .svg, .pdf"),
         (&["rigid-mass", "--set", "mu=1", "--to", "0", "-o", "a.svg"], 2, "is empty"),
         (&["rigid-mass", "--set", "mu=1", "--quantity", "g,h", "-o", "a.svg"], 2, "`h` is neither"),
         (&["rigid-mass", "--set", "mu=1", "--diagram", "force", "-o", "a.svg"], 2, "no bars"),
-        (&["hopkinson", "--at", "1us", "--quantity", "speed", "-o", "a.svg"], 2, "no field"),
+        (&["hopkinson", "--at", "1us", "--quantity", "speed", "-o", "a.svg"], 2, "not a field"),
         (&["hopkinson", "--at", "-1us", "-o", "a.svg"], 2, "before the start"),
-        (&["pushed-bar", "--width", "0", "-o", "a.png"], 2, "give another --width"),
+        (&["pushed-bar", "--width", "0", "-o", "a.png"], 2, "choose another --width"),
         (&["pushed-bar", "-o", "none/a.svg"], 2, "cannot be written"),
         (&["rigid-mass", "--set", "mu=1", "--to", "-1", "-o", "old.svg"], 2, "before the start"),
     ] {
@@ -308,7 +308,7 @@ fn field_is_told_as_csv_and_json() {
     assert_eq!(units["bars"][0]["x"][4].as_f64(), Some(2.0));
     for (more, message) in [
         (&["--mesh", "0"][..], "0 cells"),
-        (&["--mesh", "100001"], "from 1 to 100000"),
+        (&["--mesh", "100001"], "give 1 to 100000"),
         (&["--at", "-1"], "before the start"),
         (&["--bar", "red"], "no bar `red`"),
         (&["--to", "0"], "above 0"),

@@ -308,24 +308,24 @@ fn what_cannot_be_shown_is_named() {
     let folder = folder("report-left-out");
     let page = |scene: &[&str]| page(&folder, scene);
     let symbols = page(&["rigid-mass"]);
-    assert!(symbols.contains("Left out: the picture of the line, since equations state no bars"));
+    assert!(symbols.contains("Omitted: the picture of the line, since equations have no bars"));
     assert!(
-        symbols.contains("Left out: the symbol mu has no value.") && !symbols.contains("-data\">")
+        symbols.contains("Omitted: the symbol mu has no value.") && !symbols.contains("-data\">")
     );
     assert!(symbols.contains("<math"));
     let (_, local) = PAGES.iter().find(|(scene, _)| **scene == ["local-contact"]).unwrap();
-    assert!(local.contains("only pushes, with a power of its compression, so this scene"));
+    assert!(local.contains("is a power of its compression, so this scene"));
     assert!(local.contains("-data\">") && local.contains("<h3>The first contact</h3>"));
     let write = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();
     let bar = "bar a { impedance = 1, travel = 1, velocity = 1 }\nline free - a - fixed\n";
     write("unseen.wave", &format!("scene \"Unseen\"\n{bar}"));
     let unseen = page(&["unseen.wave"]);
-    assert!(unseen.contains("Left out: nothing is observed in this scene."));
+    assert!(unseen.contains("Omitted: this scene has no observables."));
     assert!(unseen.contains("field-force-data"));
     let spring = "mass m { mass = 1, velocity = 1 }\nspring s { stiffness = 1 }\nline free - m - s - fixed\n";
     write("barless.wave", &format!("scene \"No bars\"\n{spring}observe v = velocity(m)\n"));
     let barless = page(&["barless.wave"]);
-    assert!(barless.contains("Left out: the scene has no bar along which to draw."));
+    assert!(barless.contains("Omitted: the scene has no bar to draw."));
     assert!(barless.contains("observables-data"));
 }
 
@@ -370,7 +370,7 @@ fn long_lines_are_drawn_to_scale() {
     fs::write(folder.join("long.wave"), format!("{scene}{line} - fixed\n")).unwrap();
     let page = page(&folder, &["long.wave"]);
     assert!(page.len() < 3 << 20, "{} bytes", page.len());
-    assert!(page.contains("Left out: the figure field-velocity, which has"));
+    assert!(page.contains("Omitted: the figure field-velocity, which has"));
     let svg = page.split_once("class=\"line-of-scene\"").unwrap().1.split_once("</svg>").unwrap().0;
     let svg = format!("<svg{svg}</svg>");
     let widths: Vec<f64> = elements(&svg)
@@ -397,5 +397,5 @@ fn intervals_of_extrema_are_joined() {
         force.contains("<td>0 N</td><td>for 0 s ≤ t ≤ 0.0002900123150 s (constant)</td>"),
         "{force}"
     );
-    assert!(page.contains("Proven for all of 0 s ≤ t ≤ 0.0011 s"));
+    assert!(page.contains("Proven for the whole window 0 s ≤ t ≤ 0.0011 s"));
 }

@@ -11,16 +11,16 @@ fn commands_say_how_long_closed_contacts_are_true() {
         let (_, out, err) = run(anywhere(), &words(line));
         (out, err)
     };
-    let pulls = "from t = 3.06766764162 on the contact between hammer and rod would pull; with \
+    let pulls = "from t = 3.06766764162 on, the contact between hammer and rod is in tension; with \
                  `contacts open` it opens then";
     for (line, told) in [
         (
             "derive validity.wave --through 0 --set mu=1",
-            "this holds until t = 3.06766764162, when the contact between hammer and rod would pull",
+            "valid until t = 3.06766764162, when the contact between hammer and rod goes into tension",
         ),
         (
             "derive validity.wave --through 0",
-            "this is valid as long as force(rod.left) >= 0 at the contact between hammer and rod",
+            "valid as long as force(rod.left) >= 0 at the contact between hammer and rod",
         ),
         ("find validity.wave --set mu=1 --zero velocity --from 0 --to 4", pulls),
     ] {

@@ -37,7 +37,7 @@ pub enum Refusal {
     UnknownLine(String),
     #[error("`{0}` is no item of an equation")]
     UnknownItem(String),
-    #[error("the scene `{0}` has no common period; give commensurate bars")]
+    #[error("the scene `{0}` has no common period; give bars with commensurable travel times")]
     NoPeriods(String),
     #[error("`{0}` has no value for a witness; list it under `values`")]
     NoValue(String),

@@ -24,21 +24,21 @@ pub enum DispersionError {
     NotPositive(&'static str, Rational),
     #[error("with these values there is {0}")]
     Formula(#[from] FormulaError),
-    #[error("ω is negative at k = {0}, so it is no frequency")]
+    #[error("ω is negative at k = {0}, so it is not a frequency")]
     NegativeFrequency(Box<DecimalEnclosure>),
     #[error("the formula is not real at k = {0}")]
     NotReal(Box<DecimalEnclosure>),
-    #[error("the formula divides by what may be zero at k = {0}")]
+    #[error("a divisor in the formula may be zero at k = {0}")]
     DivisionByZero(Box<DecimalEnclosure>),
     #[error("the formula may have no derivative at k = {0}: a root of zero")]
     NotDifferentiable(Box<DecimalEnclosure>),
-    #[error("ω(k)·τ = 2π has no root for 0 < k ≤ {through}, and none is looked for beyond")]
+    #[error("ω(k)·τ = 2π has no root for 0 < k ≤ {through}; larger k are not searched")]
     NoCutOff { through: Box<DecimalEnclosure> },
-    #[error("whether ω(k)·τ = 2π has a root near k = {0} is not decided")]
+    #[error("undecided whether ω(k)·τ = 2π has a root near k = {0}")]
     UndecidedCutOff(Box<DecimalEnclosure>),
     #[error("∫ U k² dk may be zero, so the pulse has no peak to follow")]
     NoPeak,
-    #[error("the digits asked for are not reached with {bits} bits{}", best_known(best.as_deref()))]
+    #[error("the requested digits are not reached with {bits} bits{}", best_known(best.as_deref()))]
     AccuracyNotReached { best: Option<Box<Ball>>, bits: u64 },
     #[error(transparent)]
     Ball(BallError),
@@ -66,8 +66,8 @@ impl DispersionError {
     pub fn remedy(&self) -> String {
         match self {
             Self::NoWaveNumber => "write ω as a formula in k, such as 2*sin(k/2)".to_owned(),
-            Self::MissingValue(symbol) => format!("give it one: --set {symbol}=1"),
-            Self::UnknownParameter(_) => "leave it out, or write it in the relation".to_owned(),
+            Self::MissingValue(symbol) => format!("set it: --set {symbol}=1"),
+            Self::UnknownParameter(_) => "remove it, or use it in the relation".to_owned(),
             Self::NotPositive(..) | Self::ParameterNotPositive(..) => {
                 "give a positive number".to_owned()
             }
@@ -79,33 +79,33 @@ impl DispersionError {
                 "stay where the formula is smooth: take a longer pulse, or another formula"
                     .to_owned()
             }
-            Self::NoCutOff { .. } => "take a longer duration, or a pulse given in space".to_owned(),
+            Self::NoCutOff { .. } => "use a longer duration, or a pulse given in space".to_owned(),
             Self::UndecidedCutOff(_) => {
                 "change the duration a little: 2π/τ may be a maximum of ω".to_owned()
             }
             Self::NoPeak => "give a spectrum that is positive".to_owned(),
-            Self::AccuracyNotReached { .. } => "ask for fewer digits".to_owned(),
-            Self::Ball(_) => "ask for smaller wavenumbers".to_owned(),
+            Self::AccuracyNotReached { .. } => "use fewer digits".to_owned(),
+            Self::Ball(_) => "use smaller wavenumbers".to_owned(),
             Self::Grid(_) => "give a positive time, shorter or with fewer points where the grid is too large".to_owned(),
         }
     }
 }
 
 fn best_known(best: Option<&Ball>) -> String {
-    best.map_or_else(String::new, |best| format!("; known is {best}"))
+    best.map_or_else(String::new, |best| format!("; the best enclosure is {best}"))
 }
 
 /// Why times, lengths and counts make no grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoGrid {
-    #[error("the wavenumber is no finite number")]
+    #[error("the wavenumber is not a finite number")]
     WaveNumber,
     #[error("the time of travel is not positive")]
     Time,
     #[error("the length of the grid is not positive")]
     Length,
-    #[error("the grid is too short: it holds fewer than four components")]
+    #[error("the grid is too short: it has fewer than four components")]
     TooShort,
     #[error(
         "the grid would need more than {limit} points: take a shorter time of travel, or a longer pulse"

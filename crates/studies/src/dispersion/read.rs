@@ -48,7 +48,7 @@ pub fn read_spectrum(source: &Source) -> Result<Formula, Diagnostic> {
 fn formula(tree: &Expression, source: &Source) -> Result<Formula, Diagnostic> {
     let failed = |error: FormulaError, label: &str| {
         Diagnostic::new(source, error.to_string(), tree.span, label)
-            .with_remedy("take other numbers")
+            .with_remedy("use other numbers")
     };
     Ok(match &tree.value {
         Node::Number(value) => Formula::number(value),
@@ -87,7 +87,7 @@ fn formula(tree: &Expression, source: &Source) -> Result<Formula, Diagnostic> {
                 let message = format!("there is no function `{}`", called.value);
                 return Err(Diagnostic::new(source, message, called.span, "not known")
                     .with_closest(&called.value, words)
-                    .or_remedy("the functions are sqrt, sin, cos, exp, tanh and sinc"));
+                    .or_remedy("use one of sqrt, sin, cos, exp, tanh and sinc"));
             };
             formula(argument, source)?.apply(*function)
         }
@@ -116,7 +116,7 @@ fn inverse(tree: &Expression, source: &Source) -> Result<Formula, Diagnostic> {
             _ => "this power",
         };
         Diagnostic::new(source, error.to_string(), tree.span, label)
-            .with_remedy("divide by what is not zero, and by no huge powers")
+            .with_remedy("divide by nonzero terms without huge powers")
     };
     match &tree.value {
         Node::Negate(operand) => Ok(inverse(operand, source)?.negate()),

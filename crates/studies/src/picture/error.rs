@@ -11,11 +11,11 @@ use wavestep_draw::PlotError;
 pub enum PictureError {
     #[error("there is no diagram of the {}: give velocity, strain or force", .0.name())]
     NoDiagram(Quantity),
-    #[error("there is no figure {asked} that can be computed; those that can be are {known}")]
+    #[error("there is no computed figure {asked}; the computed figures are {known}")]
     NoFigure { asked: String, known: String },
-    #[error("the scene has no bar along which to draw")]
+    #[error("the scene has no bar to draw")]
     NoBars,
-    #[error("nothing is observed in this scene")]
+    #[error("this scene has no observables")]
     NothingObserved,
     #[error("values of {0} are too large for doubles, and cannot be drawn")]
     TooLarge(String),

@@ -51,7 +51,7 @@ pub fn paragraph(text: &str) -> String {
 
 /// A sentence from the message of an error, which begins in lower case and ends without a stop.
 pub fn left_out(reason: &impl ToString) -> String {
-    paragraph(&format!("Left out: {}.", reason.to_string().trim_end_matches('.')))
+    paragraph(&format!("Omitted: {}.", reason.to_string().trim_end_matches('.')))
 }
 
 pub fn list(items: &[String]) -> String {

@@ -73,9 +73,11 @@ pub fn drawn(scaled: &ScaledScene) -> String {
             y += 16.0;
             match dimension == Dimension::TIME {
                 true => {
-                    "Lengths are to the scale of travel times, heights are roots of impedances."
+                    "Lengths are proportional to travel times, heights to square roots of impedances."
                 }
-                false => "Lengths are to scale, heights are roots of impedances.",
+                false => {
+                    "Lengths are to scale, heights proportional to square roots of impedances."
+                }
             }
         }
     };

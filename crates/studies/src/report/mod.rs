@@ -77,7 +77,7 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
     add("derivation", "Derivation", &|| derivation(problem));
     add("events", "Events at contacts", &|| told::events(problem, open == Some(false)));
     add("signals", "Observables against time", &|| seen(&|all, to| signals(problem, all, to)));
-    add("diagrams", "Place and time", &|| match &end {
+    add("diagrams", "Space–time diagrams", &|| match &end {
         Ok(to) => diagrams(problem, to).unwrap_or_else(|error| left_out(&error)),
         Err(error) => left_out(error),
     });
@@ -85,9 +85,9 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
         seen(&|all, to| told::extrema(problem, all, [&zero, to]))
     });
     add("energies", "Energies", &|| seen(&|all, to| told::energies(problem, all, [&zero, to])));
-    add("assumptions", "What is assumed", &|| {
+    add("assumptions", "Assumptions", &|| {
         let of_window = |to| {
-            let closed = (request.closed)(to).map(|note| format!("With contacts closed, {note}."));
+            let closed = (request.closed)(to).map(|note| format!("Contacts stay closed: {note}."));
             [until(problem, to)].into_iter().chain(closed)
         };
         let all = end.iter().flat_map(of_window).chain(assumptions(problem, open));
@@ -134,11 +134,11 @@ fn scene(problem: &Problem) -> String {
     let values: Vec<String> =
         problem.values().iter().map(|(name, value)| format!("{name} = {value}")).collect();
     if !values.is_empty() {
-        out += &paragraph(&format!("Values in place of symbols: {}.", values.join(", ")));
+        out += &paragraph(&format!("Values of symbols: {}.", values.join(", ")));
     }
     out += &match problem.scaled() {
         Ok(scaled) => line::drawn(scaled),
-        Err(_) => left_out(&"the picture of the line, since equations state no bars and elements"),
+        Err(_) => left_out(&"the picture of the line, since equations have no bars or elements"),
     };
     let lines = text.lines().map(escape).collect::<Vec<_>>().join("\n");
     out + &format!(
@@ -247,17 +247,16 @@ fn explored(name: &str, svg: &str, data: &Json, axis: &str) -> String {
 fn until(problem: &Problem, to: &Rational) -> String {
     let shown =
         format!("Values are shown for 0 <= t <= {} {}", in_decimals(to), problem.time_unit());
-    shown.trim_end().to_owned() + "; where one jumps, the limit from later times."
+    shown.trim_end().to_owned() + "; at a jump, the limit from later times."
 }
 
 fn assumptions(problem: &Problem, open: Option<bool>) -> Vec<String> {
     let found = problem.assumptions();
-    let mut all: Vec<String> =
-        found.iter().map(|one| format!("It is assumed that {one}.")).collect();
+    let mut all: Vec<String> = found.iter().map(|one| format!("Assumed: {one}.")).collect();
     if problem.scaled().is_ok() {
         all.extend(open.map(|open| match open {
             true => "Contacts carry compression only: they open, and close again.".to_owned(),
-            false => "Contacts are kept closed, also where they would pull.".to_owned(),
+            false => "Contacts stay closed, even when they would go into tension.".to_owned(),
         }));
         all.push(
             "Bars are uniform and carry plane longitudinal waves without dispersion; displacement and \
@@ -268,7 +267,7 @@ fn assumptions(problem: &Problem, open: Option<bool>) -> Vec<String> {
     if let Ok(recurrence) = problem.recurrence() {
         let factors = assumed_factors(&recurrence.statement().assumptions);
         if !factors.is_empty() {
-            all.push(format!("Taken to be non-zero: {}.", factors.join(", ")));
+            all.push(format!("Assumed nonzero: {}.", factors.join(", ")));
         }
     }
     all

@@ -36,10 +36,12 @@ pub fn events(problem: &Problem, kept_closed: bool) -> String {
     };
     let told = teller(problem).history(&history);
     let about = match kept_closed {
-        true => " All other sections keep contacts closed; here they open where they would pull.",
+        true => {
+            " All other sections keep contacts closed; here they open when they would go into tension."
+        }
         false => "",
     };
-    paragraph(&format!("It is proven that no event is missed.{about}"))
+    paragraph(&format!("No event is missed; this is proven.{about}"))
         + &format!(
             "<ol class=\"events\">\n{}</ol>\n",
             told.into_iter().map(item).collect::<String>()
@@ -68,7 +70,7 @@ pub fn extrema(
         }
     }
     let [from, to] = window.map(|time| teller.time(&Value::Exact(time.clone())));
-    let caption = format!("Proven for all of {from} <= t <= {to}");
+    let caption = format!("Proven for the whole window {from} <= t <= {to}");
     Ok(table(&caption, &["observable", "", "value", "where"], &rows))
 }
 
@@ -117,7 +119,7 @@ pub fn energies(
         }
     }
     if rows.is_empty() {
-        let reason = "no energy is observed; `observe energy = energy(line)` would show it";
+        let reason = "no energy is observed; `observe energy = energy(line)` adds it";
         return Ok(left_out(&reason));
     }
     let heads = window.map(|time| format!("at t = {}", teller.time(&Value::Exact(time.clone()))));

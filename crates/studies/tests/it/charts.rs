@@ -62,7 +62,7 @@ fn expanded_formulas_lose_digits_with_time_and_order() {
         assert!(compiled.errors.iter().all(|error| error.unwrap() < 1e-15));
         // A model has no values without a scene.
         assert_eq!(rigid.errors, [None, None]);
-        assert!(rigid.refusal.as_ref().unwrap().to_string().contains("a scene of bars"));
+        assert!(rigid.refusal.as_ref().unwrap().to_string().contains("scenes of bars"));
     });
     // At a distance of 1/10 and 1/100 the formula loses digits, the polynomials do not.
     let chart = near_confluence(2, Caption::default()).unwrap();
