@@ -165,7 +165,7 @@ fn products_keep_their_place_among_observables() {
 fn products_are_locked_by_value_and_not_derived() {
     let problem = Problem::read("rigid", RIGID).unwrap();
     let refused = problem.derive("energy", 0..=1).unwrap_err().to_string();
-    assert!(refused.contains("energy holds products of waves"), "{refused}");
+    assert!(refused.contains("energy contains products of waves"), "{refused}");
     let rigid = solution(RIGID);
     let request = Request { times: vec![number("5/2")], digits: 20, ..Request::default() };
     let lock = Lock::of_pieces(Derivable::Equations(&rigid), None, &request).unwrap().to_text();

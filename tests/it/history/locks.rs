@@ -192,7 +192,7 @@ fn what_differs_is_named_with_its_place() {
 fn damaged_files_are_refused() {
     let text = saint_venant().to_text();
     for (old, new, expected) in [
-        ("lock 2", "lock 3", "versions up to 2 are read"),
+        ("lock 2", "lock 3", "versions up to 2 are supported"),
         ("lock 2", "lock 1", "expected `[`"),
         ("digits 20", "digits 0", "numbers have 1 to"),
         ("digits 20", "through 3", "remove it, or lock again"),
