@@ -269,6 +269,7 @@ def check_value(cert):
     pieces, time, claim = check_pieces(cert), Fraction(cert["at"]), Fraction(cert["value"])
     s, period, total = cert["local"], number(read_function(cert["period"])), {}
     for wave, kind, delay, coefficient in cert["observed"]["waves"]:
+        need(wave in pieces, f"nothing is known of {wave}")
         need(kind in ("value", "slope"), f"unknown operator {kind}")
         n, local = divmod(time - Fraction(delay), period)
         if n >= 0:

@@ -157,6 +157,7 @@ fn kind(error: &ProblemError) -> Kind {
         | ProblemError::NoCommonPeriods(_)
         | ProblemError::UnknownOrder(_)
         | ProblemError::NoPeriodsToExplain
+        | ProblemError::NoEchoesToExplain
         | ProblemError::NothingArrives(_)
         | ProblemError::NoGeneralForm { .. }
         | ProblemError::Rates { .. }
@@ -326,6 +327,7 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
         ProblemError::EchoesOfObservable(_) => "derive the echoes of its waves",
         ProblemError::NoCommonMeasure(_) => "derive echoes of waves, or evaluate",
         ProblemError::NoPeriodsToExplain => "derive its echoes",
+        ProblemError::NoEchoesToExplain => "explain its pieces: leave out the form",
         ProblemError::NoSourceForm => "add a statement such as `written f in V/c, s as mu*z/L`",
         ProblemError::NoGeneralSourceForm => "choose single orders, or another form",
         ProblemError::NoGeneralForm { symbol: Some(_), .. } => {

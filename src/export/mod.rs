@@ -20,6 +20,7 @@ pub mod oscillation;
 mod prose;
 mod source;
 mod terms;
+mod transforms;
 pub mod tree;
 mod writer;
 

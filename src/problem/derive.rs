@@ -212,11 +212,12 @@ impl Problem {
 
     /// How the recurrence follows from the bars and elements of a scene, how the pieces of these periods follow
     /// from it, step by step, and why general forms hold. Where no periods are asked for, three from `from` on.
-    /// An exercise has the question in front.
+    /// By echoes, how these follow by transforms instead of pieces. An exercise has the question in front.
     pub fn explanation(
         &self,
         orders: Option<Orders>,
         from: usize,
+        form: Form,
         exercise: bool,
     ) -> Result<Derivation, ProblemError> {
         if self.on_lattice() {
@@ -238,7 +239,11 @@ impl Problem {
             Kind::Equations(_) => Derivation::of_recurrence(recurrence, &decimal),
             Kind::Line { .. } => Derivation::of(self.network()?, recurrence, &decimal),
         };
-        derivation.pieces(recurrence, first, last, waves.len());
+        if form != Form::Echo {
+            derivation.pieces(recurrence, first, last, waves.len());
+        } else if !derivation.by_transforms(solution, waves.len()) {
+            return Err(ProblemError::NoEchoesToExplain);
+        }
         derivation.general_forms(solution, waves.len());
         if !exercise {
             return Ok(derivation);

@@ -100,6 +100,9 @@ pub enum ProblemError {
          periods to explain"
     )]
     NoPeriodsToExplain,
+    /// No wave has echoes that follow from each other by one rate.
+    #[error("no echo of this scene is the one before times a rational function in the transform")]
+    NoEchoesToExplain,
     #[error("this scene has no `written` statement, so its source form is unknown")]
     NoSourceForm,
     #[error("a form for every n that is a sum of echoes has no source form")]

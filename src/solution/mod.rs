@@ -37,4 +37,4 @@ pub(crate) use step::{FieldForm, FieldStep};
 pub use steps::{Integration, PieceSteps, SequenceStep, Solved, solved_for_waves};
 pub(crate) use table::EchoRow;
 pub use table::EchoTable;
-pub use template::{EchoTemplate, Family};
+pub use template::{EchoTemplate, Family, laplace};

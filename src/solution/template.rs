@@ -51,6 +51,20 @@ pub struct EchoTemplate {
     pub first: Vec<Expression>,
 }
 
+/// The Laplace transform of a sum of powers times exponentials: `c x^j/j! e^{λx} ↔ c/(p − λ)^{j+1}`.
+pub fn laplace(function: &Expression, x: &Symbol, p: &Symbol) -> Option<Fraction> {
+    let mut sum = Fraction::zero();
+    for (pole, coefficients) in Transform::of(function, x).poles() {
+        let share = (&Fraction::symbol(p) - pole).inverse().ok()?;
+        let mut power = share.clone();
+        for coefficient in coefficients {
+            sum = &sum + &(&coefficient.as_fraction()? * &power);
+            power = &power * &share;
+        }
+    }
+    Some(sum)
+}
+
 impl EchoTemplate {
     /// `v` and `u` of the step from `k = first.len()` on, with the rate `b`,
     ///
@@ -65,6 +79,26 @@ impl EchoTemplate {
             Family::Laguerre(c) => (self.ratio.clone(), &self.ratio * &(&self.rate - c)),
             Family::Power => (Fraction::zero(), self.ratio.clone()),
         }
+    }
+
+    /// What the transform of an echo is multiplied by to give that of the next one, from `k = first.len()` on:
+    /// `(v p + u)/(p + b)`.
+    pub fn transform_ratio(&self, p: &Symbol) -> Fraction {
+        let (slope, value) = self.step();
+        let p = Fraction::symbol(p);
+        let below = (&p + &self.rate).inverse().expect("a polynomial of degree one in p");
+        &(&(&slope * &p) + &value) * &below
+    }
+
+    /// The Laplace transform of the k-th echo, `k ≥ first.len()`, from that of the first one of these; `None` where
+    /// that has exponentials of symbols as coefficients.
+    pub fn transform(&self, k: usize, x: &Symbol, p: &Symbol) -> Option<Fraction> {
+        let first = self.first.len();
+        let mut transform = laplace(&self.echo(first, x), x, p)?;
+        for _ in first..k {
+            transform = &transform * &self.transform_ratio(p);
+        }
+        Some(transform)
     }
 
     /// The k-th echo as a function of `x`. O(k) operations on coefficients.

@@ -7,12 +7,12 @@ use wavestep::Problem;
 use wavestep::export::{LATEX_WIDTH, Notation};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, read_expression};
-use wavestep::problem::Orders;
+use wavestep::problem::{Form, Orders};
 use wavestep::recurrence::{Recurrence, Start, Step};
 use wavestep::scenes::SCENES;
 use wavestep::solution::{
     EchoByEcho, GeneralForm, Integration, PeriodByPeriod, PieceSteps, SequenceStep, Solution,
-    Solved, solved_for_waves,
+    Solved, laplace, solved_for_waves,
 };
 use wavestep_polynomial::{Rational, Symbol};
 
@@ -208,7 +208,8 @@ fn what_is_printed_was_computed() {
         let recurrence = problem.recurrence().expect("periods");
         let local = &recurrence.statement().local;
         let orders = Some(Orders::Through(0, LAST));
-        let text = problem.explanation(orders, 0, false).expect(name).to_text(usize::MAX);
+        let text =
+            problem.explanation(orders, 0, Form::Period, false).expect(name).to_text(usize::MAX);
         assert!(!text.contains("sqrt(-1)"), "{name}: a real scene without the imaginary unit");
         let steps = text.split("The pieces, step by step").nth(1).expect("pieces");
         let steps = steps.split("The form for every n").next().expect("pieces");
@@ -285,12 +286,60 @@ fn each_echo_follows_from_the_one_before() {
     assert!(found > 20, "{found}");
 }
 
+/// Transforms of echoes, each the one before times a rational function, are those of the echoes that were derived.
+#[test]
+fn transforms_are_those_of_the_echoes() {
+    let (mut found, p) = (0, Symbol::new("transformed").unwrap());
+    for (name, problem) in problems() {
+        let recurrence = problem.recurrence().expect("periods");
+        let (x, solution) = (&recurrence.statement().local, Solution::new(recurrence.clone()));
+        let mut solver = EchoByEcho::new(recurrence);
+        (0..7).for_each(|_| solver.advance().unwrap_or_else(|error| panic!("{error}")));
+        for wave in 0..recurrence.statement().waves.len() {
+            let Ok(GeneralForm::Echoes(template)) = solution.general(wave) else { continue };
+            if template.terms.is_empty() {
+                continue;
+            }
+            let echoes = solver.sum(wave).echoes;
+            for k in template.first.len()..echoes.len().min(7) {
+                let Some(transform) = template.transform(k, x, &p) else { continue };
+                assert_eq!(laplace(&echoes[k], x, &p), Some(transform), "{name}: wave {wave}, {k}");
+                found += 1;
+            }
+        }
+    }
+    assert!(found > 40, "{found}");
+}
+
+#[test]
+fn echoes_are_explained_by_transforms() {
+    let mut explained = 0;
+    for (name, problem) in problems() {
+        let Ok(derivation) = problem.explanation(None, 0, Form::Echo, false) else { continue };
+        let latex = derivation.to_latex(LATEX_WIDTH);
+        assert_eq!(latex.matches('{').count(), latex.matches('}').count(), "{name}");
+        assert!(latex.contains("\\Phi^{") && !latex.contains("step by step"), "{name}");
+        explained += 1;
+    }
+    assert!(explained >= 7, "{explained}");
+    let rigid = Problem::builtin("rigid-mass").unwrap();
+    let text = rigid.explanation(None, 0, Form::Echo, false).unwrap().to_text(100);
+    for line in [
+        "    Phi_f[k+1](p) = ((p - 1)/(p + 1))*Phi_f[k](p)\n",
+        "    Phi_f(p) = Phi_f[0](p)/(1 - q*((p - 1)/(p + 1)))\n",
+        "    phi_f[2](s) = exp(-s)*(2*s^2 - 4*s + 1)\n",
+    ] {
+        assert!(text.contains(line), "{text}");
+    }
+}
+
 // ---- LaTeX -------------------------------------------------------------------------------------
 
 #[test]
 fn latex_is_sound() {
     for (name, problem) in problems() {
-        let latex = problem.explanation(None, 0, true).expect(name).to_latex(LATEX_WIDTH);
+        let latex =
+            problem.explanation(None, 0, Form::Period, true).expect(name).to_latex(LATEX_WIDTH);
         let mut prose = String::new();
         let (_, mut rest) = latex.split_once("\\end{verbatim}").expect("the text of the scene");
         while let Some((before, after)) = rest.split_once("\\begin{align}\n") {

@@ -4,11 +4,13 @@ use super::arguments::Certify;
 use super::failure::Failure;
 use super::input;
 use super::progress;
+use num_bigint::BigInt;
 use num_rational::BigRational;
 use serde_json::{Map, Value as Json, json};
 use std::collections::BTreeSet;
 use wavestep::expression::{Constant, Definition, Expression, Fraction};
 use wavestep::limits::VALUE_BITS;
+use wavestep::planner::has_periods;
 use wavestep::problem::{Derived, Digits, Form, Orders, Problem, ToDerive};
 use wavestep::recurrence::{LinearForm, Recurrence};
 use wavestep::signal::Limit;
@@ -102,11 +104,16 @@ fn pieces(problem: &Problem, last: usize) -> Result<(Map<String, Json>, Writer),
 /// A value, with the pieces that it is made of.
 fn value(problem: &Problem, name: &str, at: &BigRational, digits: usize) -> Result<Json, Failure> {
     let wanted = problem.wanted(name)?;
-    let linear = wanted.observation().filter(|_| !problem.has_units());
-    let Some(observation) = linear else {
-        let message = format!("no certificate is written of the value of {name}");
-        let remedy = "ask for a quantity that is linear in the waves, in a scene without units";
-        return Err(Failure::usage(message, remedy));
+    let refused = |reason: &str| {
+        let message = format!("there are no certificates of values {reason}");
+        Failure::usage(message, "certify its pieces, with --through")
+    };
+    let opens = problem.network().is_ok_and(|network| !has_periods(network));
+    let observation = match wanted.observation() {
+        _ if problem.has_units() => return Err(refused("in scenes with units")),
+        _ if opens => return Err(refused("where contacts open")),
+        None => return Err(refused(&format!("of {name}, which is not linear in the waves"))),
+        Some(observation) => observation,
     };
     let asked =
         Digits { count: digits, max_bits: VALUE_BITS, limit: Limit::Right, count_echoes: false };
@@ -115,15 +122,27 @@ fn value(problem: &Problem, name: &str, at: &BigRational, digits: usize) -> Resu
     // Zeros at the end are left out of decimals that are exact.
     let last_place = decimal.place() - (digits - decimal.significant()) as i64;
     let period = problem.shortest_period().expect("values have periods of known length");
-    let last = (at / period).to_integer();
+    // The clocks of waves differ: what is seen may be of a later period than its time.
+    let delays: Vec<BigRational> =
+        observation.waves.iter().filter_map(|seen| seen.delay.as_constant()).collect();
+    let last = delays.iter().map(|delay| ((at - delay) / &period).floor().to_integer()).max();
+    let last = last.unwrap_or_default().max(BigInt::ZERO);
     let last = usize::try_from(last)
         .map_err(|_| Failure::usage("the time is too late", "ask for an earlier time"))?;
     let (mut document, mut writer) = pieces(problem, last)?;
+    if !writer.roots.is_empty() {
+        return Err(refused("whose formulas hold square roots"));
+    }
+    let recurrence = problem.recurrence()?;
+    let is_told = |wave: usize| document["pieces"].get(recurrence.wave_name(wave)).is_some();
+    if !observation.waves.iter().all(|seen| is_told(seen.wave)) {
+        return Err(refused(&format!("of {name}, which is made of integrals of waves")));
+    }
     let waves: Vec<Json> = observation
         .waves
         .iter()
         .map(|seen| {
-            let wave = problem.recurrence()?.wave_name(seen.wave);
+            let wave = recurrence.wave_name(seen.wave);
             let kind = if seen.slope { "slope" } else { "value" };
             let delay = seen.delay.as_constant().map(|delay| delay.to_string());
             Ok(json!([wave, kind, delay, writer.expression(&seen.coefficient)]))
@@ -136,7 +155,6 @@ fn value(problem: &Problem, name: &str, at: &BigRational, digits: usize) -> Resu
     document.insert("at".into(), json!(at.to_string()));
     document.insert("value".into(), json!(decimal.to_string()));
     document.insert("last_place".into(), json!(last_place));
-    document.insert("roots".into(), writer.roots());
     Ok(Json::Object(document))
 }
 

@@ -69,7 +69,8 @@ fn formulas(
 
 fn explanation(problem: &Problem, options: &Derive) -> Result<String, Failure> {
     options.orders().map_or(Ok(()), refuse_empty)?;
-    let derivation = problem.explanation(options.orders(), options.from, options.exercise)?;
+    let derivation =
+        problem.explanation(options.orders(), options.from, options.form, options.exercise)?;
     match options.format {
         Format::Latex => Ok(derivation.to_latex(options.width())),
         Format::Json => {

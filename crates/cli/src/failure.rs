@@ -203,6 +203,7 @@ fn usual(cause: &ProblemError) -> Option<&'static str> {
             "give values with --set, or evaluate it with `wavestep eval`"
         }
         ProblemError::NoPeriodsToExplain => "derive its echoes: remove --explain",
+        ProblemError::NoEchoesToExplain => "explain its pieces: remove --form echo",
         ProblemError::NothingArrives(_) => "choose a larger --through",
         ProblemError::NoGeneralForm { symbol: Some(_), .. } => {
             "choose single orders with --through or --piece; if a factor may vanish, \

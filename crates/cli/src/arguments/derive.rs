@@ -46,11 +46,11 @@ pub struct Derive {
     #[arg(long, conflicts_with = "form")]
     pub source_form: bool,
     /// Say how everything follows: the recurrence from the bars and elements of a scene, the pieces from it
-    /// step by step [default: periods 0 … 2], and why general forms hold
-    #[arg(long, conflicts_with_all = ["quantity", "general", "form", "source_form"])]
+    /// step by step [default: periods 0 … 2], and why general forms hold; with --form echo by Laplace transforms
+    #[arg(long, conflicts_with_all = ["quantity", "general", "source_form"])]
     pub explain: bool,
     /// Print an exercise: the scene with what is asked, and apart from it the answer as --explain tells it
-    #[arg(long, conflicts_with_all = ["quantity", "general", "form", "source_form"])]
+    #[arg(long, conflicts_with_all = ["quantity", "general", "source_form"])]
     pub exercise: bool,
     /// Derive a simpler model too, below the exact formulas: `rigid` (no bar yields), `third` (bars are springs with a
     /// third of their mass), or another change of the scene, as `find --minus` takes it

@@ -80,6 +80,39 @@ fn certificates_of_shipped_scenes_are_verified() {
     assert!(proven && told.matches(": proven (").count() == files.len(), "{told}");
 }
 
+/// Every observable of scenes without units, at several times: its value is verified, or there is no certificate and it is
+/// said why.
+#[test]
+fn values_of_all_observables_are_verified_or_refused() {
+    let folder = folder("certificates-of-values");
+    let mut files = Vec::new();
+    for scene in SCENES {
+        let problem = wavestep::Problem::builtin(scene).unwrap();
+        if problem.has_units() {
+            continue;
+        }
+        let symbols: Vec<String> =
+            problem.symbols().iter().map(|name| format!("--set {name}=3/2")).collect();
+        for quantity in problem.observables() {
+            for at in ["1/3", "3", "29/4"] {
+                let file = format!("{}.json", files.len());
+                let symbols = symbols.join(" ");
+                let line =
+                    format!("certify {scene} {symbols} --quantity {quantity} --at {at} -o {file}");
+                let words: Vec<&str> = line.split_whitespace().collect();
+                let (code, _, errors) = run(&folder, &words);
+                match code {
+                    0 => files.push(file),
+                    _ => assert!(errors.contains("no certificates of values"), "{line}: {errors}"),
+                }
+            }
+        }
+    }
+    assert!(files.len() > 60, "{}", files.len());
+    let Some((proven, told)) = checked(&folder, "check.py", &files) else { return };
+    assert!(proven, "{told}");
+}
+
 #[test]
 fn altered_certificates_are_not() {
     let folder = folder("altered-certificates");
@@ -132,7 +165,10 @@ fn what_has_no_certificate_is_told() {
         ("certify rates.wave", "which has no formula"),
         ("certify incommensurate", "incommensurable"),
         ("certify hertz-striker", "local contact"),
-        ("certify mass-on-fixed-bar --set mu=1 --quantity energy --at 1", "energy"),
+        ("certify mass-on-fixed-bar --set mu=1 --quantity energy --at 1", "not linear"),
+        ("certify mass-on-fixed-bar --set mu=1 --quantity momentum --at 1", "integrals of waves"),
+        ("certify saint-venant --set mu=1 --quantity velocity --at 5", "where contacts open"),
+        ("certify hopkinson --quantity force --at 1ms", "with units"),
         ("certify rigid-mass --quantity f --at 1", "mu"),
         ("certify rigid-mass --at 1", "--quantity"),
     ] {

@@ -148,7 +148,7 @@ fn scene(problem: &Problem) -> String {
 
 /// How a scene becomes a recurrence, and that its pieces, step by step.
 fn derivation(problem: &Problem) -> String {
-    match (problem.explanation(None, 0, false), problem.first_contact()) {
+    match (problem.explanation(None, 0, Form::Period, false), problem.first_contact()) {
         (Ok(derivation), _) => derivation.parts().iter().map(part).collect(),
         (Err(error), Ok(Some(formulas))) => {
             left_out(&error) + &with_constants(problem, "The first contact", &formulas)
