@@ -92,8 +92,12 @@ def is_zero(expression):
     return True
 
 
-def no_time_below(below, s):
-    need(all(s not in dict(m) for factor, _ in below for m, _ in factor), "a divisor holds the time")
+def terms(function, s):
+    """Denominator, monomial, coefficient and power of the time, which stands above alone, of each term."""
+    for below, top in function.items():
+        need(all(s not in dict(m) for factor, _ in below for m, _ in factor), "a divisor holds the time")
+        for m, c in top.items():
+            yield below, m, c, dict(m).get(s, 0)
 
 
 def slope(expression, s):
@@ -101,13 +105,10 @@ def slope(expression, s):
 
     def of(function):
         result = {}
-        for below, top in function.items():
-            no_time_below(below, s)
-            for m, c in top.items():
-                power = dict(m).get(s, 0)
-                if power:
-                    rest = tuple((t, p - (t == s)) for t, p in m if t != s or p > 1)
-                    add(result, {below: {rest: c * power}})
+        for below, m, c, power in terms(function, s):
+            if power:
+                rest = tuple((t, p - (t == s)) for t, p in m if t != s or p > 1)
+                add(result, {below: {rest: c * power}})
         return result
 
     return {x: add(of(r), r, of(thawed(x))) for x, r in expression.items()}
@@ -119,13 +120,10 @@ def put(expression, s, value):
 
     def of(function):
         result = {}
-        for below, top in function.items():
-            no_time_below(below, s)
-            for m, c in top.items():
-                power = dict(m).get(s, 0)
-                while len(powers) <= power:
-                    powers.append(add({}, powers[-1], value))
-                add(result, {below: {tuple(pair for pair in m if pair[0] != s): c}}, powers[power])
+        for below, m, c, power in terms(function, s):
+            while len(powers) <= power:
+                powers.append(add({}, powers[-1], value))
+            add(result, {below: {tuple(pair for pair in m if pair[0] != s): c}}, powers[power])
         return result
 
     result = {}

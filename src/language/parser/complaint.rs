@@ -518,14 +518,13 @@ pub(super) fn no_keyword(input: Input<'_>) -> Diagnostic {
 }
 
 /// Other words for what is declared in a scene.
-const OTHER_WORDS: [(&str, &str); 8] = [
+const OTHER_WORDS: [(&str, &str); 7] = [
     ("rod", "bar"),
     ("beam", "bar"),
     ("pile", "bar"),
     ("ram", "mass"),
     ("dashpot", "spring"),
     ("damper", "spring"),
-    ("contact", "hertz"),
     ("output", "observe"),
 ];
 
