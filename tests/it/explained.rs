@@ -11,8 +11,8 @@ use wavestep::problem::{Form, Orders};
 use wavestep::recurrence::{Recurrence, Start, Step};
 use wavestep::scenes::SCENES;
 use wavestep::solution::{
-    EchoByEcho, GeneralForm, Integration, PeriodByPeriod, PieceSteps, SequenceStep, Solution,
-    Solved, laplace, solved_for_waves,
+    EchoByEcho, EchoTemplate, GeneralForm, Integration, PeriodByPeriod, PieceSteps, SequenceStep,
+    Solution, Solved, laplace, solved_for_waves,
 };
 use wavestep_polynomial::{Rational, Symbol};
 
@@ -263,26 +263,34 @@ fn sequences_satisfy_their_equations_for_every_n() {
     assert!(found > 20, "{found}");
 }
 
-#[test]
-fn each_echo_follows_from_the_one_before() {
-    let mut found = 0;
+/// Visits the echoes of every wave that has a form for all of them, as they were derived echo by echo.
+fn for_each_template(mut visit: impl FnMut(&str, &EchoTemplate, &[Expression], &Symbol)) {
     for (name, problem) in problems() {
         let recurrence = problem.recurrence().expect("periods");
         let (x, solution) = (&recurrence.statement().local, Solution::new(recurrence.clone()));
         let mut solver = EchoByEcho::new(recurrence);
         (0..9).for_each(|_| solver.advance().unwrap_or_else(|error| panic!("{error}")));
-        for wave in 0..recurrence.statement().waves.len() {
-            let Ok(GeneralForm::Echoes(template)) = solution.general(wave) else { continue };
-            let (echoes, (slope, value)) = (solver.sum(wave).echoes, template.step());
-            for pair in echoes[template.first.len().min(7)..].windows(2) {
-                let left = &pair[1].derivative(x) + &pair[1].times(&template.rate);
-                let right = &pair[0].derivative(x).times(&slope) + &pair[0].times(&value);
-                assert_eq!(left, right, "{name}: wave {wave}");
-                assert_eq!(pair[1].at_zero(x), pair[0].at_zero(x).times(&slope), "{name}");
-                found += 1;
+        for (wave, title) in recurrence.statement().waves.iter().enumerate() {
+            if let Ok(GeneralForm::Echoes(template)) = solution.general(wave) {
+                visit(&format!("{name}: {title}"), template, &solver.sum(wave).echoes, x);
             }
         }
     }
+}
+
+#[test]
+fn each_echo_follows_from_the_one_before() {
+    let mut found = 0;
+    for_each_template(|name, template, echoes, x| {
+        let (slope, value) = template.step();
+        for pair in echoes[template.first.len().min(7)..].windows(2) {
+            let left = &pair[1].derivative(x) + &pair[1].times(&template.rate);
+            let right = &pair[0].derivative(x).times(&slope) + &pair[0].times(&value);
+            assert_eq!(left, right, "{name}");
+            assert_eq!(pair[1].at_zero(x), pair[0].at_zero(x).times(&slope), "{name}");
+            found += 1;
+        }
+    });
     assert!(found > 20, "{found}");
 }
 
@@ -290,24 +298,14 @@ fn each_echo_follows_from_the_one_before() {
 #[test]
 fn transforms_are_those_of_the_echoes() {
     let (mut found, p) = (0, Symbol::new("transformed").unwrap());
-    for (name, problem) in problems() {
-        let recurrence = problem.recurrence().expect("periods");
-        let (x, solution) = (&recurrence.statement().local, Solution::new(recurrence.clone()));
-        let mut solver = EchoByEcho::new(recurrence);
-        (0..7).for_each(|_| solver.advance().unwrap_or_else(|error| panic!("{error}")));
-        for wave in 0..recurrence.statement().waves.len() {
-            let Ok(GeneralForm::Echoes(template)) = solution.general(wave) else { continue };
-            if template.terms.is_empty() {
-                continue;
-            }
-            let echoes = solver.sum(wave).echoes;
-            for (k, echo) in echoes.iter().enumerate().take(7).skip(template.first.len()) {
-                let Some(transform) = template.transform(k, x, &p) else { continue };
-                assert_eq!(laplace(echo, x, &p), Some(transform), "{name}: wave {wave}, {k}");
-                found += 1;
-            }
+    for_each_template(|name, template, echoes, x| {
+        let echoes = echoes.iter().enumerate().skip(template.first.len());
+        for (k, echo) in echoes.filter(|_| !template.terms.is_empty()) {
+            let Some(transform) = template.transform(k, x, &p) else { continue };
+            assert_eq!(laplace(echo, x, &p), Some(transform), "{name}, {k}");
+            found += 1;
         }
-    }
+    });
     assert!(found > 40, "{found}");
 }
 
