@@ -329,7 +329,6 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
         ProblemError::NoPeriodsToExplain => "derive its echoes",
         ProblemError::NoEchoesToExplain => "explain its pieces: leave out the form",
         ProblemError::NoSourceForm => "add a statement such as `written f in V/c, s as mu*z/L`",
-        ProblemError::NoGeneralSourceForm => "choose single orders, or another form",
         ProblemError::NoGeneralForm { symbol: Some(_), .. } => {
             "choose single orders; if a factor may vanish, stating `nonzero …` can help"
         }

@@ -2,7 +2,7 @@
 
 use crate::export::arrangement::arrange;
 use crate::export::formula::{Formula, Head, Right, since};
-use crate::export::notation::Notation::{self, Latex, MathMl, Text};
+use crate::export::notation::Notation::{self, Text};
 use crate::export::notation::both;
 use crate::export::tree::{Sign, Term, Tree};
 use crate::export::writer::write_flat;
@@ -74,7 +74,11 @@ pub fn general_form_from(
 }
 
 /// `o + n*D <= t < o + (n+1)*D`.
-fn on_period_from(recurrence: &Recurrence, offset: &Fraction, notation: Notation) -> String {
+pub(super) fn on_period_from(
+    recurrence: &Recurrence,
+    offset: &Fraction,
+    notation: Notation,
+) -> String {
     let Statement { period, time, .. } = recurrence.statement();
     let n = Symbol::new("n").expect("a name");
     let begins = offset + &(period * &Fraction::symbol(&n));
@@ -185,14 +189,7 @@ pub(super) fn sum_of_echoes(recurrence: &Recurrence, wave: &str, offset: &Fracti
             [&delay, &later, &offset].map(|value| write_flat(&arrange(value, None), n));
         let [argument, latest] = [later, offset].map(|start| since(&n.symbol(t), &start));
         let echo = n.echo(wave, k.name(), &argument);
-        match n {
-            Text => format!("sum({echo}, 0 <= {delay} <= {latest})"),
-            MathMl => {
-                let range = format!("<mrow>0≤{delay}≤{latest}</mrow>");
-                format!("<munder><mo>∑</mo>{range}</munder>{echo}")
-            }
-            Latex => format!("\\sum_{{0 \\le {delay} \\le {latest}}} {echo}"),
-        }
+        n.sum_between(&delay, &latest, &echo)
     });
     Formula::of(head, right)
 }

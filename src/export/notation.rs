@@ -89,6 +89,18 @@ impl Notation {
         }
     }
 
+    /// The sum of all terms whose number, or delay, lies between 0 and `last`.
+    pub fn sum_between(self, what: &str, last: &str, term: &str) -> String {
+        match self {
+            Text => format!("sum({term}, 0 <= {what} <= {last})"),
+            Latex => format!("\\sum_{{0 \\le {what} \\le {last}}} {term}"),
+            MathMl => {
+                let range = format!("<mrow>0≤{what}≤{last}</mrow>");
+                format!("<munder><mo>∑</mo>{range}</munder>{term}")
+            }
+        }
+    }
+
     /// `base^exponent`, both already written.
     pub fn power(self, base: &str, exponent: &str) -> String {
         match self {

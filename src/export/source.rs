@@ -2,7 +2,7 @@
 
 use crate::export::arrangement::{Arrangement, arrange};
 use crate::export::formula::{Formula, Head, Right};
-use crate::export::general::general_form_from;
+use crate::export::general::{echo_index, general_form_from, on_period_from};
 use crate::export::names::{Name, Names};
 use crate::export::notation::Notation::{self, Latex, Text};
 use crate::export::notation::both;
@@ -88,23 +88,61 @@ impl<'a> SourceForm<'a> {
         formulas
     }
 
-    /// A wave in general n, in the source's symbols: single values, and last the one for every n.
-    /// `None` where the wave is a sum of echoes.
-    pub fn general(&self, wave: WaveIndex, form: &GeneralForm) -> Option<Vec<Formula>> {
-        let GeneralForm::Geometric(sequence) = form else { return None };
+    /// A wave in general n, in the source's symbols: single values and the one for every n, or the sum over
+    /// echoes and the echoes, which are in no unit.
+    pub fn general(&self, wave: WaveIndex, form: &GeneralForm) -> Vec<Formula> {
+        let GeneralForm::Geometric(sequence) = form else {
+            let mut formulas = general_form_from(self.recurrence, wave, form, &self.offset);
+            formulas[0] = self.sum_of_echoes(wave);
+            return formulas;
+        };
         let unit = self.recurrence.statement().notation.units.get(&wave);
         let sequence = unit.map_or_else(|| sequence.clone(), |u| sequence.scaled(u.coefficient()));
         let last = sequence.first.len();
         let form = GeneralForm::Geometric(sequence);
         let formulas = general_form_from(self.recurrence, wave, &form, &self.offset);
         let written = |(i, formula): (usize, Formula)| {
-            let Right::Terms(terms) = formula.right else { return None };
+            let Right::Terms(terms) = formula.right else { return formula };
             let terms = unit.map_or_else(|| terms.clone(), |unit| in_unit(unit, terms.clone()));
             let index = if i == last { "n".to_owned() } else { i.to_string() };
             let written = self.formula(head(self.recurrence, wave, &index), terms);
-            Some(Formula { remark: formula.remark, ..written })
+            Formula { remark: formula.remark, ..written }
         };
         formulas.into_iter().enumerate().map(written).collect()
+    }
+
+    /// `f[n] = V/c*sum(phi_f[k](mu*z/L + 2*mu*(n - k)), 0 <= k <= n)`: an echo has run n - k periods longer than
+    /// the local time.
+    fn sum_of_echoes(&self, wave: WaveIndex) -> Formula {
+        let statement = self.recurrence.statement();
+        let k = echo_index(self.recurrence);
+        let n = Tree::Symbol(Symbol::new("n").expect("a name"));
+        let periods = Tree::Sum(vec![(Sign::Plus, n), (Sign::Minus, Tree::Symbol(k.clone()))]);
+        let (sign, period) = Tree::sum(arrange(&statement.period.clone().into(), None));
+        let mut since = period.into_factors();
+        since.push(periods);
+        let argument =
+            [(Sign::Plus, Tree::Symbol(statement.local.clone())), (sign, Tree::product(since))];
+        let echoes = Name::plain(|notation| {
+            let argument = write_named(&argument, notation, &self.names);
+            let echo = notation.echo(&statement.waves[wave], k.name(), argument.text());
+            notation.sum_between(k.name(), "n", &echo)
+        });
+        let sum = Symbol::new("echoes").expect("a name");
+        let names = Names::from_iter([(sum.clone(), echoes)]);
+        let sum = Tree::Symbol(sum);
+        let unit = statement.notation.units.get(&wave);
+        let term = match unit.map(|unit| (unit.coefficient().is_negative(), product_tree(unit))) {
+            Some((negative, unit)) => {
+                (if negative { Sign::Minus } else { Sign::Plus }, Tree::product(vec![unit, sum]))
+            }
+            None => (Sign::Plus, sum),
+        };
+        let (text, latex) = head(self.recurrence, wave, "n");
+        let right = Right::Named(vec![term], names.into());
+        let remark = (!self.offset.is_zero())
+            .then(|| both(|n| on_period_from(self.recurrence, &self.offset, n)));
+        Formula { remark, ..Formula::of(Head::new(text, latex), right) }
     }
 
     fn formula(&self, (text, latex): (String, String), terms: Vec<Term>) -> Formula {

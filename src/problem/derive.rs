@@ -555,7 +555,7 @@ fn general(
         Symbols::Own => export::general_form_from(recurrence, wave, form, offset),
         Symbols::Source => {
             let source = SourceForm::new(recurrence, None).beginning(offset);
-            source.general(wave, form).ok_or(ProblemError::NoGeneralSourceForm)?
+            source.general(wave, form)
         }
     };
     Ok(GeneralFormulas { name: name.clone(), offset: offset.clone(), formulas })

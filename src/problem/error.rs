@@ -105,8 +105,6 @@ pub enum ProblemError {
     NoEchoesToExplain,
     #[error("this scene has no `written` statement, so its source form is unknown")]
     NoSourceForm,
-    #[error("a form for every n that is a sum of echoes has no source form")]
-    NoGeneralSourceForm,
     #[error(
         "no closed form in n was found for {wave}; with {} for the derivative and {} for the delay by \
          one period, its equation after the start is\n    {operator}",

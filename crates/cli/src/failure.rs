@@ -227,7 +227,6 @@ fn usual(cause: &ProblemError) -> Option<&'static str> {
         ProblemError::NoSourceForm => {
             "add a statement such as `written f in V/c, s as mu*z/L`, or remove --source-form"
         }
-        ProblemError::NoGeneralSourceForm => "remove --source-form or --general",
         _ => return None,
     })
 }

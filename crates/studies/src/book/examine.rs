@@ -234,7 +234,7 @@ fn general(stage: &Stage, quantity: &Quantity) -> Vec<Formula> {
     let notation = &solution.recurrence().statement().notation;
     let of_wave = |(wave, _)| {
         let form = solution.general(wave).ok().filter(|_| notation.units.contains_key(&wave))?;
-        source.general(wave, form)
+        Some(source.general(wave, form))
     };
     quantity.form.operators().filter_map(of_wave).flatten().collect()
 }
