@@ -1,6 +1,8 @@
 //! How much is done at most. Where a limit is met the error names it.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 // ---- Texts ---------------------------------------------------------------------------------------
 
@@ -98,18 +100,44 @@ pub fn set_memory(bytes: u64) {
 
 static MEMORY: AtomicU64 = AtomicU64::new(0);
 
-/// The share of a window through which the scene at hand was followed, for who shows how work goes on; 0 where
-/// nothing is followed.
-pub fn followed_share() -> f64 {
-    f64::from_bits(FOLLOWED.load(Ordering::Relaxed))
+/// The share of the work at hand that is done, and of what it is a share, for who shows how work goes on; 0 where
+/// nothing is counted.
+pub fn share_done() -> (f64, &'static str) {
+    *DONE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Tells that share.
-pub(crate) fn tell_followed(share: f64) {
-    FOLLOWED.store(share.to_bits(), Ordering::Relaxed);
+pub(crate) fn tell_done(share: f64, of: &'static str) {
+    *DONE.lock().unwrap_or_else(PoisonError::into_inner) = (share, of);
 }
 
-static FOLLOWED: AtomicU64 = AtomicU64::new(0);
+static DONE: Mutex<(f64, &'static str)> = Mutex::new((0.0, ""));
+
+/// Counts through a range and tells how much of it is done.
+pub(crate) struct Counted {
+    range: Range<usize>,
+    count: usize,
+    of: &'static str,
+}
+
+pub(crate) fn counted(range: Range<usize>, of: &'static str) -> Counted {
+    Counted { count: range.len(), range, of }
+}
+
+impl Iterator for Counted {
+    type Item = usize;
+
+    fn next(&mut self) -> Option<usize> {
+        tell_done(1.0 - self.range.len() as f64 / self.count.max(1) as f64, self.of);
+        self.range.next()
+    }
+}
+
+impl Drop for Counted {
+    fn drop(&mut self) {
+        tell_done(0.0, "");
+    }
+}
 
 /// The memory of the machine, where Linux tells.
 fn machine() -> Option<u64> {

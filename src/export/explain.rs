@@ -18,6 +18,9 @@ use wavestep_polynomial::Symbol;
 /// The label of the equations of a recurrence in LaTeX.
 pub(super) const RECURRENCE: &str = "recurrence";
 
+/// What introduces the definitions of constants.
+const NAMED: &str = "Numbers that are not rational have names:";
+
 /// A part of a derivation.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Block {
@@ -57,6 +60,7 @@ impl Derivation {
         let rates = recurrence.constants().iter().filter(|constant| !known.contains(constant));
         derivation.constants(&rates.cloned().collect::<Vec<_>>(), decimal);
         derivation.solved(&writer, network.waves().len());
+        derivation.drop_unused_constants();
         derivation
     }
 
@@ -176,8 +180,30 @@ impl Derivation {
             let remark = number.map(|number| (format!("= {number}"), format!("\\approx {number}")));
             Formula { remark, ..Formula::of(head, definition(&constant.value)) }
         };
-        self.sentence("Numbers that are not rational have names:");
+        self.sentence(NAMED);
         self.equations(all.iter().map(formula).collect());
+    }
+
+    /// Leaves out constants that stand nowhere but in their own definition.
+    fn drop_unused_constants(&mut self) {
+        let text = self.to_text(usize::MAX);
+        let words = || text.split(|c: char| !c.is_alphanumeric() && c != '_');
+        let is_used =
+            |formula: &Formula| words().filter(|word| *word == formula.head.text).count() > 1;
+        let mut at = 0;
+        while at + 1 < self.parts.len() {
+            if let [Block::Sentence([told, ..]), Block::Equations(formulas, _), ..] =
+                &mut self.parts[at..]
+                && told == NAMED
+            {
+                formulas.retain(is_used);
+                if formulas.is_empty() {
+                    self.parts.drain(at..at + 2);
+                    continue;
+                }
+            }
+            at += 1;
+        }
     }
 
     /// The waves in each bar, and what else is followed.
@@ -201,9 +227,10 @@ impl Derivation {
             let name = &scene.elements[*element].name;
             let way = match &data.travel {
                 None => "The bar `{name}` has no end from which waves return.",
-                Some(_) => "A wave crosses the bar `{name}` in {}.",
+                Some(_) => "A wave crosses the bar `{name}` in {}{unit}.",
             };
-            let way = way.replace("{name}", name);
+            let unit = if scene.dimensional { " $T$" } else { "" };
+            let way = way.replace("{name}", name).replace("{unit}", unit);
             self.sentence_with(&way, data.travel.as_ref());
             self.sentence("Its velocity $v$ and compressive force $X$ are");
             let equation = |head: &str, terms: Vec<Term>| {

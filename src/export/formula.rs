@@ -21,7 +21,7 @@ pub const LATEX_WIDTH: usize = 84;
 /// The left-hand side of a formula.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Head {
-    text: String,
+    pub(crate) text: String,
     latex: String,
     /// None where only the other two are given.
     mathml: Option<String>,

@@ -70,18 +70,25 @@ impl Derivation {
     ) -> Result<(), SolveError> {
         let mut solver = PeriodByPeriod::new(recurrence);
         (0..first).try_for_each(|_| solver.advance())?;
+        let (mut before, mut quiet): (Vec<PieceSteps>, _) = (Vec::new(), None);
         for n in first..=last {
             solver.advance()?;
-            self.gap();
-            let Statement { period, .. } = recurrence.statement();
-            let [begins, ends] =
-                [n, n + 1].map(|n| period.scale(&Rational::from_integer(n.into())));
-            self.tell(|form| {
-                format!("Period {n}, from ${}$ to ${}$.", flat(&begins, form), flat(&ends, form))
-            });
+            let every: Vec<PieceSteps> =
+                all.iter().map(|solved| solver.steps(solved, n)).collect::<Result<_, _>>()?;
+            let same = |i: usize| {
+                told(all[i].step.wave) == Told::Nothing || every[i].piece == before[i].piece
+            };
+            if n > first && (0..all.len()).all(same) {
+                quiet.get_or_insert(n);
+                continue;
+            }
+            if let Some(quiet) = quiet.take() {
+                self.quiet(recurrence, quiet, n - 1);
+            }
+            self.period(recurrence, n, n, "");
             let mut number = 0;
-            for solved in all {
-                let (told, steps) = (told(solved.step.wave), &solver.steps(solved, n)?);
+            for (solved, steps) in all.iter().zip(&every) {
+                let told = told(solved.step.wave);
                 let piece = Piece { recurrence, solved, steps, n };
                 number += usize::from(told == Told::Steps);
                 match (told, &solved.step.start, &steps.integration) {
@@ -101,8 +108,30 @@ impl Derivation {
                     }
                 }
             }
+            before = every;
+        }
+        if let Some(quiet) = quiet {
+            self.quiet(recurrence, quiet, last);
         }
         Ok(())
+    }
+
+    /// Periods on which every wave is the same function of local time as before.
+    fn quiet(&mut self, recurrence: &Recurrence, from: usize, to: usize) {
+        let rest =
+            format!(" All waves are the same functions of local time as on period {}.", from - 1);
+        self.period(recurrence, from, to, &rest);
+    }
+
+    fn period(&mut self, recurrence: &Recurrence, from: usize, to: usize, rest: &str) {
+        self.gap();
+        let at = |n: usize| recurrence.statement().period.scale(&Rational::from_integer(n.into()));
+        let [begins, ends] = [at(from), at(to + 1)];
+        let which =
+            if from == to { format!("Period {from}") } else { format!("Periods {from} to {to}") };
+        self.tell(|n| {
+            format!("{which}, from ${}$ to ${}$.{rest}", flat(&begins, n), flat(&ends, n))
+        });
     }
 }
 

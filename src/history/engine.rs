@@ -20,7 +20,7 @@ use crate::history::passivity::{Passivity, StateError};
 use crate::history::pressing::TooLong;
 use crate::history::series::{CellNorm, LONGEST_CELL, Series, Truncation};
 use crate::history::track::{Arriving, Track};
-use crate::limits::{MAX_CONTACTS, MAX_HISTORY_CELLS, memory, tell_followed};
+use crate::limits::{MAX_CONTACTS, MAX_HISTORY_CELLS, memory, tell_done};
 use crate::network::{Contacts, ElementLaw, Layout, Network, Node, Side, System, Unresisted};
 use crate::scene::{Dimension, Drive, ElementIndex};
 use std::cmp::Ordering;
@@ -395,7 +395,7 @@ impl Engine {
     /// [`HistoryError`], all kinds but [`HistoryError::AfterLast`].
     pub fn follow_until(&mut self, until: &Moment) -> Outcome<()> {
         let followed = self.foresee_cells(until).and_then(|()| self.follow_all(until));
-        tell_followed(0.0);
+        tell_done(0.0, "");
         followed
     }
 
@@ -412,7 +412,7 @@ impl Engine {
                 break;
             }
             let passed = self.states[node].about / end;
-            tell_followed(self.states[node].about / self.whole);
+            tell_done(self.states[node].about / self.whole, "of the window");
             if passed > OFTEN * looked {
                 looked = passed;
                 self.foresee_memory(node, until)?;

@@ -4,6 +4,7 @@ use super::bounds::{MAX_NAMED_TERMS, length};
 use super::constants::rates;
 use super::{Kind, Problem, ProblemError};
 use crate::expression::Condition;
+use crate::limits::counted;
 use crate::network::{Network, NetworkError};
 use crate::recurrence::Statement;
 use crate::scene::PI;
@@ -164,7 +165,7 @@ impl Problem {
             true => Derivations::ByEchoes,
             false => Derivations::InTwoWays,
         };
-        for n in 0..=periods {
+        for n in counted(0..periods + 1, "of the periods") {
             by_echo.advance().map_err(|error| self.explained(error.into()))?;
             if ways == Derivations::InTwoWays {
                 by_period.advance().map_err(|error| self.explained(error.into()))?;

@@ -17,6 +17,9 @@ use std::borrow::Cow;
 /// How many periods an explanation tells after the first, where nothing is said.
 const FIRST_PIECES: usize = 2;
 
+/// How many more it tells at most, until all waves have begun.
+const MOST_PIECES: usize = 8;
+
 /// How many orders are derived after the first, where nothing is said.
 const FEW: usize = 3;
 
@@ -228,10 +231,7 @@ impl Problem {
         let waves: Vec<WaveIndex> = (0..self.waves().len()).collect();
         let (first, last) = match orders {
             Some(orders) => orders.ends(),
-            None => {
-                let (_, last) = self.first_orders(ToDerive::Waves, from).0.ends();
-                (from, last.min(from + FIRST_PIECES))
-            }
+            None => (from, self.last_explained(from)?),
         };
         self.refuse_explosion(recurrence, Orders::Through(first, last), Form::Period, &waves)?;
         let decimal = |value: &_| super::constants::decimal(recurrence.constants(), value);
@@ -263,6 +263,22 @@ impl Problem {
             )
         };
         Ok(derivation.as_exercise(self.source.text(), asked))
+    }
+
+    /// The last period that is told where nothing is said: all waves have begun by then, if they do so soon.
+    fn last_explained(&self, from: usize) -> Result<usize, ProblemError> {
+        let (orders, long) = self.first_orders(ToDerive::Waves, from);
+        let last = orders.ends().1.min(from + FIRST_PIECES);
+        if long.is_some() || from > 0 {
+            return Ok(last);
+        }
+        let solution = self.solution()?;
+        let mut begun = last;
+        for wave in 0..self.waves().len() {
+            let echoes = solution.echoes(wave, MOST_PIECES)?.echoes;
+            begun = begun.max(echoes.iter().position(|echo| !echo.is_zero()).unwrap_or(0));
+        }
+        Ok(begun)
     }
 
     /// The formulas of what was derived, of one wave or observable after the other.

@@ -1,6 +1,7 @@
 //! A recurrence with its solution: pieces, echoes and general forms, each the cheapest way.
 
 use crate::expression::{EchoSum, Expression, NotAUnit, Transform};
+use crate::limits::counted;
 use crate::recurrence::{Recurrence, WaveIndex};
 use crate::solution::demand::Demand;
 use crate::solution::echo::EchoByEcho;
@@ -65,7 +66,7 @@ impl Solution {
         let mut demand = Demand::none(&self.recurrence);
         (0..=through).for_each(|k| demand.add(&self.recurrence, wave, k));
         let mut solver = EchoByEcho::new(&self.recurrence).wanting(demand);
-        for _ in 0..=through {
+        for _ in counted(0..through + 1, "of the echoes") {
             solver.advance()?;
         }
         Ok(solver)
@@ -87,7 +88,7 @@ impl Solution {
             let explain = |e: NotAUnit| SolveError::new(&self.recurrence, wave, n, e.into());
             sum.piece(n).map_err(explain)
         };
-        (first..=last).map(piece).collect()
+        counted(first..last + 1, "of the periods").map(piece).collect()
     }
 
     /// The pieces `0 … last` of all waves by the values of `kept` waves at the ends of earlier
@@ -98,7 +99,7 @@ impl Solution {
         kept: &BTreeSet<WaveIndex>,
     ) -> Result<(Vec<Vec<Expression>>, KeptEnds), SolveError> {
         let mut solver = PeriodByPeriod::keeping_ends(&self.recurrence, kept);
-        for _ in 0..=last {
+        for _ in counted(0..last + 1, "of the periods") {
             solver.advance()?;
         }
         Ok((solver.pieces().to_vec(), solver.kept.unwrap_or_default()))

@@ -8,6 +8,7 @@ use super::json::SCHEMA_VERSION;
 use super::output;
 use super::progress;
 use super::share::{percent, whole};
+use super::table::Table;
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
 use std::time::Duration;
@@ -39,7 +40,8 @@ pub fn run(options: &Advise) -> Result<String, Failure> {
         output::write_whole(path, told.scene()?.as_bytes())?;
     }
     Ok(match options.format {
-        Format::Json => told.json(),
+        Format::Json => format!("{}\n", told.json()),
+        Format::Csv => Table::of(&told.json()).csv(),
         _ => told.text(),
     })
 }
@@ -138,7 +140,7 @@ impl Told<'_> {
         text
     }
 
-    fn json(&self) -> String {
+    fn json(&self) -> Json {
         let Advice { tried, work, each, largest } = self.advice;
         let [from, to] = self.need.window.map(ToString::to_string);
         let bounds = |[low, high]: &[BigRational; 2]| {
@@ -162,7 +164,7 @@ impl Told<'_> {
             body["verdict"] = verdict;
             body
         };
-        let document = json!({
+        json!({
             "schema_version": SCHEMA_VERSION,
             "title": self.problem.title(),
             "quantity": self.need.wanted.name,
@@ -174,8 +176,7 @@ impl Told<'_> {
             "tried": tried.iter().map(row).collect::<Vec<_>>(),
             "exact": { "work": work, "seconds_a_value": each.as_secs_f64() },
             "enough": self.advice.enough().map(|own| own.simpler.to_string()),
-        });
-        format!("{document}\n")
+        })
     }
 
     /// The smallest scene that is enough, with a comment that says for what it holds.

@@ -5,7 +5,7 @@ use super::failure::{COMPUTATION, Failure};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use std::{fs, process, thread};
-use wavestep::limits::{followed_share, memory};
+use wavestep::limits::{memory, share_done};
 
 /// How often the watch looks.
 const TICK: Duration = Duration::from_millis(20);
@@ -79,12 +79,12 @@ fn end(exceeded: &str, option: &str) {
 /// How far the work has come.
 fn reached() -> String {
     let work = *held(&WORK);
-    let share = followed_share();
+    let (share, of) = share_done();
     match (work, share > 0.0) {
         ("", false) => String::new(),
         (work, false) => format!(" ({work})"),
-        ("", true) => format!(" ({:.0} % of the window is followed)", 100.0 * share),
-        (work, true) => format!(" ({work}, {:.0} % of the window)", 100.0 * share),
+        ("", true) => format!(" ({:.0} % {of} done)", 100.0 * share),
+        (work, true) => format!(" ({work}, {:.0} % {of})", 100.0 * share),
     }
 }
 

@@ -20,20 +20,25 @@ use wavestep_polynomial::{Polynomial, Symbol};
 const VERSION: u32 = 1;
 
 /// The last period without --through.
-const LAST: usize = 3;
+pub const LAST: usize = 3;
 
 pub fn run(options: &Certify) -> Result<String, Failure> {
     input::digits(options.digits)?;
     let problem = input::problem(&options.scene)?;
     let (Some(name), Some(at)) = (&options.quantity, &options.at) else {
-        let (mut document, _) = pieces(&problem, options.through.unwrap_or(LAST))?;
-        document.insert("kind".into(), json!("pieces"));
-        return Ok(format!("{}\n", Json::Object(document)));
+        return of_pieces(&problem, options.through.unwrap_or(LAST));
     };
     Ok(format!(
         "{}\n",
         value(&problem, name.trim(), &problem.time("--at", at.as_str())?, options.digits)?
     ))
+}
+
+/// The certificate of all pieces through a period.
+pub fn of_pieces(problem: &Problem, last: usize) -> Result<String, Failure> {
+    let (mut document, _) = pieces(problem, last)?;
+    document.insert("kind".into(), json!("pieces"));
+    Ok(format!("{}\n", Json::Object(document)))
 }
 
 /// What the scene states and the pieces of all waves through a period, and the square roots among the symbols.

@@ -6,8 +6,9 @@ use super::first_contact;
 use super::input;
 use super::json;
 use super::progress;
+use super::table::Table;
 use super::validity;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use wavestep::export::{self, Formula};
 use wavestep::problem::{
     Derived, Form, Functions, GeneralFormulas, Orders, Problem, ProblemError, Simpler, Symbols,
@@ -17,6 +18,10 @@ use wavestep::signal::Arrival;
 use wavestep::solution::ObservedStretch;
 
 pub fn run(options: &Derive) -> Result<String, Failure> {
+    if options.format == Format::Csv {
+        let document = run(&Derive { format: Format::Json, ..options.clone() })?;
+        return Ok(table(&json::read(&document)));
+    }
     let problem = input::problem(&options.scene)?;
     let model = options.model.as_deref().map(|model| formulas_of(&problem, model)).transpose()?;
     if let Some(derived) = first_contact::derive(&problem, options)? {
@@ -34,14 +39,25 @@ pub fn run(options: &Derive) -> Result<String, Failure> {
     };
     let derived = formulas(&model, options, orders)?;
     if options.format == Format::Json {
-        let read = |text: &str| serde_json::from_str::<Value>(text).expect("what was just written");
         let document = json!({
-            "exact": read(&exact), "model": name, "rate": definition, "formulas": read(&derived),
+            "exact": json::read(&exact), "model": name, "rate": definition, "formulas": json::read(&derived),
         });
         return Ok(format!("{document}\n"));
     }
     let rate: String = definition.iter().map(|line| format!("{mark} {line}\n")).collect();
     Ok(format!("{exact}\n{mark} {name}, {holds}\n{rate}{derived}"))
+}
+
+/// What was derived as a table, with the name of the model before each row where one stands beside it.
+fn table(document: &Value) -> String {
+    let Some(exact) = document.get("exact") else { return Table::of(document).csv() };
+    let mut table = Table::default();
+    for (model, formulas) in
+        [(json!("exact"), exact), (document["model"].clone(), &document["formulas"])]
+    {
+        table.add(formulas, &Map::from_iter([("model".to_owned(), model)]));
+    }
+    table.csv()
 }
 
 /// A scene with something left out, of which formulas are derived, and what stands for its rate.

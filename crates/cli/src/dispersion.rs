@@ -5,6 +5,7 @@ use super::failure::{ACCURACY, COMPUTATION, Failure, USAGE};
 use super::input;
 use super::json::SCHEMA_VERSION;
 use super::progress;
+use super::table::Table;
 use num_rational::BigRational;
 use num_traits::Signed as _;
 use serde_json::{Value as Json, json};
@@ -114,7 +115,18 @@ pub fn run(options: &Dispersion) -> Result<String, Failure> {
     }
     Ok(match options.format {
         Format::Latex => latex(&answer),
-        Format::Json => json(&answer, options.digits),
+        Format::Json => {
+            let document = json(&answer, options.digits);
+            serde_json::to_string_pretty(&document).expect("JSON") + "\n"
+        }
+        Format::Csv => {
+            let mut document = json(&answer, options.digits);
+            // Without wavenumbers there is one row, about the pulse.
+            if answer.at.is_empty() {
+                document["at"] = Json::Array(document.get("pulse").cloned().into_iter().collect());
+            }
+            Table::of(&document).csv()
+        }
         _ => text(&answer),
     })
 }
@@ -284,7 +296,7 @@ fn value_json(value: &Value, digits: usize) -> Json {
     }
 }
 
-fn json(answer: &Answer, digits: usize) -> String {
+fn json(answer: &Answer, digits: usize) -> Json {
     let mut document = json!({"schema_version": SCHEMA_VERSION});
     for (quantity, _, name, _) in QUANTITIES {
         document["relation"][name] = json!(formula_text(answer.relation.formula(quantity)));
@@ -317,5 +329,5 @@ fn json(answer: &Answer, digits: usize) -> String {
         }
         document["pulse"] = pulse;
     }
-    serde_json::to_string_pretty(&document).expect("JSON") + "\n"
+    document
 }

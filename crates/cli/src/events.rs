@@ -6,6 +6,7 @@ use super::found::number;
 use super::input;
 use super::json::SCHEMA_VERSION;
 use super::progress;
+use super::table::Table;
 use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
@@ -31,7 +32,8 @@ pub fn run(options: &Events) -> Result<String, Failure> {
     }
     let told = Told { options, problem: &problem, history: &history };
     Ok(match options.format {
-        Format::Json => told.json(),
+        Format::Json => format!("{}\n", told.json()),
+        Format::Csv => Table::of(&told.json()).csv(),
         Format::Latex => told.latex(),
         _ => told.text(),
     })
@@ -76,7 +78,7 @@ impl Told<'_> {
         text
     }
 
-    fn json(&self) -> String {
+    fn json(&self) -> Json {
         let optional = |value: &Option<Value>| value.as_ref().map(number);
         let pair = |pair: &[Value; 2]| pair.each_ref().map(number);
         let body = |body: &Body| {
@@ -136,7 +138,7 @@ impl Told<'_> {
                 "momentum": Dimension::MOMENTUM.unit(),
             });
         }
-        document.to_string() + "\n"
+        document
     }
 
     fn latex(&self) -> String {

@@ -1,6 +1,7 @@
 //! Failures with their exit codes, as they are shown.
 
 use super::diagnostic::{Style, render};
+use std::fmt;
 use std::io::{self, IsTerminal as _, Write as _};
 use wavestep::Error;
 use wavestep::answer::WayError;
@@ -100,6 +101,15 @@ impl Failure {
                 }
             }
             Failure::Told { message, remedy, .. } => told(message, remedy),
+        }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::Unanswered(error, _) => write!(f, "{error}"),
+            Failure::Told { message, .. } => f.write_str(message),
         }
     }
 }

@@ -4,6 +4,7 @@ use super::arguments::{Find, Format};
 use super::json::SCHEMA_VERSION;
 use super::output::plural;
 use super::rows::ALL_DIGITS;
+use super::table;
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
 use wavestep::ball::{Ball, Bound, Decimal, Number};
@@ -135,14 +136,9 @@ pub fn distances(
     });
     let rows: Vec<Json> = rows.collect();
     if options.format == Format::Csv {
-        let text = |value: &Json| {
-            ["exact", "decimal", "midpoint"]
-                .iter()
-                .find_map(|key| value[*key].as_str().map(str::to_owned))
-        };
         let line = |row: &Json| {
-            let [distance, largest, relative] =
-                ["distance", "largest", "relative"].map(|key| text(&row[key]).unwrap_or_default());
+            let [distance, largest, relative] = ["distance", "largest", "relative"]
+                .map(|key| table::number(&row[key]).unwrap_or_default());
             let name = row["quantity"].as_str().unwrap_or_default();
             let radius = row["distance"]["radius"].as_str().unwrap_or("0");
             format!("{name},{distance},{radius},{largest},{relative}\n")
@@ -320,10 +316,7 @@ fn document(told: &Told<'_>, body: Json) -> String {
 /// where it is exact; else the digits, or a midpoint, and the radius of an enclosure.
 fn columns(rows: &[Json]) -> String {
     let text = |value: &Json| value.as_str().unwrap_or_default().to_owned();
-    let written = |time: &Json| {
-        let keys = ["exact", "decimal", "midpoint"];
-        keys.iter().map(|key| text(&time[*key])).find(|text| !text.is_empty()).unwrap_or_default()
-    };
+    let written = |time: &Json| table::number(time).unwrap_or_default().to_owned();
     let line = |body: &Json| {
         let time = if body["time"].is_null() { &body["from"] } else { &body["time"] };
         let (kind, first, until) = (text(&body["kind"]), written(time), written(&body["to"]));

@@ -4,6 +4,7 @@ use super::arguments::{Format, Hertz};
 use super::failure::Failure;
 use super::input;
 use super::json::SCHEMA_VERSION;
+use super::table::Table;
 use num_rational::BigRational;
 use num_traits::One as _;
 use serde_json::{Map, Value, json};
@@ -62,6 +63,12 @@ pub fn run(options: &Hertz) -> Result<String, Failure> {
             let value: Value =
                 json!({ "schema_version": SCHEMA_VERSION, "contact": name, "values": values });
             format!("{value}\n")
+        }
+        Format::Csv => {
+            let value =
+                |row: &Row| json!({ "name": row.key, "value": text(row), "unit": row.unit });
+            let values: Vec<Value> = rows.iter().map(value).collect();
+            Table::of(&json!({ "values": values })).csv()
         }
         _ => {
             let width = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0);

@@ -7,6 +7,11 @@ use wavestep_polynomial::{Polynomial, Symbol};
 /// The version of the layout; it rises when a reader would have to change.
 pub const SCHEMA_VERSION: u32 = 1;
 
+/// What was written by this program.
+pub(crate) fn read(document: &str) -> Value {
+    serde_json::from_str(document).expect("a document")
+}
+
 /// An expression as a list of terms
 /// `{"coefficient": "-4/3", "powers": {"s": 3}, "exponent": "-s"}`, each standing for
 /// `coefficient · Π symbol^power · e^{exponent}`; a term over a denominator has

@@ -38,6 +38,7 @@ mod progress;
 mod report;
 mod rows;
 mod share;
+mod table;
 mod validity;
 
 use arguments::{Arguments, Scenes, Subcommand};

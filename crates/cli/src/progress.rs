@@ -7,7 +7,7 @@ use std::ops::Deref;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
-use wavestep::limits::followed_share;
+use wavestep::limits::share_done;
 
 /// How often progress is looked at.
 const TICK: Duration = Duration::from_millis(250);
@@ -59,8 +59,8 @@ fn shown(length: Option<u64>, template: &str, work: &'static str) -> Progress {
         let (mut pace, mut told, mut is_shown) = (Pace::default(), false, false);
         while ended.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
             let Some(bar) = watched.upgrade() else { return };
-            let share = followed_share();
-            let percent = format!("{:.0} % of the window", 100.0 * share);
+            let (share, of) = share_done();
+            let percent = format!("{:.0} % {of}", 100.0 * share);
             match (share > 0.0, is_shown) {
                 (true, _) => bar.set_message(format!("{work}, {percent}")),
                 (false, true) => bar.set_message(work),

@@ -1,6 +1,7 @@
 //! `report`: one page about a scene.
 
 use super::arguments::Report;
+use super::certify;
 use super::failure::Failure;
 use super::input;
 use super::output;
@@ -17,6 +18,9 @@ pub fn run(options: &Report) -> Result<String, Failure> {
             version: env!("CARGO_PKG_VERSION"),
             command: &command(options),
             closed: &|last| derivation(&problem).or_else(|| pulling(&problem, last)),
+            certificate: &|| {
+                certify::of_pieces(&problem, certify::LAST).map_err(|failure| failure.to_string())
+            },
             progress: &|part| progress.set_message(part),
         },
     );

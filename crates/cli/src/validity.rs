@@ -50,7 +50,8 @@ pub fn note_pulling(problem: &Problem, last: &BigRational) {
 pub fn pulling(problem: &Problem, last: &BigRational) -> Option<String> {
     Some(match problem.pulls(last, DIGITS)? {
         Pulls::From(time, [left, right]) => format!(
-            "from t = {} on, the contact between {left} and {right} is in tension; with `contacts open` it opens then",
+            "from t = {} on, the contact between {left} and {right} is in tension; add `contacts open` and it \
+             opens instead",
             text(problem, &time)
         ),
         Pulls::NotKnownFrom(time) => format!(

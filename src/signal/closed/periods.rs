@@ -11,6 +11,7 @@
 use crate::ball::ComplexBall;
 use crate::enclosure::Numbers;
 use crate::expression::{Field as _, Fraction, Transform};
+use crate::limits::counted;
 use crate::recurrence::{Recurrence, WaveIndex};
 use crate::signal::closed::memory::Memory;
 use crate::signal::error::EvaluateError;
@@ -84,7 +85,8 @@ impl Periods {
 
     /// Solves all periods up to the n-th.
     pub(crate) fn advance_to(&mut self, n: usize) -> Result<(), EvaluateError> {
-        while self.pieces.first().is_some_and(|pieces| pieces.len() <= n) {
+        let known = self.pieces.first().map_or(n + 1, Vec::len);
+        for _ in counted(known..n + 1, "of the periods") {
             self.advance()?;
         }
         Ok(())

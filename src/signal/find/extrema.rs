@@ -11,7 +11,7 @@
 //! all of them. The supremum then lies between the largest lower bound and the largest upper bound.
 
 use crate::ball::{Attempt, Ball, Binary, Precisions, Value};
-use crate::limits::MAX_ROOTS;
+use crate::limits::{MAX_ROOTS, counted};
 use crate::signal::error::EvaluateError;
 use crate::signal::find::cover::{Finding, Record, middle_and_half};
 use crate::signal::find::refine::Isolated;
@@ -266,7 +266,8 @@ impl<'s> Search<'s> {
             _ => true,
         });
         let target = Target { order: 1, level: &zero, limit_bits };
-        for stretch in moving {
+        for i in counted(0..moving.len(), "of the stretches") {
+            let stretch = moving[i];
             self.critical_points(stretch, target, &mut record, &mut left)?;
             if left.len() > MAX_ROOTS + 2 * self.count {
                 return Err(EvaluateError::TooManyRoots { limit: MAX_ROOTS });

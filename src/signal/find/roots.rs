@@ -14,7 +14,7 @@
 //! Between stretches the two limits tell of jumps.
 
 use crate::ball::{Ball, Value};
-use crate::limits::MAX_ROOTS;
+use crate::limits::{MAX_ROOTS, counted};
 use crate::signal::error::EvaluateError;
 use crate::signal::find::cover::{Cell, Finding, middle_and_half};
 use crate::signal::find::refine::{Isolated, differ, power_of_half};
@@ -221,7 +221,7 @@ impl Finder<'_, '_> {
         let (search, target) = (self.search, self.target);
         let equal = Some(Ordering::Equal);
         let mut before: Option<Ends> = None;
-        for stretch in 0..search.count {
+        for stretch in counted(0..search.count, "of the stretches") {
             let first = search.sign(stretch, target, At::End(Limit::Right))?;
             if search.function.is_instant(stretch) {
                 let now = Ends { first, last: None, vanishes: false };

@@ -8,7 +8,7 @@
 use super::cover::{is_sharp, middle_and_half};
 use super::search::{Search, Target};
 use crate::ball::{Ball, Magnitude};
-use crate::limits::{MAX_EXPANSIONS, MAX_POLYNOMIALS};
+use crate::limits::{MAX_EXPANSIONS, MAX_POLYNOMIALS, counted};
 use crate::signal::error::EvaluateError;
 use crate::signal::signal::{At, Limit};
 use crate::signal::taylor::Taylor;
@@ -51,7 +51,7 @@ impl Search<'_> {
         for stretch in 0..self.count {
             bounding.note_ends(stretch)?;
         }
-        for stretch in 0..self.count {
+        for stretch in counted(0..self.count, "of the stretches") {
             if !self.function.is_instant(stretch) && !self.function.is_zero(stretch) {
                 bounding.cover(stretch)?;
             }

@@ -50,6 +50,7 @@ pub struct Advise {
     #[arg(long, value_parser = named([
         ("text", Format::Text, "A table with its conclusion"),
         ("json", Format::Json, "All models that were tried"),
+        ("csv", Format::Csv, "One row per model that was tried"),
     ]), default_value = "text")]
     pub format: Format,
 }

@@ -5,7 +5,7 @@ use clap::{Args, ValueHint};
 use wavestep::export::{LATEX_WIDTH, TEXT_WIDTH};
 use wavestep::problem::{Form, Orders};
 
-#[derive(Args)]
+#[derive(Args, Clone)]
 #[command(after_help = "Examples:\n  \
     wavestep derive rigid-mass                              f[0] … f[3] and g[0] … g[3]\n  \
     wavestep derive rigid-mass --quantity f --from 4 --through 8 --format latex\n  \
@@ -61,6 +61,7 @@ pub struct Derive {
         ("text", Format::Text, "Plain text; pieces and echoes in the scene's own symbols can be read back"),
         ("latex", Format::Latex, "An `align*` environment for amsmath"),
         ("json", Format::Json, "Terms with reduced rationals"),
+        ("csv", Format::Csv, "One row per term, with the same fields; with --general one per formula"),
     ]))]
     pub format: Format,
     #[command(flatten)]

@@ -49,6 +49,7 @@ pub struct Dispersion {
         ("text", Format::Text, "Formulas that wavestep can read, and digits"),
         ("latex", Format::Latex, "An `align*` environment for amsmath"),
         ("json", Format::Json, "Formulas as text, decimal strings with proven radii"),
+        ("csv", Format::Csv, "One row per wavenumber, or one for a pulse"),
     ]))]
     pub format: Format,
     #[command(flatten)]

@@ -28,6 +28,7 @@ pub struct Events {
     #[arg(long, default_value = "text", value_parser = named([
         ("text", Format::Text, "One paragraph per event"),
         ("json", Format::Json, "Decimal strings with proven radii"),
+        ("csv", Format::Csv, "One row per event, with the same fields"),
         ("latex", Format::Latex, "A table"),
     ]))]
     pub format: Format,

@@ -31,6 +31,7 @@ pub struct Hertz {
     #[arg(long, default_value = "text", value_parser = named([
         ("text", Format::Text, "One line per value"),
         ("json", Format::Json, "Decimal strings"),
+        ("csv", Format::Csv, "One row per value"),
     ]))]
     pub format: Format,
     #[command(flatten)]

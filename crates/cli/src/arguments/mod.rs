@@ -60,7 +60,7 @@ fn limits(left: &'static str, right: &'static str) -> impl TypedValueParser<Valu
 }
 
 /// Where a report goes.
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub struct Output {
     /// The output file [default: standard output, also for -]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -169,7 +169,7 @@ pub enum Subcommand {
 }
 
 /// A scene, with values in place of symbols.
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub struct Scene {
     /// A file, the name of a built-in scene (see `wavestep scenes`), which comes first, or - for standard input
     #[arg(value_hint = ValueHint::FilePath)]

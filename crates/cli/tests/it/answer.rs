@@ -360,7 +360,8 @@ fn a_value_outside_its_range_is_one_error() {
 fn values_beyond_a_pulling_contact_are_noted() {
     for accuracy in ["", " --tol 1e-6"] {
         let (_, err) = both(&format!("eval hopkinson --quantity force --at 1ms{accuracy}"));
-        let note = "between striker and incident is in tension; with `contacts open` it opens then";
+        let note =
+            "between striker and incident is in tension; add `contacts open` and it opens instead";
         assert!(err.contains(note), "{err}");
     }
     let (_, err) = both("eval hopkinson --quantity force --at 100us");

@@ -33,7 +33,7 @@ fn answers_look_as_recorded() {
         let note = match name {
             "critical" => {
                 "note: from t = 3.37156268062 on, the contact between striker and cushion is in tension; \
-                 with `contacts open` it opens then\n"
+                 add `contacts open` and it opens instead\n"
             }
             _ => "",
         };

@@ -32,6 +32,9 @@ const LONGEST: usize = 4_000;
 /// Bytes of a figure: with three of them a page stays below 3 MB.
 const LARGEST_FIGURE: usize = 900_000;
 
+/// Bytes of a certificate that is attached.
+const LARGEST_CERTIFICATE: usize = 300_000;
+
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 
@@ -44,6 +47,8 @@ pub struct Request<'a> {
     pub command: &'a str,
     /// Until when closed contacts are right, where values are shown up to a time; nothing without contacts.
     pub closed: &'a dyn Fn(&Rational) -> Option<String>,
+    /// A certificate of the derived pieces, or why there is none.
+    pub certificate: &'a dyn Fn() -> Result<String, String>,
     /// Is told what is worked out.
     pub progress: &'a dyn Fn(&'static str),
 }
@@ -87,12 +92,14 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
     add("energies", "Energies", &|| seen(&|all, to| told::energies(problem, all, [&zero, to])));
     add("assumptions", "Assumptions", &|| {
         let of_window = |to| {
-            let closed = (request.closed)(to).map(|note| format!("Contacts stay closed: {note}."));
+            let note = (request.closed)(to);
+            let closed = note.map(|note| format!("Formulas are of closed contacts: {note}."));
             [until(problem, to)].into_iter().chain(closed)
         };
         let all = end.iter().flat_map(of_window).chain(assumptions(problem, open));
         list(&all.collect::<Vec<_>>())
     });
+    add("certificate", "Certificate", &|| certificate(&(request.certificate)()));
     let title = escape(problem.title());
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -242,6 +249,34 @@ fn explored(name: &str, svg: &str, data: &Json, axis: &str) -> String {
         "<figure class=\"explored\" data-axis=\"{axis}\">\n{svg}\
          <script type=\"application/json\" id=\"{name}-data\">{data}</script>\n</figure>\n"
     )
+}
+
+/// The certificate as a file to save, with how it is verified.
+fn certificate(certificate: &Result<String, String>) -> String {
+    match certificate {
+        Ok(text) if text.len() > LARGEST_CERTIFICATE => left_out(
+            &"the certificate is too long for a page; `wavestep certify SCENE -o certificate.json` writes it",
+        ),
+        Ok(text) => format!(
+            "<p>That these pieces, and no others, satisfy the equations of the scene can be verified without \
+             wavestep: save <a download=\"certificate.json\" href=\"data:application/json,{}\">\
+             certificate.json</a> ({} kB) and run <code>python3 checkers/check.py certificate.json</code>, \
+             a program of one page that comes with the source of wavestep.</p>\n",
+            in_address(text),
+            text.len().div_ceil(1_000)
+        ),
+        Err(reason) => left_out(reason),
+    }
+}
+
+/// A text within an address.
+fn in_address(text: &str) -> String {
+    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_.~!*'(),:/[]".contains(&byte);
+    let written = |byte: u8| match plain(byte) {
+        true => char::from(byte).to_string(),
+        false => format!("%{byte:02X}"),
+    };
+    text.bytes().map(written).collect()
 }
 
 fn until(problem: &Problem, to: &Rational) -> String {
