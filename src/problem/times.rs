@@ -42,15 +42,6 @@ impl Problem {
     }
 
     /// Two times, the first before the last.
-    pub fn window(
-        &self,
-        (from, from_text): (&str, &str),
-        (to, to_text): (&str, &str),
-    ) -> Result<[Rational; 2], ProblemError> {
-        self.between(self.time(from, from_text)?, self.time(to, to_text)?)
-    }
-
-    /// Two times, the first before the last.
     pub fn between(&self, from: Rational, to: Rational) -> Result<[Rational; 2], ProblemError> {
         if from < to {
             return Ok([from, to]);

@@ -14,7 +14,7 @@ use serde_json::{Value as Json, json};
 use std::time::Duration;
 use wavestep::ball::{Bound, Decimal};
 use wavestep::language::Change;
-use wavestep::problem::{Advice, Need, Problem, ProblemError, Tried, Verdict, Wanted, number};
+use wavestep::problem::{Advice, Need, Problem, Tried, Verdict, Wanted, number};
 
 /// Digits of times that are only shown.
 const DIGITS: usize = 3;
@@ -29,7 +29,7 @@ pub fn run(options: &Advise) -> Result<String, Failure> {
         return enough::run(options, &problem, over, tolerance);
     }
     let wanted = problem.wanted(quantity(options, &problem))?;
-    let window = window_of(options, &problem)?;
+    let window = input::window(&problem, &options.from, options.to.as_deref())?;
     let need = Need { wanted: &wanted, window: window.each_ref(), tolerance };
     let advice = {
         let progress = progress::spinner("trying");
@@ -50,16 +50,6 @@ pub fn run(options: &Advise) -> Result<String, Failure> {
 pub fn quantity<'a>(options: &'a Advise, problem: &'a Problem) -> &'a str {
     let usual = || problem.usual_quantity().unwrap_or_default();
     options.quantity.as_deref().map_or_else(usual, str::trim)
-}
-
-/// The window that is asked for, or the usual one of a scene.
-pub fn window_of(options: &Advise, problem: &Problem) -> Result<[BigRational; 2], ProblemError> {
-    let from = problem.time("--from", &*options.from)?;
-    let to = match &options.to {
-        Some(to) => problem.time("--to", &**to)?,
-        None => &from + problem.usual_length()?,
-    };
-    problem.between(from, to)
 }
 
 struct Told<'a> {

@@ -1,8 +1,9 @@
 //! `advise --for`: which simpler answer is enough where, as a table of proven differences, and as a map.
 
-use super::advise::{quantity, window_of};
+use super::advise::quantity;
 use super::arguments::Advise;
 use super::failure::Failure;
+use super::input;
 use super::picture;
 use super::progress;
 use super::share::{percent, whole};
@@ -29,7 +30,7 @@ pub fn run(
 ) -> Result<String, Failure> {
     let range: SymbolRange = over.parse()?;
     let simpler: Result<Vec<_>, _> = options.models.iter().map(|own| own.parse()).collect();
-    let window = |problem: &Problem| window_of(options, problem);
+    let window = |problem: &Problem| input::window(problem, &options.from, options.to.as_deref());
     let asked = MapRequest {
         range: &range,
         points: options.points.into(),

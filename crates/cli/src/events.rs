@@ -15,7 +15,7 @@ use wavestep::history::{Body, Ending, History};
 use wavestep::problem::Problem;
 use wavestep::scene::Dimension;
 use wavestep::signal::Value;
-use wavestep_studies::told::Teller;
+use wavestep_studies::told::{Teller, contacts_open};
 
 pub fn run(options: &Events) -> Result<String, Failure> {
     input::digits(options.digits)?;
@@ -67,6 +67,9 @@ impl Told<'_> {
             longest_fraction: usize::MAX,
         };
         let mut text = format!("{}\n", self.problem.title());
+        if contacts_open(self.problem) == Some(false) {
+            text += "Contacts open here when they would go into tension; the scene keeps them closed.\n";
+        }
         for (sentence, lines) in teller.history(self.history) {
             let _ = write!(text, "\n{sentence}");
             if matches!(self.history.ending, Ending::Followed(_)) && lines.is_empty() {

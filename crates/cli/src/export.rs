@@ -17,7 +17,7 @@ use wavestep::signal::{Compiled, Evaluator as _};
 pub fn run(options: &Export) -> Result<String, Failure> {
     let tolerance = options.tol.as_deref().map_or(Ok(Tolerance::Ulps(4.0)), tolerance)?;
     let problem = input::problem(&options.scene)?;
-    let [from, to] = problem.window(("--from", &options.from), ("--to", &options.to))?;
+    let [from, to] = input::window(&problem, &options.from, Some(&options.to))?;
     // The double nearest to the end belongs to the window, also where it lies beyond.
     let nearest = to.to_f64().and_then(BigRational::from_float);
     let to = nearest.map_or(to.clone(), |nearest| nearest.max(to));

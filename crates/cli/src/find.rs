@@ -29,8 +29,7 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     }
     let (name, written) = quantity(options)?;
     let wanted = problem.wanted(name)?;
-    let to = options.to.as_deref();
-    let window = problem.window(("--from", &options.from), ("--to", to.unwrap_or_default()))?;
+    let window = input::window(&problem, &options.from, options.to.as_deref())?;
     // What is given wrongly is told before any work is done.
     let level = problem.quantity("--level", written, wanted.dimension)?;
     let signal = match &other {
@@ -99,8 +98,7 @@ fn distances(
     (problem, other): (&input::Asked, &Compared),
     name: &str,
 ) -> Result<String, Failure> {
-    let to = options.to.as_deref().unwrap_or_default();
-    let window = problem.window(("--from", &options.from), ("--to", to))?;
+    let window = input::window(problem, &options.from, options.to.as_deref())?;
     let is_there = |name: &&str| other.problem().is_none_or(|own| own.observables().contains(name));
     let names: Vec<&str> = match name {
         "" => problem.observables().into_iter().filter(is_there).collect(),

@@ -3,6 +3,7 @@
 use super::arguments::Scene;
 use super::failure::Failure;
 use super::output::read_files;
+use num_rational::BigRational;
 use std::io::Read;
 use std::ops::{Deref, DerefMut};
 use std::path::Path;
@@ -11,6 +12,7 @@ use wavestep::language;
 use wavestep::limits::{MAX_DIGITS, MAX_SOURCE_BYTES};
 use wavestep::problem::{Problem, ProblemError, Values, number};
 use wavestep::scenes;
+use wavestep_studies::picture::{PictureError, usual_end};
 
 /// A problem that says on standard error, when all is answered, what answers took for granted.
 pub struct Asked(Problem);
@@ -96,6 +98,23 @@ pub fn bytes(name: &str, limit: usize) -> std::io::Result<Vec<u8>> {
     };
     input.take(limit as u64 + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
+}
+
+/// The window that is asked for, to the usual end where none is given.
+pub fn window(
+    problem: &Problem,
+    from: &str,
+    to: Option<&str>,
+) -> Result<[BigRational; 2], ProblemError> {
+    let from = problem.time("--from", from)?;
+    let to = match to {
+        Some(to) => problem.time("--to", to)?,
+        None => usual_end(problem, &from).map_err(|error| match error {
+            PictureError::Problem(error) => *error,
+            _ => ProblemError::NoEnd,
+        })?,
+    };
+    problem.between(from, to)
 }
 
 /// A number of significant digits that can be certified.

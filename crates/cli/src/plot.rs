@@ -10,7 +10,7 @@ use num_traits::ToPrimitive as _;
 use wavestep::field::Quantity;
 use wavestep::problem::{Problem, ProblemError};
 use wavestep_draw::{Caption, Chart};
-use wavestep_studies::picture::{against_time, along_the_line, courses, lagrange, usual_end};
+use wavestep_studies::picture::{against_time, along_the_line, courses, lagrange};
 
 pub fn run(options: &Plot) -> Result<String, Failure> {
     picture::draw(&options.output, options.width, || chart(options))
@@ -21,12 +21,7 @@ fn chart(options: &Plot) -> Result<Box<dyn Chart>, Failure> {
     if !options.at.is_empty() {
         return fields_at(&problem, options);
     }
-    let from = problem.time("--from", options.from.as_str())?;
-    let to = match &options.to {
-        Some(to) => problem.time("--to", to.as_str())?,
-        None => usual_end(&problem, &from)?,
-    };
-    let [from, to] = problem.between(from, to)?;
+    let [from, to] = input::window(&problem, &options.from, options.to.as_deref())?;
     note_pulling(&problem, &to);
     let caption = Caption::default();
     if let Some(quantity) = options.diagram {

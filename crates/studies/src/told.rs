@@ -4,7 +4,7 @@ use wavestep::ball::{Bound, Decimal, in_decimals};
 use wavestep::export::expression_text;
 use wavestep::history::{Body, ContactSummary, Ending, Event, EventKind, History};
 use wavestep::problem::Problem;
-use wavestep::scene::Dimension;
+use wavestep::scene::{Dimension, Joint};
 use wavestep::signal::{Place, Value};
 
 /// Digits of the ends of an interval somewhere in which an extremum may be.
@@ -159,4 +159,10 @@ impl Teller<'_> {
             }
         }
     }
+}
+
+/// Whether contacts of a scene open, where it has some; local ones are none of these.
+pub fn contacts_open(problem: &Problem) -> Option<bool> {
+    let scene = problem.scaled().ok()?.scene();
+    scene.line.joints.contains(&Joint::Contact).then_some(scene.contacts_open)
 }

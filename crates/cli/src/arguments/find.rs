@@ -42,8 +42,8 @@ pub struct Find {
     /// The first time of the window
     #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
     pub from: String,
-    /// The last time of the window
-    #[arg(long, value_name = "T", allow_hyphen_values = true, required_unless_present = "equal")]
+    /// The last time of the window [default: four periods, or twice the way along the line]
+    #[arg(long, alias = "until", value_name = "T", allow_hyphen_values = true)]
     pub to: Option<String>,
     /// A value of this symbol, between two bounds, that makes the extrema in two windows equal
     #[arg(long, value_name = "SYMBOL=LOW..HIGH", requires = "between",

@@ -60,8 +60,8 @@ pub struct Plot {
     /// The first time of the window
     #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
     pub from: String,
-    /// The last time of the window [default: four periods]
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    /// The last time of the window [default: four periods, or twice the way along the line]
+    #[arg(long, alias = "until", value_name = "T", allow_hyphen_values = true)]
     pub to: Option<String>,
     /// A diagram with position across, time upwards, and this quantity by colour
     #[arg(long, value_parser = named([

@@ -340,7 +340,6 @@ fn what_cannot_be_weighed_is_told() {
         ("advise mass-on-fixed-bar --for mu=1..2 -o map.eps".to_owned(), "map.eps", ".svg"),
         ("advise mass-on-fixed-bar --for mu=1..2 --models x:y".to_owned(), "x:y", "third"),
         ("advise mass-on-fixed-bar --to 1".to_owned(), "mu", "--set"),
-        ("advise hertz-striker".to_owned(), "no end", "--to"),
         ("advise rigid-mass --set mu=1".to_owned(), "states equations", "describe the scene"),
         (format!("find {scene} --distance velocity --to 1"), "--minus", ""),
         (format!("find {scene} --distance velocity --minus thirds:x --to 1"), "thirds:x", "third"),

@@ -128,3 +128,12 @@ fn derive_says_until_when_its_form_holds() {
     assert_eq!(code, 0);
     assert_eq!(told, "note: valid until t = 3.06766764162, when hammer and rod separate\n");
 }
+
+/// Where the scene keeps contacts closed, the time line says that it opens them.
+#[test]
+fn closed_contacts_are_said_to_open_here() {
+    let told = "Contacts open here when they would go into tension; the scene keeps them closed.";
+    for (scene, closed) in [("hopkinson", true), ("hopkinson-with-release", false)] {
+        assert_eq!(output(&["events", scene]).contains(told), closed, "{scene}");
+    }
+}

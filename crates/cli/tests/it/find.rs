@@ -202,7 +202,6 @@ fn mistakes_are_told_with_a_remedy() {
         ("rigid-mass --set mu=1 --zero f --from 0 --to 1 --digits 0", 2, "0 significant", "1 to"),
         ("rigid-mass --set mu=1 --zero f --max g --from 0 --to 1", 2, "cannot be used", "--help"),
         ("rigid-mass --set mu=1 --from 0 --to 1", 2, "required", "--help"),
-        ("rigid-mass --set mu=1 --zero f", 2, "--to", "--help"),
         ("hopkinson --level force=1mm --from 0 --to 1us", 2, "force", "N"),
         ("rigid-mass --max f --equal mu --between 1,2,3", 2, "not a symbol", "LOW..HIGH"),
         ("rigid-mass --max f --equal mu=2..1 --between 1,2,3", 2, "empty", "lower bound"),
@@ -225,5 +224,19 @@ fn mistakes_are_told_with_a_remedy() {
         let (found, text, errors) = run(anywhere(), &words(&format!("find {line}")));
         assert_eq!((found, text.as_str()), (code, ""), "{line}: {errors}");
         assert!(errors.contains(message) && errors.contains(remedy), "{line}: {errors}");
+    }
+}
+
+/// Without --to, the window is four periods, or longer where the line is: it is told.
+#[test]
+fn the_usual_window_is_told() {
+    for (line, window) in [
+        ("rigid-mass --set mu=1 --zero f", "0 <= t <= 8"),
+        ("rigid-mass --set mu=1 --zero f --from 1", "1 <= t <= 9"),
+        ("hopkinson --max force", "0 s <= t <= 0.0011 s"),
+        ("local-contact --max force", "0 s <= t <= 0.00016 s"),
+    ] {
+        let (code, text, errors) = run(anywhere(), &words(&format!("find {line}")));
+        assert!(code == 0 && text.contains(window), "{line}: {text} {errors}");
     }
 }

@@ -11,8 +11,8 @@ fn commands_say_how_long_closed_contacts_are_true() {
         let (_, out, err) = run(anywhere(), &words(line));
         (out, err)
     };
-    let pulls = "from t = 3.06766764162 on, the contact between hammer and rod is in tension; with \
-                 `contacts open` it opens then";
+    let pulls = "from t = 3.06766764162 on, the contact between hammer and rod is in tension; add \
+                 `contacts open` and it opens instead";
     for (line, told) in [
         (
             "derive validity.wave --through 0 --set mu=1",

@@ -10,6 +10,7 @@ mod numbers;
 mod told;
 
 use crate::picture::{PictureError, against_time, course, lagrange, usual_end};
+use crate::told::contacts_open;
 use html::{escape, left_out, list, paragraph, section, set};
 use serde_json::Value as Json;
 use wavestep::ball::in_decimals;
@@ -17,7 +18,6 @@ use wavestep::export::{Block, Formula, assumed_factors};
 use wavestep::field::Quantity;
 use wavestep::planner::Purpose;
 use wavestep::problem::{Form, Orders, Problem, ToDerive, Wanted};
-use wavestep::scene::Joint;
 use wavestep::signal::Signal;
 use wavestep_draw::{Caption, Chart as _};
 use wavestep_polynomial::Rational;
@@ -111,12 +111,6 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
         escape(request.version),
         escape(request.command)
     )
-}
-
-/// Whether contacts of a scene open, where it has some; local ones are none of these.
-fn contacts_open(problem: &Problem) -> Option<bool> {
-    let scene = problem.scaled().ok()?.scene();
-    scene.line.joints.contains(&Joint::Contact).then_some(scene.contacts_open)
 }
 
 fn observed<'a>(problem: &'a Problem, window: [&Rational; 2]) -> Outcome<Vec<Observed<'a>>> {
