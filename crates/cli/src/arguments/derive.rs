@@ -42,7 +42,7 @@ pub struct Derive {
     ]))]
     pub form: Form,
     /// Use the symbols, units and shorthand of the scene's source, as its `written` statements say:
-    /// for pieces of waves, and with --general for waves that are sequences; in text and LaTeX
+    /// for pieces, and with --general for every n; in text and LaTeX
     #[arg(long, conflicts_with = "form")]
     pub source_form: bool,
     /// Say how everything follows: the recurrence from the bars and elements of a scene, the pieces from it
