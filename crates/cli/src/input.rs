@@ -61,11 +61,28 @@ pub fn is_scene(name: &str) -> bool {
 /// Why a scene is not read.
 pub fn unread(scene: &str, error: &std::io::Error) -> Failure {
     let names: Vec<&str> = scenes::SCENES.iter().map(|scene| scene.name).collect();
-    let remedy = match language::closest(scene, names.iter().copied()) {
-        Some(scene) => format!("did you mean the built-in scene `{scene}`?"),
-        None => format!("name a file, or a built-in scene: {}", names.join(", ")),
+    let is_file = scene.contains(['.', '/']);
+    let here = if is_file { files_beside(Path::new(scene)) } else { Vec::new() };
+    let built_in = || language::closest(scene.trim_end_matches(".wave"), names.iter().copied());
+    let remedy = match (language::closest(scene, here.iter().map(String::as_str)), built_in()) {
+        (Some(file), _) => format!("did you mean `{file}`?"),
+        (None, Some(scene)) => format!("did you mean the built-in scene `{scene}`?"),
+        (None, None) if is_file => {
+            "name a file that exists, or a built-in scene: `wavestep scenes` lists them".to_owned()
+        }
+        (None, None) => format!("name a file, or a built-in scene: {}", names.join(", ")),
     };
     Failure::usage(format!("the scene `{scene}` cannot be read: {error}"), remedy)
+}
+
+/// The files in the folder of this one.
+fn files_beside(file: &Path) -> Vec<String> {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let listed = if folder == Path::new("") { Path::new(".") } else { folder };
+    let entries = std::fs::read_dir(listed).into_iter().flatten().flatten();
+    let named =
+        |entry: std::fs::DirEntry| folder.join(entry.file_name()).to_str().map(str::to_owned);
+    entries.filter_map(named).collect()
 }
 
 pub fn built_in(name: &str) -> Result<&'static scenes::Scene, Failure> {

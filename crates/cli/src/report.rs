@@ -21,7 +21,7 @@ pub fn run(options: &Report) -> Result<String, Failure> {
             certificate: &|| {
                 certify::of_pieces(&problem, certify::LAST).map_err(|failure| failure.to_string())
             },
-            progress: &|part| progress.set_message(part),
+            progress: &|part| progress.set_message(part.to_owned()),
         },
     );
     drop(progress);

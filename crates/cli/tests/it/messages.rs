@@ -1,6 +1,6 @@
 //! How mistakes in texts are told: the lines that they are about, with marks, remarks and remedies.
 
-use super::{ROOT, snapshot};
+use super::{ROOT, folder, run, snapshot, words};
 use num_rational::BigRational;
 use std::collections::BTreeMap;
 use std::fs;
@@ -251,4 +251,22 @@ fn refused_formulas_of_wavenumbers_are_explained() {
         told += &format!("\n{}\n", render(&read(text).unwrap_err(), Style::Plain));
     }
     snapshot("dispersion", "errors", "formulas that are refused", &told);
+}
+
+/// A misspelt file is looked for in its folder, and among the built-in scenes.
+#[test]
+fn missing_files_are_told_with_what_is_there() {
+    let folder = folder("missing-files");
+    std::fs::write(folder.join("shpb.wave"), "").unwrap();
+    for (line, remedy) in [
+        ("check shbp.wave", "did you mean `shpb.wave`?"),
+        ("check ./shbp.wave", "did you mean `./shpb.wave`?"),
+        ("check hopkinson.wave", "did you mean the built-in scene `hopkinson`?"),
+        ("check zzz.wave", "`wavestep scenes` lists them"),
+        ("check zzz", "or a built-in scene: two-bars"),
+    ] {
+        let (code, out, told) = run(&folder, &words(line));
+        assert_eq!((code, out.as_str()), (2, ""), "{line}");
+        assert!(told.contains(remedy), "{line}: {told}");
+    }
 }

@@ -22,6 +22,9 @@ use wavestep::signal::Signal;
 use wavestep_draw::{Caption, Chart as _};
 use wavestep_polynomial::Rational;
 
+/// How many sections a page has.
+const PARTS: usize = 9;
+
 /// The last period whose pieces are shown of equations that are stated.
 const LAST_PIECE: usize = 2;
 
@@ -50,7 +53,7 @@ pub struct Request<'a> {
     /// A certificate of the derived pieces, or why there is none.
     pub certificate: &'a dyn Fn() -> Result<String, String>,
     /// Is told what is worked out.
-    pub progress: &'a dyn Fn(&'static str),
+    pub progress: &'a dyn Fn(&str),
 }
 
 /// An observable, followed once for all that is told of it.
@@ -73,9 +76,10 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
             (Err(error), _) | (_, Some(Err(error))) => left_out(error),
             (Ok(_), None) => String::new(),
         };
-    let mut body = String::new();
-    let mut add = |id: &str, heading: &'static str, contents: &dyn Fn() -> String| {
-        (request.progress)(heading);
+    let (mut body, mut part) = (String::new(), 0);
+    let mut add = |id: &str, heading: &str, contents: &dyn Fn() -> String| {
+        part += 1;
+        (request.progress)(&format!("{heading}, part {part} of {PARTS}"));
         body += &section(id, heading, &contents());
     };
     add("scene", "The scene", &|| scene(problem));
@@ -93,7 +97,7 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
     add("assumptions", "Assumptions", &|| {
         let of_window = |to| {
             let note = (request.closed)(to);
-            let closed = note.map(|note| format!("Formulas are of closed contacts: {note}."));
+            let closed = note.map(|note| format!("The formulas hold for closed contacts: {note}."));
             [until(problem, to)].into_iter().chain(closed)
         };
         let all = end.iter().flat_map(of_window).chain(assumptions(problem, open));
@@ -252,10 +256,10 @@ fn certificate(certificate: &Result<String, String>) -> String {
             &"the certificate is too long for a page; `wavestep certify SCENE -o certificate.json` writes it",
         ),
         Ok(text) => format!(
-            "<p>That these pieces, and no others, satisfy the equations of the scene can be verified without \
-             wavestep: save <a download=\"certificate.json\" href=\"data:application/json,{}\">\
-             certificate.json</a> ({} kB) and run <code>python3 checkers/check.py certificate.json</code>, \
-             a program of one page that comes with the source of wavestep.</p>\n",
+            "<p>Anyone can verify, without wavestep, that the pieces above and no others satisfy the equations \
+             of the scene: save <a download=\"certificate.json\" href=\"data:application/json,{}\">\
+             certificate.json</a> ({} kB) and run <code>python3 checkers/check.py certificate.json</code>. The \
+             checker is a short program that comes with the source of wavestep.</p>\n",
             in_address(text),
             text.len().div_ceil(1_000)
         ),
