@@ -1,5 +1,6 @@
 //! How much is done at most. Where a limit is met the error names it.
 
+use std::cell::Cell;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -106,8 +107,20 @@ pub fn share_done() -> (f64, &'static str) {
     *DONE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// From now on, work on this thread tells no share: it is one of several that work at once.
+pub fn count_nothing_here() {
+    COUNTS.set(false);
+}
+
+thread_local! {
+    static COUNTS: Cell<bool> = const { Cell::new(true) };
+}
+
 /// Tells that share.
 pub(crate) fn tell_done(share: f64, of: &'static str) {
+    if !COUNTS.get() {
+        return;
+    }
     *DONE.lock().unwrap_or_else(PoisonError::into_inner) = (share, of);
 }
 

@@ -19,6 +19,9 @@ const FINE: i64 = 1000;
 /// So many values are looked at besides, where a proof leaves something open.
 const MOST_MISSED: usize = 24;
 
+/// Significant digits of the values of a symbol that are looked at first.
+const MAP_DIGITS: usize = 3;
+
 /// The numbers of arrivals, and of modes, that are tried where nothing else is said.
 const COUNTS: [usize; 5] = [1, 2, 4, 8, 16];
 
@@ -45,12 +48,17 @@ impl FromStr for SymbolRange {
     }
 }
 
-/// So many values from one to another, both positive, with three digits, each about the same multiple of the one before.
-pub fn geometrically_spaced(from: &Rational, to: &Rational, points: usize) -> Vec<Rational> {
+/// So many values from one to another, both positive, with so many digits, each about the same multiple of the one before.
+pub fn geometrically_spaced(
+    from: &Rational,
+    to: &Rational,
+    points: usize,
+    digits: usize,
+) -> Vec<Rational> {
     let [first, last] = [from, to].map(|end| end.to_f64().unwrap_or(f64::NAN));
     let between = |i: usize| {
         let share = i as f64 / (points - 1) as f64;
-        short(first * (last / first).powf(share), 3)
+        short(first * (last / first).powf(share), digits)
     };
     let mut values = vec![from.clone()];
     for value in (1..points.max(2) - 1).filter_map(between) {
@@ -204,7 +212,7 @@ impl Problem {
             true => self.usual_simpler(),
             false => asked.simpler.clone(),
         };
-        let values = geometrically_spaced(&range.from, &range.to, *points);
+        let values = geometrically_spaced(&range.from, &range.to, *points, MAP_DIGITS);
         let mut known = BTreeMap::new();
         let mut off_at = |value: &Rational| {
             if !known.contains_key(value) {

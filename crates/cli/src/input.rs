@@ -53,6 +53,18 @@ pub fn problem_with(scene: &str, values: &Values) -> Result<Asked, Failure> {
     Ok(Asked(Problem::of_text(scene, bytes, values)?))
 }
 
+/// What the text of a built-in scene or a file is called, and the text.
+pub fn text(scene: &str) -> Result<(String, String), Failure> {
+    if let Some(scene) = scenes::find(scene) {
+        return Ok((scene.name.to_owned(), scene.text.to_owned()));
+    }
+    let bytes = bytes(scene, MAX_SOURCE_BYTES).map_err(|error| unread(scene, &error))?;
+    let text = String::from_utf8(bytes).map_err(|_| {
+        Failure::usage(format!("the scene `{scene}` is no text"), "save it as UTF-8")
+    })?;
+    Ok((scene.to_owned(), text))
+}
+
 /// Whether there is a built-in scene or a file of this name.
 pub fn is_scene(name: &str) -> bool {
     scenes::find(name).is_some() || Path::new(name).exists()

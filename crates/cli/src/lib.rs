@@ -38,6 +38,7 @@ mod progress;
 mod report;
 mod rows;
 mod share;
+mod sweep;
 mod table;
 mod validity;
 
@@ -78,6 +79,7 @@ pub fn run() -> ExitCode {
         Subcommand::Field(options) => field::run(options),
         Subcommand::Find(options) => output::report(find::run(options), &options.output),
         Subcommand::Advise(options) => advise::run(options),
+        Subcommand::Sweep(options) => sweep::run(options),
         Subcommand::Dispersion(options) => {
             output::report(dispersion::run(options), &options.output)
         }

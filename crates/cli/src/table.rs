@@ -34,12 +34,7 @@ impl Table {
         }
         match below {
             Some(below) => below.iter().for_each(|entry| self.entry(entry, row.clone())),
-            None => {
-                let new = row.keys().filter(|name| !self.columns.contains(name));
-                let new: Vec<String> = new.cloned().collect();
-                self.columns.extend(new);
-                self.rows.push(row);
-            }
+            None => self.push(row),
         }
     }
 
@@ -48,6 +43,22 @@ impl Table {
         let mut table = Table::default();
         table.add(document, &Map::new());
         table
+    }
+
+    /// Adds a row.
+    pub fn push(&mut self, row: Map<String, Json>) {
+        let new = row.keys().filter(|name| !self.columns.contains(name));
+        let new: Vec<String> = new.cloned().collect();
+        self.columns.extend(new);
+        self.rows.push(row);
+    }
+
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    pub fn rows(&self) -> &[Map<String, Json>] {
+        &self.rows
     }
 
     pub fn csv(&self) -> String {

@@ -12,6 +12,7 @@ pub mod hertz;
 pub mod picture;
 pub mod report;
 pub mod study;
+pub mod sweep;
 pub mod told;
 
 use wavestep_polynomial::Rational;

@@ -13,6 +13,7 @@ mod hertz;
 mod locks;
 mod pictures;
 mod report;
+mod sweep;
 mod tools;
 
 pub use advise::Advise;
@@ -28,6 +29,7 @@ pub use hertz::Hertz;
 pub use locks::{Check, Lock};
 pub use pictures::{Chart, Field, Figure, Plot};
 pub use report::Report;
+pub use sweep::Sweep;
 pub use tools::{Generate, Generated, Scenes};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -146,6 +148,8 @@ pub enum Subcommand {
     Find(Find),
     /// Find the simplest model that meets a tolerance, with a proven difference from the exact solution
     Advise(Advise),
+    /// Tabulate values, extrema or contact times over ranges of symbols, on all cores
+    Sweep(Sweep),
     /// Phase, group and pulse velocities for a dispersion relation omega(k)
     Dispersion(Dispersion),
     /// Closed forms of a local contact between two bars: largest force, rise times, equivalent spring

@@ -24,6 +24,7 @@ mod scene;
 #[path = "../../../../tests/it/support/snapshot.rs"]
 mod snapshot;
 mod strains;
+mod sweep;
 mod table;
 mod typeset;
 mod validity;

@@ -68,6 +68,7 @@ impl Strains {
             &Rational::new(1.into(), 4.into()),
             &Rational::from_integer(100.into()),
             LOOKS,
+            3,
         );
         let runs = runs(masses, |mass| self.holds(estimate, mass, share))?;
         Ok(runs.into_iter().filter_map(|run| run.state.then_some(run.between)).collect())
