@@ -64,9 +64,20 @@ fn json(text: &str) -> Value {
 #[test]
 fn help_is_as_recorded() {
     recorded("help", "--help");
-    for subcommand in
-        ["derive", "eval", "find", "advise", "export", "chart", "dispersion", "check", "scenes"]
-    {
+    for subcommand in [
+        "derive",
+        "eval",
+        "find",
+        "events",
+        "report",
+        "advise",
+        "sweep",
+        "export",
+        "chart",
+        "dispersion",
+        "check",
+        "scenes",
+    ] {
         let help = output(&format!("{subcommand} --help"));
         assert_eq!(help, output(&format!("help {subcommand}")));
         snapshot("command", &format!("help-{subcommand}"), &format!("{subcommand} --help"), &help);
