@@ -10,10 +10,10 @@ use wavestep::signal::Goal;
     wavestep sweep mass-on-fixed-bar --over mu=1/10..10:25:log --max strain_fixed --to 8\n  \
     wavestep sweep saint-venant --over mu=1/2,1,2,4 --contacts -o contacts.csv\n  \
     wavestep sweep mass-between-bars --over m=1..4:7 --at 1,2 -o all.parquet\n\n\
-    One row per combination of values: the last --over changes fastest. Numbers are the doubles nearest to\n\
-    the exact values, empty where there is no answer: the column `error` says why. Rows are computed on\n\
-    all cores, and come out the same on any number of them. With -o, finished rows are kept in FILE.rows\n\
-    until all are done: the same command resumes an interrupted sweep.")]
+    One row per combination of values: the last --over changes fastest. Numbers are the doubles\n\
+    nearest to the exact values, empty where there is no answer: the column `error` says why. Rows\n\
+    are computed on all cores, and come out the same on any number of them. With -o, finished rows\n\
+    are kept in FILE.rows until all are done: the same command resumes an interrupted sweep.")]
 pub struct Sweep {
     #[command(flatten)]
     pub scene: Scene,
