@@ -1,5 +1,6 @@
 //! How much is done at most. Where a limit is met the error names it.
 
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 // ---- Texts ---------------------------------------------------------------------------------------
@@ -110,6 +111,30 @@ pub(crate) fn tell_followed(share: f64) {
 }
 
 static FOLLOWED: AtomicU64 = AtomicU64::new(0);
+
+/// Lets long work be stopped: `pause` is called between its steps, on the thread that works, and ends it by unwinding.
+/// Only the first one that is given counts.
+///
+/// ```standalone_crate
+/// use std::panic::{catch_unwind, resume_unwind};
+/// use wavestep::{Problem, limits};
+///
+/// limits::stop_by(|| resume_unwind(Box::new("stopped")));
+/// let velocity = || Problem::builtin("pile")?.signal("head")?.at("1 ms", 9);
+/// assert!(catch_unwind(velocity).is_err_and(|reason| reason.is::<&str>()));
+/// ```
+pub fn stop_by(pause: fn()) {
+    let _ = PAUSE.set(pause);
+}
+
+/// A moment between two steps of long work.
+pub(crate) fn pause() {
+    if let Some(pause) = PAUSE.get() {
+        pause();
+    }
+}
+
+static PAUSE: OnceLock<fn()> = OnceLock::new();
 
 /// The memory of the machine, where Linux tells.
 fn machine() -> Option<u64> {

@@ -35,6 +35,7 @@ pub use method::{
     Certified, Compiled, Evaluator, Marched, MethodError, StablePrecision, Summation, Summed,
     Table, instructions,
 };
+pub(crate) use method::values_of;
 pub use operations::of_recurrence;
 pub(crate) use operations::{
     Balanced, Combination, Constant, Difference, Integral, Operation, Product, Scale, Vibrating,
