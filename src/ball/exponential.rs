@@ -13,6 +13,7 @@ use super::ball::Ball;
 use super::binary::{Binary, LEAST_PRECISION};
 use super::error::{ARGUMENT_BITS, BallError};
 use super::magnitude::Magnitude;
+use crate::limits::pause;
 
 /// How an argument of size below `2^t` is reduced for a result of `p` bits.
 #[derive(Clone, Copy)]
@@ -91,6 +92,7 @@ impl Ball {
     /// `e^m r (1 + r)` for `r ≤ 1`, since `e^r ≤ 1 + r + r²` there, and else at most
     /// `e^m 2^{3r/2}`, since `log₂ e < 3/2`.
     pub fn exp(&self, precision: u64) -> Result<Ball, BallError> {
+        pause();
         if self.magnitude() > Magnitude::power_of_two(i64::from(ARGUMENT_BITS)) {
             return Err(BallError::ArgumentTooLarge);
         }

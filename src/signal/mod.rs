@@ -31,11 +31,11 @@ pub use digits::{digits, value};
 pub use error::EvaluateError;
 pub(crate) use find::middle_and_half;
 pub use find::{Extremum, Goal, Place, Root, Roots, Search};
+pub(crate) use method::values_of;
 pub use method::{
     Certified, Compiled, Evaluator, Marched, MethodError, StablePrecision, Summation, Summed,
     Table, instructions,
 };
-pub(crate) use method::values_of;
 pub use operations::of_recurrence;
 pub(crate) use operations::{
     Balanced, Combination, Constant, Difference, Integral, Operation, Product, Scale, Vibrating,

@@ -13,6 +13,7 @@ pub mod picture;
 pub mod report;
 pub mod study;
 pub mod told;
+pub mod validity;
 
 use wavestep_polynomial::Rational;
 
