@@ -80,23 +80,16 @@ fn quantity(value: &Bound<'_, PyAny>) -> PyResult<Given> {
 }
 
 /// A number of digits, cells or periods.
-#[derive(Clone, Copy)]
-pub struct Count(pub usize);
-
-impl<'py> FromPyObject<'_, 'py> for Count {
-    type Error = PyErr;
-
-    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Count> {
-        let count = value.extract().map(Count);
-        count.map_err(|error| match error.is_instance_of::<PyOverflowError>(value.py()) {
+pub fn count(value: &Bound<'_, PyAny>) -> PyResult<usize> {
+    value.extract().map_err(|error: PyErr| {
+        match error.is_instance_of::<PyOverflowError>(value.py()) {
             true => {
-                let remedy = "give a whole number from 0 on".to_owned();
-                Failure::Input(format!("{} is no number of things", &*value), remedy)
-                    .raised(value.py())
+                let remedy = "give a whole number from 0 on, and not as large".to_owned();
+                Failure::Input(format!("{value} is no number of things"), remedy).raised(value.py())
             }
             false => error,
-        })
-    }
+        }
+    })
 }
 
 /// Values for symbols, by name.

@@ -2,7 +2,7 @@
 
 use crate::failure::{Failure, of_picture};
 use crate::formula::Formula;
-use crate::given::{Count, Number, values};
+use crate::given::{Number, count, values};
 use crate::results;
 use crate::signal::Signal;
 use crate::work::released;
@@ -197,10 +197,8 @@ impl Problem {
         orders: &Bound<'_, PyAny>,
     ) -> PyResult<Vec<Formula>> {
         let orders: Vec<usize> = match orders.hasattr("__iter__")? {
-            true => {
-                orders.try_iter()?.map(|n| Ok(n?.extract::<Count>()?.0)).collect::<PyResult<_>>()?
-            }
-            false => vec![orders.extract::<Count>()?.0],
+            true => orders.try_iter()?.map(|n| count(&n?)).collect::<PyResult<_>>()?,
+            false => vec![count(orders)?],
         };
         let formulas = self.0.ask(py, |problem| {
             let mut formulas = Vec::new();
@@ -225,8 +223,8 @@ impl Problem {
     /// What answers until a time take for granted: that a contact pulls, which stays closed, or what no precision decides.
     ///
     /// >>> import wavestep as ws
-    /// >>> ws.scene("hopkinson").notes(until="200 us")[0][:60]
-    /// 'from t = 0.000116004640371 s on, the contact between striker'
+    /// >>> ws.scene("hopkinson").notes(until="1 ms")[0][:60]
+    /// 'from t = 0.000580024630019 s on, the contact between striker'
     fn notes(&self, py: Python<'_>, until: Number) -> PyResult<Vec<String>> {
         self.0.ask(py, |problem| {
             let pulling = pulling(problem, &problem.time("until", until)?);
@@ -255,16 +253,16 @@ impl Problem {
     /// ...     print(event.kind, event.time)
     /// impact 0
     /// opening 3.06766764161831
-    #[pyo3(signature = (until=None, *, digits=Count(15)))]
+    #[pyo3(signature = (until=None, *, digits=15))]
     fn events<'py>(
         &self,
         py: Python<'py>,
         until: Option<Number>,
-        digits: Count,
+        #[pyo3(from_py_with = count)] digits: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let found = self.0.ask(py, |problem| match until {
-            Some(until) => Ok(problem.events_until(until, digits.0)?),
-            None => Ok(problem.events(digits.0)?),
+            Some(until) => Ok(problem.events_until(until, digits)?),
+            None => Ok(problem.events(digits)?),
         })?;
         results::history(py, &found)
     }
@@ -275,17 +273,17 @@ impl Problem {
     /// >>> bar = ws.scene("hopkinson").field("100 us", cells=10).bars[0]
     /// >>> bar.name, bar.force.shape
     /// ('striker', (11,))
-    #[pyo3(signature = (t, *, cells=Count(100), averages=false))]
+    #[pyo3(signature = (t, *, cells=100, averages=false))]
     fn field<'py>(
         &self,
         py: Python<'py>,
         t: Number,
-        cells: Count,
+        #[pyo3(from_py_with = count)] cells: usize,
         averages: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let found = self.0.ask(py, |problem| match averages {
-            true => Ok(problem.field_averages(t, cells.0)?),
-            false => Ok(problem.field(t, cells.0)?),
+            true => Ok(problem.field_averages(t, cells)?),
+            false => Ok(problem.field(t, cells)?),
         })?;
         results::fields(py, &found)
     }

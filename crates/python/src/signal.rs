@@ -1,7 +1,7 @@
 //! Signals, and windows of them that are made ready.
 
 use crate::arrays::{are_many, doubles, fill};
-use crate::given::{Count, Number};
+use crate::given::{Number, count};
 use crate::problem::{Shared, svg};
 use crate::results;
 use crate::value::Value;
@@ -78,15 +78,25 @@ impl Signal {
     /// >>> f = ws.scene("rigid-mass", mu="1/4").signal("f")
     /// >>> print(f.digits("33/10", 30))
     /// 0.305385264408791064086396952466
-    #[pyo3(signature = (t, digits=Count(15)))]
-    fn digits(&self, py: Python<'_>, t: Number, digits: Count) -> PyResult<Value> {
-        self.ask(py, |signal| signal.at(t, digits.0)).map(Value)
+    #[pyo3(signature = (t, digits=15))]
+    fn digits(
+        &self,
+        py: Python<'_>,
+        t: Number,
+        #[pyo3(from_py_with = count)] digits: usize,
+    ) -> PyResult<Value> {
+        self.ask(py, |signal| signal.at(t, digits)).map(Value)
     }
 
     /// The limit from earlier times.
-    #[pyo3(signature = (t, digits=Count(15)))]
-    fn before(&self, py: Python<'_>, t: Number, digits: Count) -> PyResult<Value> {
-        self.ask(py, |signal| signal.before(t, digits.0)).map(Value)
+    #[pyo3(signature = (t, digits=15))]
+    fn before(
+        &self,
+        py: Python<'_>,
+        t: Number,
+        #[pyo3(from_py_with = count)] digits: usize,
+    ) -> PyResult<Value> {
+        self.ask(py, |signal| signal.before(t, digits)).map(Value)
     }
 
     /// Values by the cheapest method that is proven to keep a tolerance, or by a method of one's choice.
@@ -146,16 +156,19 @@ impl Signal {
     /// >>> strain = ws.scene("rigid-mass", mu=1).signal("strain_impact")
     /// >>> [(root.kind, str(root.time)) for root in strain.roots(2, 4, digits=12)]
     /// [('simple', '3.06766764162'), ('jump', '4')]
-    #[pyo3(signature = (begin, end, *, level=Number(Given::Text("0".to_owned())), digits=Count(15)))]
+    #[pyo3(signature = (begin, end, *, level=None, digits=15))]
     fn roots<'py>(
         &self,
         py: Python<'py>,
         begin: Number,
         end: Number,
-        level: Number,
-        digits: Count,
+        level: Option<Number>,
+        #[pyo3(from_py_with = count)] digits: usize,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        let found = self.ask(py, |signal| signal.crossings(level, begin..=end, digits.0))?;
+        let found = self.ask(py, |signal| match level {
+            Some(level) => signal.crossings(level, begin..=end, digits),
+            None => signal.roots(begin..=end, digits),
+        })?;
         found.all.iter().map(|root| results::root(py, root)).collect()
     }
 
@@ -165,25 +178,25 @@ impl Signal {
     /// >>> most = ws.scene("rigid-mass", mu=1).signal("strain_impact").maximum(0, 4)
     /// >>> str(most.value), [str(place.time) for place in most.places]
     /// ('0.252354927584491', ['4'])
-    #[pyo3(signature = (begin, end, *, digits=Count(15)))]
+    #[pyo3(signature = (begin, end, *, digits=15))]
     fn maximum<'py>(
         &self,
         py: Python<'py>,
         begin: Number,
         end: Number,
-        digits: Count,
+        #[pyo3(from_py_with = count)] digits: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
         self.extremum(py, Goal::Largest, (begin, end), digits)
     }
 
     /// The smallest value of a window, with all places where it is taken.
-    #[pyo3(signature = (begin, end, *, digits=Count(15)))]
+    #[pyo3(signature = (begin, end, *, digits=15))]
     fn minimum<'py>(
         &self,
         py: Python<'py>,
         begin: Number,
         end: Number,
-        digits: Count,
+        #[pyo3(from_py_with = count)] digits: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
         self.extremum(py, Goal::Smallest, (begin, end), digits)
     }
@@ -193,15 +206,15 @@ impl Signal {
     /// >>> import wavestep as ws
     /// >>> ws.scene("rigid-mass", mu=1).signal("strain_fixed").breaks(0, 6)
     /// [Value('1'), Value('3'), Value('5')]
-    #[pyo3(signature = (begin, end, *, digits=Count(15)))]
+    #[pyo3(signature = (begin, end, *, digits=15))]
     fn breaks(
         &self,
         py: Python<'_>,
         begin: Number,
         end: Number,
-        digits: Count,
+        #[pyo3(from_py_with = count)] digits: usize,
     ) -> PyResult<Vec<Value>> {
-        let found = self.ask(py, |signal| signal.breaks(begin..=end, digits.0))?;
+        let found = self.ask(py, |signal| signal.breaks(begin..=end, digits))?;
         Ok(found.into_iter().map(Value).collect())
     }
 
@@ -220,9 +233,9 @@ impl Signal {
         py: Python<'py>,
         goal: Goal,
         (begin, end): (Number, Number),
-        digits: Count,
+        digits: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let found = self.ask(py, |signal| signal.extremum(goal, begin..=end, digits.0))?;
+        let found = self.ask(py, |signal| signal.extremum(goal, begin..=end, digits))?;
         results::extremum(py, &found)
     }
 }

@@ -1,6 +1,6 @@
 //! Values with proven digits.
 
-use crate::given::Count;
+use crate::given::count;
 use num_bigint::BigInt;
 use pyo3::prelude::*;
 use wavestep::{Rational, Value as Proven};
@@ -35,16 +35,24 @@ impl Value {
     }
 
     /// The value as a `decimal.Decimal`: the digits that are proven, or so many of an exact one.
-    #[pyo3(signature = (digits=Count(30)))]
-    fn decimal<'py>(&self, py: Python<'py>, digits: Count) -> PyResult<Bound<'py, PyAny>> {
-        let text = self.0.decimal(digits.0.max(1)).0.to_string();
+    #[pyo3(signature = (digits=30))]
+    fn decimal<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = count)] digits: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let text = self.0.decimal(digits.max(1)).0.to_string();
         py.import("decimal")?.getattr("Decimal")?.call1((text,))
     }
 
     /// The same as an `mpmath.mpf`.
-    #[pyo3(signature = (digits=Count(30)))]
-    fn mpf<'py>(&self, py: Python<'py>, digits: Count) -> PyResult<Bound<'py, PyAny>> {
-        let text = self.0.decimal(digits.0.max(1)).0.to_string();
+    #[pyo3(signature = (digits=30))]
+    fn mpf<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = count)] digits: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let text = self.0.decimal(digits.max(1)).0.to_string();
         py.import("wavestep._convert")?.call_method1("mpf", (text,))
     }
 

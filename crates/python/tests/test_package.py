@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import wavestep as ws
-from wavestep import _convert, _errors, _native, _results
+from wavestep import _convert, _errors, _results
 
 PAGE = pathlib.Path(__file__).parents[3] / "docs/python.md"
 
@@ -19,9 +19,7 @@ PAGE = pathlib.Path(__file__).parents[3] / "docs/python.md"
 def examples() -> list[doctest.DocTest]:
     finder = doctest.DocTestFinder(exclude_empty=True)
     found = [test for module in (ws, _convert, _errors, _results) for test in finder.find(module)]
-    for public in (_native.Problem, _native.Signal, _native.Curve, _native.Formula, _native.Value):
-        found += finder.find(public, globs={})
-    found.append(finder.find(_native.set_memory, "set_memory", globs={})[0])
+    found += finder.find(ws.set_memory, "set_memory", globs={})
     page = PAGE.read_text(encoding="utf-8").replace("```", "\n```")
     found.append(doctest.DocTestParser().get_doctest(page, {}, PAGE.name, str(PAGE), 0))
     return [test for test in found if test.examples]

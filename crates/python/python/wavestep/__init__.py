@@ -5,7 +5,7 @@
 >>> p.signal("velocity")("3/2")
 0.22313016014842982
 
-Times and values are ``int``, ``float`` (its exact value), ``Fraction``, ``Decimal``, text such as ``"33/10"`` or,
+_Times and values are ``int``, ``float`` (its exact value), ``Fraction``, ``Decimal``, text such as ``"33/10"`` or,
 in scenes with units, ``"120 us"``, or quantities of pint.
 """
 
@@ -27,7 +27,7 @@ from ._errors import (
 from ._native import SCENES, Curve, Formula, Problem, Signal, Value, __version__, set_memory
 
 if TYPE_CHECKING:
-    from ._native import Number
+    from ._native import _Number
 
 __all__ = [
     "SCENES",
@@ -50,7 +50,7 @@ __all__ = [
 ]
 
 
-def scene(name: str, /, **values: Number) -> Problem:
+def scene(name: str, /, **values: _Number) -> Problem:
     """The built-in scene of this name, one of ``SCENES``, with values in place of symbols.
 
     >>> scene("two-bars").waves
@@ -59,7 +59,7 @@ def scene(name: str, /, **values: Number) -> Problem:
     return Problem._builtin(name, values)
 
 
-def read(text: str | os.PathLike[str], /, **values: Number) -> Problem:
+def read(text: str | os.PathLike[str], /, **values: _Number) -> Problem:
     """A scene from a file, or from a text, which has several lines.
 
     >>> p = read('''scene "A"

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any, Literal
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    import pandas
+    from pandas import DataFrame as _DataFrame
 
-    from ._native import Array, Value
+    from ._native import _Array, Value
 
 
-def _frame(rows: list[dict[str, Any]]) -> pandas.DataFrame:
+def _frame(rows: list[dict[str, Any]]) -> _DataFrame:
     import pandas
 
     return pandas.DataFrame(rows)
@@ -100,7 +100,7 @@ class History:
     until: Value | None
     assumptions: tuple[str, ...]
 
-    def to_frame(self) -> pandas.DataFrame:
+    def to_frame(self) -> _DataFrame:
         """The events as a table of doubles."""
         return _frame(
             [
@@ -128,12 +128,12 @@ class BarField:
     """The fields of a bar at the nodes ``x``, or as averages over the cells between them."""
 
     name: str
-    x: Array
-    velocity: Array
-    strain: Array
-    displacement: Array
-    force: Array
-    bounds: dict[str, Array]
+    x: _Array
+    velocity: _Array
+    strain: _Array
+    displacement: _Array
+    force: _Array
+    bounds: dict[str, _Array]
     """A proven bound on the error of every value, by the names of the fields."""
 
 
@@ -144,7 +144,7 @@ class Field:
     time: Fraction
     bars: tuple[BarField, ...]
 
-    def to_frame(self) -> pandas.DataFrame:
+    def to_frame(self) -> _DataFrame:
         """All bars in one table; the left end of each cell stands for an average over it."""
         import pandas
 
@@ -160,18 +160,18 @@ class Field:
 class Values:
     """Values in doubles with a proven bound, beyond half a unit in the last place; ``None`` where none is proven."""
 
-    values: Array
+    values: _Array
     bound: float | None
     method: str
     law: str
 
     @property
-    def errors(self) -> Array:
+    def errors(self) -> _Array:
         """A bound on the error of each value; infinite where none is proven."""
         import numpy
 
         bound = numpy.inf if self.bound is None else self.bound
-        errors: Array = bound + numpy.spacing(numpy.abs(self.values)) / 2
+        errors: _Array = bound + numpy.spacing(numpy.abs(self.values)) / 2
         return errors
 
 
