@@ -46,6 +46,7 @@ impl Reduction {
     /// less than 2 units. Altogether
     /// `|e^(x/2^k)·2^w − Σ_(i<n) t_i| ≤ 2n + 5`.
     fn exponential(self, argument: &BigInt) -> Ball {
+        pause();
         let mut term = argument.clone();
         let mut sum = (BigInt::one() << self.working) + argument;
         let mut count = 1_u64;
@@ -92,7 +93,6 @@ impl Ball {
     /// `e^m r (1 + r)` for `r ≤ 1`, since `e^r ≤ 1 + r + r²` there, and else at most
     /// `e^m 2^{3r/2}`, since `log₂ e < 3/2`.
     pub fn exp(&self, precision: u64) -> Result<Ball, BallError> {
-        pause();
         if self.magnitude() > Magnitude::power_of_two(i64::from(ARGUMENT_BITS)) {
             return Err(BallError::ArgumentTooLarge);
         }

@@ -19,6 +19,8 @@ pub fn are_many(times: &Bound<'_, PyAny>) -> PyResult<bool> {
 /// Times as an array of doubles; refused where their kind has numbers that no double holds.
 pub fn doubles<'py>(times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let py = times.py();
+    // Where NumPy is missing this is told as usual.
+    let numpy = py.import("numpy")?;
     if let Ok(array) = times.cast::<PyArrayDyn<f64>>()
         && array.is_c_contiguous()
     {
@@ -28,7 +30,6 @@ pub fn doubles<'py>(times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn
         true => &times.call_method0("to_base_units")?.getattr("magnitude")?,
         false => times,
     };
-    let numpy = py.import("numpy")?;
     let array = numpy.call_method1("asarray", (times,))?;
     let kind = array.getattr("dtype")?;
     let (letter, size): (String, usize) =

@@ -1,6 +1,7 @@
 //! Signals, and windows of them that are made ready.
 
 use crate::arrays::{are_many, doubles, fill};
+use crate::failure::Failure;
 use crate::given::{Number, count};
 use crate::problem::{Shared, svg};
 use crate::results;
@@ -10,7 +11,7 @@ use numpy::PyArrayMethods as _;
 use pyo3::IntoPyObjectExt as _;
 use pyo3::prelude::*;
 use std::sync::Arc;
-use wavestep::{Error, Given, Goal, Method, Tolerance};
+use wavestep::{Doubles, Error, Given, Goal, Method, Tolerance};
 
 /// A wave or an observable as a function of time, zero before the start.
 ///
@@ -114,17 +115,17 @@ impl Signal {
         method: Option<&str>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = t.py();
-        let times: Vec<Given> = match t.extract::<Vec<Number>>() {
-            Ok(times) if !t.hasattr("dtype")? => times.into_iter().map(Given::from).collect(),
-            _ => {
+        let exact = match t.hasattr("dtype")? {
+            true => None,
+            false => t.extract::<Vec<Number>>().ok(),
+        };
+        let found = match exact {
+            Some(times) => self.chosen(py, &times, within, method)?,
+            None => {
                 let times = doubles(t)?.try_readonly()?;
-                times.as_slice()?.iter().map(|time| Given::from(*time)).collect()
+                self.chosen(py, times.as_slice()?, within, method)?
             }
         };
-        let found = self.ask(py, |signal| match (method, within) {
-            (Some(method), None) => signal.values_by(&times, parsed::<Method>(method)?),
-            (_, within) => signal.values(&times, parsed::<Tolerance>(within.unwrap_or("1e-12"))?),
-        })?;
         results::doubles(py, found)
     }
 
@@ -228,6 +229,25 @@ impl Signal {
 }
 
 impl Signal {
+    /// Values by a method, or by the cheapest that is proven to be within a tolerance.
+    fn chosen<T: Clone + Into<Given> + Sync>(
+        &self,
+        py: Python<'_>,
+        times: &[T],
+        within: Option<&str>,
+        method: Option<&str>,
+    ) -> PyResult<Doubles> {
+        if method.is_some() && within.is_some() {
+            let message = "a method and a tolerance are given".to_owned();
+            let failure = Failure::Input(message, "give one of them".to_owned());
+            return Err(failure.raised(py));
+        }
+        self.ask(py, |signal| match method {
+            Some(method) => signal.values_by(times, parsed::<Method>(method)?),
+            None => signal.values(times, parsed::<Tolerance>(within.unwrap_or("1e-12"))?),
+        })
+    }
+
     fn extremum<'py>(
         &self,
         py: Python<'py>,
