@@ -120,8 +120,8 @@ static FOLLOWED: AtomicU64 = AtomicU64::new(0);
 /// use wavestep::{Problem, limits};
 ///
 /// limits::stop_by(|| resume_unwind(Box::new("stopped")));
-/// let velocity = || Problem::builtin("pile")?.signal("head")?.at("1 ms", 9);
-/// assert!(catch_unwind(velocity).is_err_and(|reason| reason.is::<&str>()));
+/// let force = || Problem::builtin("hopkinson")?.signal("force")?.at("400 us", 9);
+/// assert!(catch_unwind(force).is_err_and(|reason| reason.is::<&str>()));
 /// ```
 pub fn stop_by(pause: fn()) {
     let _ = PAUSE.set(pause);
