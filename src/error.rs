@@ -3,7 +3,7 @@
 //! Each layer says in an enum of its own what went wrong, and [`ProblemError`] holds them all. Here stands
 //! what follows from it: of which kind an error is, and what can be done about it.
 
-use crate::answer::WayError;
+use crate::answer::{Method, WayError};
 use crate::ball::BallError;
 use crate::expression::{NotAUnit, NotInvertible};
 use crate::field::FieldError;
@@ -247,6 +247,9 @@ fn remedy(error: &ProblemError) -> Option<String> {
     Some(match error {
         ProblemError::Solve(error) => remedy_of_solve(error),
         ProblemError::Equal(error) => remedy_of_equal(error),
+        ProblemError::Method(_) => {
+            format!("give one of {}", Method::NAMES.map(|(name, _)| name).join(", "))
+        }
         ProblemError::NotBuiltIn(name) => {
             let names = SCENES.map(|scene| scene.name);
             did_you_mean(name, names)
@@ -299,7 +302,6 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
         },
         ProblemError::NoNumber(_) | ProblemError::NotFinite(_) => "give a number",
         ProblemError::Tolerance(_) => "give a number such as 1e-9, abs:1e-9 or ulp:4",
-        ProblemError::Method(_) => "see `Method::NAMES`",
         ProblemError::BeforeStart(_) => "give times from 0 on",
         ProblemError::EmptyWindow(_) => "the window must end after it begins",
         ProblemError::NoEnd => "give the window an end",
@@ -411,6 +413,7 @@ fn remedy_of_history(error: &HistoryError) -> &'static str {
 
 fn remedy_of_way(error: &WayError) -> &'static str {
     match error {
+        WayError::Method(MethodError::Outside) => "give times within the window",
         WayError::Method(MethodError::NoTaps(_)) => "use the method compiled or certified",
         WayError::Method(_) => "use a shorter window, or the method certified",
         WayError::Model(ModelError::Setting { .. }) => "give a setting within these bounds",

@@ -72,7 +72,7 @@ pub mod solution;
 
 pub use answer::{Doubles, Method, Tolerance};
 pub use error::Error;
-pub use facade::{Formula, Signal};
+pub use facade::{Curve, Formula, Signal};
 pub use field::{BarFields, Bounded, Fields, Quantity};
 pub use history::{Body, ContactSummary, Ending, Event, EventKind, History};
 pub use language::{Diagnostic, Label, Span};

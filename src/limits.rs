@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 // ---- Texts ---------------------------------------------------------------------------------------
 
@@ -151,6 +151,30 @@ impl Drop for Counted {
         tell_done(0.0, "");
     }
 }
+
+/// Lets long work be stopped: `pause` is called between its steps, on the thread that works, and ends it by unwinding.
+/// Only the first one that is given counts.
+///
+/// ```standalone_crate
+/// use std::panic::{catch_unwind, resume_unwind};
+/// use wavestep::{Problem, limits};
+///
+/// limits::stop_by(|| resume_unwind(Box::new("stopped")));
+/// let force = || Problem::builtin("hopkinson")?.signal("force")?.at("400 us", 9);
+/// assert!(catch_unwind(force).is_err_and(|reason| reason.is::<&str>()));
+/// ```
+pub fn stop_by(pause: fn()) {
+    let _ = PAUSE.set(pause);
+}
+
+/// A moment between two steps of long work.
+pub(crate) fn pause() {
+    if let Some(pause) = PAUSE.get() {
+        pause();
+    }
+}
+
+static PAUSE: OnceLock<fn()> = OnceLock::new();
 
 /// The memory of the machine, where Linux tells.
 fn machine() -> Option<u64> {

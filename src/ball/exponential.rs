@@ -13,6 +13,7 @@ use super::ball::Ball;
 use super::binary::{Binary, LEAST_PRECISION};
 use super::error::{ARGUMENT_BITS, BallError};
 use super::magnitude::Magnitude;
+use crate::limits::pause;
 
 /// How an argument of size below `2^t` is reduced for a result of `p` bits.
 #[derive(Clone, Copy)]
@@ -45,6 +46,7 @@ impl Reduction {
     /// less than 2 units. Altogether
     /// `|e^(x/2^k)·2^w − Σ_(i<n) t_i| ≤ 2n + 5`.
     fn exponential(self, argument: &BigInt) -> Ball {
+        pause();
         let mut term = argument.clone();
         let mut sum = (BigInt::one() << self.working) + argument;
         let mut count = 1_u64;

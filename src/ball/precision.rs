@@ -5,6 +5,8 @@
 //! other. Where the cost of an attempt grows at least linearly, all of them together cost less than about three
 //! times as much as the last one.
 
+use crate::limits::pause;
+
 /// Ascending precisions, in bits or digits, each twice the one before or half as much again; the last one is the
 /// limit.
 #[derive(Clone, Copy, Debug)]
@@ -65,6 +67,7 @@ impl Precisions {
     ) -> Result<Attempt<T, B>, E> {
         let mut bits = self.first;
         loop {
+            pause();
             match (attempt(bits)?, self.after(bits)) {
                 (Attempt::NotYet(_), Some(more)) => bits = more,
                 (last, _) => return Ok(last),

@@ -3,9 +3,11 @@
 //! These are few names with plain arguments over the layers beneath, which know more of each question. All
 //! of them return [`Error`].
 
+mod curve;
 mod formula;
 mod signal;
 
+pub use curve::Curve;
 pub use formula::Formula;
 pub use signal::Signal;
 

@@ -20,7 +20,7 @@ use crate::history::passivity::{Passivity, StateError};
 use crate::history::pressing::TooLong;
 use crate::history::series::{CellNorm, LONGEST_CELL, Series, Truncation};
 use crate::history::track::{Arriving, Track};
-use crate::limits::{MAX_CONTACTS, MAX_HISTORY_CELLS, memory, tell_done};
+use crate::limits::{MAX_CONTACTS, MAX_HISTORY_CELLS, memory, pause, tell_done};
 use crate::network::{Contacts, ElementLaw, Layout, Network, Node, Side, System, Unresisted};
 use crate::scene::{Dimension, Drive, ElementIndex};
 use std::cmp::Ordering;
@@ -411,6 +411,7 @@ impl Engine {
             if self.clock.compare(now, until)? == Ordering::Greater {
                 break;
             }
+            pause();
             let passed = self.states[node].about / end;
             tell_done(self.states[node].about / self.whole, "of the window");
             if passed > OFTEN * looked {

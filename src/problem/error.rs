@@ -327,6 +327,12 @@ impl From<WayError> for ProblemError {
     }
 }
 
+impl From<MethodError> for ProblemError {
+    fn from(error: MethodError) -> ProblemError {
+        WayError::from(error).into()
+    }
+}
+
 impl From<LockError> for ProblemError {
     fn from(error: LockError) -> ProblemError {
         match error {

@@ -9,7 +9,7 @@
 //! doubles beside the middle.
 
 use crate::ball::{Attempt, Ball, Magnitude, Precisions, at_or_after, at_or_before, rational};
-use crate::limits::{MAX_PIECES, MAX_POLYNOMIALS};
+use crate::limits::{MAX_PIECES, MAX_POLYNOMIALS, pause};
 use crate::signal::error::EvaluateError;
 use crate::signal::marched_pieces::MarchedPieces;
 use crate::signal::signal::{At, Enclosure, Limit, Signal};
@@ -236,6 +236,7 @@ impl<'a> Window<'a> {
             let spans = marched.map_or_else(|| vec![doubles], |marched| marched.spans(doubles));
             let mut open: Vec<_> = spans.into_iter().rev().map(|span| (span, 0)).collect();
             while let Some(((first, last), halvings)) = open.pop() {
+                pause();
                 let piece = match halvings < depth && first < last {
                     true => None,
                     false => self.fitting(stretch, (first, last), fit)?,
@@ -440,6 +441,7 @@ fn fitted(
     let mut start = first;
     let mut tried = width.map_or((last - first) * FIRST_PART, |width| width * WIDER);
     loop {
+        pause();
         let (end, found) = (0..MOST_TRIES).find_map(|_| {
             let rest = last - start;
             let end = if tried >= rest {

@@ -31,6 +31,7 @@ pub use digits::{digits, value};
 pub use error::EvaluateError;
 pub(crate) use find::middle_and_half;
 pub use find::{Extremum, Goal, Place, Root, Roots, Search};
+pub(crate) use method::values_of;
 pub use method::{
     Certified, Compiled, Evaluator, Marched, MethodError, StablePrecision, Summation, Summed,
     Table, instructions,

@@ -9,6 +9,7 @@
 //! worked out that a [`Demand`] names.
 
 use crate::expression::{EchoSum, Exact, Field, Transform};
+use crate::limits::pause;
 use crate::recurrence::{Recurrence, WaveIndex};
 use crate::solution::demand::Demand;
 use crate::solution::error::{SolveError, check_degree};
@@ -90,6 +91,7 @@ impl<'a, F: Field> EchoByEcho<'a, F> {
 
     /// Solves for the next echo of each wave.
     pub(crate) fn expand(&mut self) -> Result<(), Failed<F::Error>> {
+        pause();
         for i in 0..self.steps.len() {
             let (wave, order) = (self.steps[i].wave, self.echoes[self.steps[i].wave].len());
             let wanted = self.demand.as_ref().is_none_or(|demand| demand.wants(wave, order));

@@ -13,6 +13,7 @@
 //! it stopped.
 
 use crate::expression::{Expression, Fraction};
+use crate::limits::pause;
 use crate::recurrence::{LinearForm, Recurrence, Start, Statement, Step, WaveIndex};
 use crate::solution::error::{SolveError, Unsolvable, check_degree};
 use std::collections::BTreeSet;
@@ -80,6 +81,7 @@ impl<'a> PeriodByPeriod<'a> {
     /// Solves the next period. Cost: a few passes over the pieces that the equations name, and
     /// one substitution `s = D` for each piece that a continuous form names.
     pub fn advance(&mut self) -> Result<(), SolveError> {
+        pause();
         for step in self.recurrence.steps() {
             let n = self.ends[step.wave].len();
             check_degree(self.recurrence, step.wave, n)?;

@@ -110,6 +110,42 @@ fn roots_extrema_and_doubles_agree_with_digits() -> Result<(), Error> {
     Ok(())
 }
 
+/// A window that is compiled once, and values rounded by the slice, agree with digits, in any order.
+#[test]
+fn slices_of_doubles_agree_with_digits() -> Result<(), Error> {
+    let problem = mass();
+    let strain = problem.signal("strain_impact")?;
+    let curve = strain.compiled(0..=6, None)?;
+    let rough = strain.compiled("0"..="6", Some(Tolerance::Absolute(1e-6)))?;
+    assert_eq!(curve.window(), [0.0, 6.0]);
+    assert!(curve.bound() < 1e-14 && rough.bound() <= 1e-6 && curve.law().contains("proven"));
+    // More than are worked out at a time, backwards at the end.
+    let step = 6.0 / 600_000.0;
+    let mut times: Vec<f64> = (0..600_000).map(|i| f64::from(i) * step).collect();
+    times[530_000..].reverse();
+    let (mut values, mut others) = (vec![0.0; times.len()], vec![0.0; times.len()]);
+    curve.values(&times, &mut values)?;
+    rough.values(&times, &mut others)?;
+    for i in (0..times.len()).step_by(20_001) {
+        let mut exact = [0.0];
+        strain.rounded(&times[i..=i], &mut exact)?;
+        assert_eq!(exact[0], strain.at(times[i], 25)?.to_f64(), "at {}", times[i]);
+        assert!((values[i] - exact[0]).abs() <= curve.bound() + f64::EPSILON, "at {}", times[i]);
+        assert!((others[i] - exact[0]).abs() <= rough.bound() + f64::EPSILON, "at {}", times[i]);
+    }
+    strain.rounded(&[], &mut [])?;
+    for wrong in [-0.5, 6.5, f64::NAN, f64::INFINITY] {
+        let mut values = [0.0; 3];
+        let errors = [[0.0, 1.0, wrong], [wrong, 1.0, 0.5]].map(|times| {
+            curve.values(&times, &mut values).is_err_and(|error| error.is_bad_input())
+        });
+        assert_eq!(errors, [true, true], "{wrong}");
+        let rounded = strain.rounded(&[0.0, wrong, 1.0], &mut values);
+        assert_eq!(rounded.is_err(), wrong != 6.5, "{wrong}");
+    }
+    Ok(())
+}
+
 /// Where contacts open the same is asked in the same way.
 #[test]
 fn contacts_that_open_have_the_same_surface() -> Result<(), Error> {

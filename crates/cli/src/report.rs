@@ -6,7 +6,6 @@ use super::failure::Failure;
 use super::input;
 use super::output;
 use super::progress;
-use super::validity::{derivation, pulling};
 use wavestep_studies::report::{Request, page};
 
 pub fn run(options: &Report) -> Result<String, Failure> {
@@ -17,7 +16,6 @@ pub fn run(options: &Report) -> Result<String, Failure> {
         &Request {
             version: env!("CARGO_PKG_VERSION"),
             command: &command(options),
-            closed: &|last| derivation(&problem).or_else(|| pulling(&problem, last)),
             certificate: &|| {
                 certify::of_pieces(&problem, certify::LAST).map_err(|failure| failure.to_string())
             },

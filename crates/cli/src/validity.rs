@@ -1,11 +1,8 @@
 //! Until when a form with closed contacts is valid, as a note on standard error.
 
 use num_rational::BigRational;
-use wavestep::problem::{Holds, Pressed, Problem, Pulls};
-use wavestep::signal::Value;
-
-/// Significant digits of the instant until which a form holds.
-const DIGITS: usize = 12;
+use wavestep::problem::Problem;
+pub use wavestep_studies::validity::{derivation, pulling};
 
 /// Says until when the form with closed contacts is true that was derived.
 pub fn note_derivation(problem: &Problem) {
@@ -14,53 +11,9 @@ pub fn note_derivation(problem: &Problem) {
     }
 }
 
-/// That note.
-pub fn derivation(problem: &Problem) -> Option<String> {
-    Some(match problem.holds(DIGITS)? {
-        Holds::UntilTheyPart(time, [left, right]) => {
-            format!("valid until t = {}, when {left} and {right} separate", text(problem, &time))
-        }
-        Holds::UntilItPulls(time, [left, right]) => format!(
-            "valid until t = {}, when the contact between {left} and {right} goes into tension",
-            text(problem, &time)
-        ),
-        Holds::AtLeastUntil(time) => format!(
-            "valid at least until t = {}: no contact goes into tension before",
-            text(problem, &time)
-        ),
-        Holds::AsLongAs(contacts) => {
-            let condition = |Pressed { force, between: [left, right] }: &Pressed| {
-                let force = force.as_deref().unwrap_or("the force");
-                format!("{force} >= 0 at the contact between {left} and {right}")
-            };
-            let conditions: Vec<String> = contacts.iter().map(condition).collect();
-            format!("valid as long as {}", conditions.join(" and "))
-        }
-    })
-}
-
 /// Warns where a contact would pull before a time, when that is found quickly.
 pub fn note_pulling(problem: &Problem, last: &BigRational) {
     if let Some(note) = pulling(problem, last) {
         eprintln!("note: {note}");
     }
-}
-
-/// That warning.
-pub fn pulling(problem: &Problem, last: &BigRational) -> Option<String> {
-    Some(match problem.pulls(last, DIGITS)? {
-        Pulls::From(time, [left, right]) => format!(
-            "from t = {} on, the contact between {left} and {right} is in tension; add `contacts open` and it \
-             opens instead",
-            text(problem, &time)
-        ),
-        Pulls::NotKnownFrom(time) => format!(
-            "no contact goes into tension before t = {}; later times were not checked: `contacts open` follows contacts that open",
-            text(problem, &time)
-        ),
-    })
-}
-
-fn text(problem: &Problem, time: &Value) -> String {
-    time.to_text(DIGITS) + if problem.has_units() { " s" } else { "" }
 }

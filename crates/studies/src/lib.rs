@@ -14,6 +14,7 @@ pub mod report;
 pub mod study;
 pub mod sweep;
 pub mod told;
+pub mod validity;
 
 use wavestep_polynomial::Rational;
 

@@ -11,7 +11,7 @@
 use crate::ball::ComplexBall;
 use crate::enclosure::Numbers;
 use crate::expression::{Field as _, Fraction, Transform};
-use crate::limits::counted;
+use crate::limits::{counted, pause};
 use crate::recurrence::{Recurrence, WaveIndex};
 use crate::signal::closed::memory::Memory;
 use crate::signal::error::EvaluateError;
@@ -107,6 +107,7 @@ impl Periods {
 
     /// Solves the next period, of all waves or of none. Cost: a few passes over the pieces that the equations name.
     fn advance(&mut self) -> Result<(), EvaluateError> {
+        pause();
         let solved = self.pieces.iter().map(Vec::len).min().unwrap_or(0);
         self.solve_next().inspect_err(|_| {
             self.pieces.iter_mut().for_each(|pieces| pieces.truncate(solved));

@@ -19,7 +19,7 @@
 //! ([`Finding::Low`]).
 
 use crate::ball::{Attempt, Ball, Binary, Magnitude, Precisions};
-use crate::limits::{MAX_EXPANSIONS, MAX_POLYNOMIALS};
+use crate::limits::{MAX_EXPANSIONS, MAX_POLYNOMIALS, pause};
 use crate::signal::error::EvaluateError;
 use crate::signal::find::search::{Search, Target};
 use crate::signal::signal::Limit;
@@ -251,6 +251,7 @@ impl Cover<'_, '_, '_> {
         depth: usize,
         known: Option<&Expansion>,
     ) -> Result<(), EvaluateError> {
+        pause();
         let search = self.search;
         search.work.set(search.work.get() + 1);
         if search.work.get() > MAX_POLYNOMIALS {

@@ -5,7 +5,7 @@
 //! the rounding of their coefficients to doubles, and that of evaluating them, which
 //! [`Table`] proves. Whatever the order of the waves, a value costs some ten multiply-adds.
 
-use super::doubles::{ascend, table};
+use super::doubles::table;
 use super::{Evaluator, MethodError};
 use crate::ball::{Ball, Magnitude, unit_in_the_last_place};
 use crate::signal::cells::{Fit, Pieces, Window};
@@ -109,12 +109,31 @@ impl Evaluator for Compiled<'_> {
     }
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
-        let evaluator = self.table.evaluator();
-        match ascend(at) {
+        values_of(&self.table, at, values)
+    }
+}
+
+/// How many times are looked at and evaluated together: few enough for a cache, enough for values to be streamed past it.
+const BLOCK: usize = 1 << 19;
+
+/// The values of a table at many times.
+pub(crate) fn values_of(table: &Table, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
+    assert_eq!(at.len(), values.len(), "a place for each value");
+    let evaluator = table.evaluator();
+    let inside = |time: f64| time >= table.start() && time <= table.end();
+    for (at, values) in at.chunks(BLOCK).zip(values.chunks_mut(BLOCK)) {
+        let ascends = at.windows(2).fold(true, |so_far, pair| so_far & (pair[0] <= pair[1]));
+        let is_inside = match ascends {
+            true => inside(at[0]) && inside(at[at.len() - 1]),
+            false => at.iter().all(|time| inside(*time)),
+        };
+        if !is_inside {
+            return Err(MethodError::Outside);
+        }
+        match ascends {
             true => evaluator.sorted(at, values),
             false => evaluator.unsorted(at, values),
         }
-        let inside = |t: &f64| *t >= self.table.start() && *t <= self.table.end();
-        if at.iter().all(inside) { Ok(()) } else { Err(MethodError::Outside) }
     }
+    Ok(())
 }

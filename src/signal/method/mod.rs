@@ -26,6 +26,7 @@ mod summed;
 
 pub use certified::Certified;
 pub use compiled::Compiled;
+pub(crate) use compiled::values_of;
 pub use error::MethodError;
 pub use marched::Marched;
 pub use summed::{StablePrecision, Summed};

@@ -11,6 +11,7 @@ mod told;
 
 use crate::picture::{PictureError, against_time, course, lagrange, usual_end};
 use crate::told::contacts_open;
+use crate::validity;
 use html::{escape, left_out, list, paragraph, section, set};
 use serde_json::Value as Json;
 use wavestep::ball::in_decimals;
@@ -48,8 +49,6 @@ pub struct Request<'a> {
     pub version: &'a str,
     /// The command that makes the page again.
     pub command: &'a str,
-    /// Until when closed contacts are right, where values are shown up to a time; nothing without contacts.
-    pub closed: &'a dyn Fn(&Rational) -> Option<String>,
     /// A certificate of the derived pieces, or why there is none.
     pub certificate: &'a dyn Fn() -> Result<String, String>,
     /// Is told what is worked out.
@@ -96,7 +95,7 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
     add("energies", "Energies", &|| seen(&|all, to| told::energies(problem, all, [&zero, to])));
     add("assumptions", "Assumptions", &|| {
         let of_window = |to| {
-            let note = (request.closed)(to);
+            let note = validity::derivation(problem).or_else(|| validity::pulling(problem, to));
             let closed = note.map(|note| format!("The formulas hold for closed contacts: {note}."));
             [until(problem, to)].into_iter().chain(closed)
         };

@@ -1,0 +1,75 @@
+"""Exact solutions of wave propagation in bars: formulas, proven digits, NumPy arrays, pictures.
+
+>>> import wavestep as ws
+>>> p = ws.scene("rigid-mass", mu=1)
+>>> p.signal("velocity")("3/2")
+0.22313016014842982
+
+_Times and values are ``int``, ``float`` (its exact value), ``Fraction``, ``Decimal``, text such as ``"33/10"`` or,
+in scenes with units, ``"120 us"``, or quantities of pint.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from ._errors import (
+    AccuracyError,
+    Diagnostic,
+    Error,
+    InputError,
+    InternalError,
+    UndefinedError,
+    UnsupportedError,
+    WorkError,
+)
+from ._native import SCENES, Curve, Formula, Problem, Signal, Value, __version__, set_memory
+
+if TYPE_CHECKING:
+    from ._native import _Number
+
+__all__ = [
+    "SCENES",
+    "AccuracyError",
+    "Curve",
+    "Diagnostic",
+    "Error",
+    "Formula",
+    "InputError",
+    "InternalError",
+    "Problem",
+    "Signal",
+    "UndefinedError",
+    "UnsupportedError",
+    "Value",
+    "WorkError",
+    "read",
+    "scene",
+    "set_memory",
+]
+
+
+def scene(name: str, /, **values: _Number) -> Problem:
+    """The built-in scene of this name, one of ``SCENES``, with values in place of symbols.
+
+    >>> scene("two-bars").waves
+    ['f', 'g', 'F']
+    """
+    return Problem._builtin(name, values)
+
+
+def read(text: str | os.PathLike[str], /, **values: _Number) -> Problem:
+    """A scene from a file, or from a text, which has several lines.
+
+    >>> p = read('''scene "A"
+    ... bar rod { impedance = 1, travel = 1, velocity = 1 }
+    ... line free - rod | fixed
+    ... observe push = force(rod.right)''')
+    >>> p.signal("push")(1)
+    1.0
+    """
+    if isinstance(text, str) and "\n" in text:
+        return Problem._read("text", text, values)
+    with open(text, encoding="utf-8") as file:
+        return Problem._read(os.fspath(text), file.read(), values)

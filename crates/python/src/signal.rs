@@ -1,0 +1,317 @@
+//! Signals, and windows of them that are made ready.
+
+use crate::arrays::{are_many, doubles, fill};
+use crate::failure::Failure;
+use crate::given::{Number, count};
+use crate::problem::{Shared, svg};
+use crate::results;
+use crate::value::Value;
+use crate::work::released;
+use numpy::PyArrayMethods as _;
+use pyo3::IntoPyObjectExt as _;
+use pyo3::prelude::*;
+use std::sync::Arc;
+use wavestep::{Doubles, Error, Given, Goal, Method, Tolerance};
+
+/// A wave or an observable as a function of time, zero before the start.
+///
+/// Called with a time it gives the nearest double; with an array, the nearest doubles to all values.
+///
+/// >>> import wavestep as ws
+/// >>> velocity = ws.scene("rigid-mass", mu=1).signal("velocity")
+/// >>> velocity("3/2")
+/// 0.22313016014842982
+/// >>> velocity([0, 0.5, 1.5])
+/// array([1.        , 0.60653066, 0.22313016])
+#[pyclass(frozen, module = "wavestep")]
+pub struct Signal {
+    pub problem: Arc<Shared>,
+    /// The name.
+    #[pyo3(get)]
+    pub name: String,
+    /// The unit of its values, empty for plain numbers.
+    #[pyo3(get)]
+    pub unit: String,
+}
+
+impl Signal {
+    /// Asks the signal without the interpreter's lock.
+    fn ask<T: Send>(
+        &self,
+        py: Python<'_>,
+        question: impl FnOnce(wavestep::Signal<'_>) -> Result<T, Error> + Send,
+    ) -> PyResult<T> {
+        self.problem.ask(py, |problem| Ok(question(problem.signal(&self.name)?)?))
+    }
+}
+
+/// One of the methods, or a tolerance.
+fn parsed<T: std::str::FromStr>(text: &str) -> Result<T, Error>
+where
+    Error: From<T::Err>,
+{
+    Ok(text.parse()?)
+}
+
+#[pymethods]
+impl Signal {
+    #[pyo3(signature = (t, out=None))]
+    fn __call__<'py>(
+        &self,
+        t: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = t.py();
+        if !are_many(t)? && out.is_none() {
+            let time: Number = t.extract()?;
+            let found = self.ask(py, |signal| signal.values_by(&[time], Method::Certified))?;
+            return found.values[0].into_bound_py_any(py);
+        }
+        let work = |times: &[f64], values: &mut [f64]| {
+            self.problem.with(|problem| Ok(problem.signal(&self.name)?.rounded(times, values)?))
+        };
+        fill(t, out, work)
+    }
+
+    /// The value with so many proven digits; the limit from later times where it jumps.
+    ///
+    /// >>> import wavestep as ws
+    /// >>> f = ws.scene("rigid-mass", mu="1/4").signal("f")
+    /// >>> print(f.digits("33/10", 30))
+    /// 0.305385264408791064086396952466
+    #[pyo3(signature = (t, digits=15))]
+    fn digits(
+        &self,
+        py: Python<'_>,
+        t: Number,
+        #[pyo3(from_py_with = count)] digits: usize,
+    ) -> PyResult<Value> {
+        self.ask(py, |signal| signal.at(t, digits)).map(Value)
+    }
+
+    /// The limit from earlier times.
+    #[pyo3(signature = (t, digits=15))]
+    fn before(
+        &self,
+        py: Python<'_>,
+        t: Number,
+        #[pyo3(from_py_with = count)] digits: usize,
+    ) -> PyResult<Value> {
+        self.ask(py, |signal| signal.before(t, digits)).map(Value)
+    }
+
+    /// Values by the cheapest method that is proven to keep a tolerance, or by a method of one's choice.
+    ///
+    /// >>> import wavestep as ws
+    /// >>> velocity = ws.scene("rigid-mass", mu=1).signal("velocity")
+    /// >>> found = velocity.values(["1/2", "3/2"], within="1e-9")
+    /// >>> bool(found.errors.max() < 2e-9)
+    /// True
+    #[pyo3(signature = (t, *, within=None, method=None))]
+    fn values<'py>(
+        &self,
+        t: &Bound<'py, PyAny>,
+        within: Option<&str>,
+        method: Option<&str>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = t.py();
+        let exact = match t.hasattr("dtype")? {
+            true => None,
+            false => t.extract::<Vec<Number>>().ok(),
+        };
+        let found = match exact {
+            Some(times) => self.chosen(py, &times, within, method)?,
+            None => {
+                let times = doubles(t)?.try_readonly()?;
+                self.chosen(py, times.as_slice()?, within, method)?
+            }
+        };
+        results::doubles(py, found)
+    }
+
+    /// A window made ready once: a function of arrays, with one proven bound for all of it.
+    ///
+    /// >>> import numpy as np, wavestep as ws
+    /// >>> curve = ws.scene("rigid-mass", mu=1).signal("velocity").compiled(0, 10)
+    /// >>> t = np.linspace(0, 10, 1001)
+    /// >>> bool(abs(curve(t)[50] - np.exp(-0.5)) <= curve.bound + 1e-16)
+    /// True
+    #[pyo3(signature = (begin, end, *, within=None))]
+    fn compiled(
+        &self,
+        py: Python<'_>,
+        begin: Number,
+        end: Number,
+        within: Option<&str>,
+    ) -> PyResult<Curve> {
+        let curve = |signal: wavestep::Signal<'_>| {
+            let tolerance = within.map(parsed::<Tolerance>).transpose()?;
+            signal.compiled(begin..=end, tolerance)
+        };
+        self.ask(py, curve).map(|curve| Curve { curve, name: self.name.clone() })
+    }
+
+    /// All times of a window at which the signal takes a value, or jumps over it; there are no others.
+    ///
+    /// >>> import wavestep as ws
+    /// >>> strain = ws.scene("rigid-mass", mu=1).signal("strain_impact")
+    /// >>> [(root.kind, str(root.time)) for root in strain.roots(2, 4, digits=12)]
+    /// [('simple', '3.06766764162'), ('jump', '4')]
+    #[pyo3(signature = (begin, end, *, level=None, digits=15))]
+    fn roots<'py>(
+        &self,
+        py: Python<'py>,
+        begin: Number,
+        end: Number,
+        level: Option<Number>,
+        #[pyo3(from_py_with = count)] digits: usize,
+    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let found = self.ask(py, |signal| match level {
+            Some(level) => signal.crossings(level, begin..=end, digits),
+            None => signal.roots(begin..=end, digits),
+        })?;
+        found.all.iter().map(|root| results::root(py, root)).collect()
+    }
+
+    /// The largest value of a window, with all places where it is taken.
+    ///
+    /// >>> import wavestep as ws
+    /// >>> most = ws.scene("rigid-mass", mu=1).signal("strain_impact").maximum(0, 4)
+    /// >>> str(most.value), [str(place.time) for place in most.places]
+    /// ('0.252354927584491', ['4'])
+    #[pyo3(signature = (begin, end, *, digits=15))]
+    fn maximum<'py>(
+        &self,
+        py: Python<'py>,
+        begin: Number,
+        end: Number,
+        #[pyo3(from_py_with = count)] digits: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.extremum(py, Goal::Largest, (begin, end), digits)
+    }
+
+    /// The smallest value of a window, with all places where it is taken.
+    #[pyo3(signature = (begin, end, *, digits=15))]
+    fn minimum<'py>(
+        &self,
+        py: Python<'py>,
+        begin: Number,
+        end: Number,
+        #[pyo3(from_py_with = count)] digits: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.extremum(py, Goal::Smallest, (begin, end), digits)
+    }
+
+    /// The times of a window at which the signal may jump or bend.
+    ///
+    /// >>> import wavestep as ws
+    /// >>> ws.scene("rigid-mass", mu=1).signal("strain_fixed").breaks(0, 6)
+    /// [Value('1'), Value('3'), Value('5')]
+    #[pyo3(signature = (begin, end, *, digits=15))]
+    fn breaks(
+        &self,
+        py: Python<'_>,
+        begin: Number,
+        end: Number,
+        #[pyo3(from_py_with = count)] digits: usize,
+    ) -> PyResult<Vec<Value>> {
+        let found = self.ask(py, |signal| signal.breaks(begin..=end, digits))?;
+        Ok(found.into_iter().map(Value).collect())
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<signal {}>", self.name)
+    }
+
+    fn _repr_svg_(&self, py: Python<'_>) -> PyResult<String> {
+        self.problem.ask(py, |problem| svg(problem, std::slice::from_ref(&self.name), None, None))
+    }
+}
+
+impl Signal {
+    /// Values by a method, or by the cheapest that is proven to be within a tolerance.
+    fn chosen<T: Clone + Into<Given> + Sync>(
+        &self,
+        py: Python<'_>,
+        times: &[T],
+        within: Option<&str>,
+        method: Option<&str>,
+    ) -> PyResult<Doubles> {
+        if method.is_some() && within.is_some() {
+            let message = "a method and a tolerance are given".to_owned();
+            let failure = Failure::Input(message, "give one of them".to_owned());
+            return Err(failure.raised(py));
+        }
+        self.ask(py, |signal| match method {
+            Some(method) => signal.values_by(times, parsed::<Method>(method)?),
+            None => signal.values(times, parsed::<Tolerance>(within.unwrap_or("1e-12"))?),
+        })
+    }
+
+    fn extremum<'py>(
+        &self,
+        py: Python<'py>,
+        goal: Goal,
+        (begin, end): (Number, Number),
+        digits: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let found = self.ask(py, |signal| signal.extremum(goal, begin..=end, digits))?;
+        results::extremum(py, &found)
+    }
+}
+
+/// A window of a signal made ready: called with times in doubles it gives values within its bound.
+///
+/// >>> import wavestep as ws
+/// >>> curve = ws.scene("rigid-mass", mu=1).signal("velocity").compiled(0, 2)
+/// >>> curve.window, curve.bound < 1e-14
+/// ((0.0, 2.0), True)
+#[pyclass(frozen, module = "wavestep")]
+pub struct Curve {
+    curve: wavestep::Curve,
+    /// The name of the signal.
+    #[pyo3(get)]
+    name: String,
+}
+
+#[pymethods]
+impl Curve {
+    #[pyo3(signature = (t, out=None))]
+    fn __call__<'py>(
+        &self,
+        t: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = t.py();
+        if !are_many(t)? && out.is_none() {
+            let (time, mut value) = ([t.extract::<f64>()?], [0.0]);
+            released(py, || Ok(self.curve.values(&time, &mut value)?))?;
+            return value[0].into_bound_py_any(py);
+        }
+        fill(t, out, |times, values| Ok(self.curve.values(times, values)?))
+    }
+
+    /// A proven bound on the absolute error of every value, beyond half a unit in its last place.
+    #[getter]
+    fn bound(&self) -> f64 {
+        self.curve.bound()
+    }
+
+    /// The same in words.
+    #[getter]
+    fn law(&self) -> &str {
+        self.curve.law()
+    }
+
+    /// The first time and the last.
+    #[getter]
+    fn window(&self) -> (f64, f64) {
+        let [from, to] = self.curve.window();
+        (from, to)
+    }
+
+    fn __repr__(&self) -> String {
+        let [from, to] = self.curve.window();
+        format!("<{} on [{from:?}, {to:?}], {}>", self.name, self.curve.law())
+    }
+}

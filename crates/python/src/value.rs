@@ -1,0 +1,77 @@
+//! Values with proven digits.
+
+use crate::given::count;
+use num_bigint::BigInt;
+use pyo3::prelude::*;
+use wavestep::{Rational, Value as Proven};
+
+/// A value, exact or with proven digits.
+///
+/// >>> import wavestep as ws
+/// >>> value = ws.scene("rigid-mass", mu=1).signal("velocity").digits("3/2", 20)
+/// >>> value
+/// Value('0.22313016014842982893')
+/// >>> float(value), value.exact
+/// (0.22313016014842982, None)
+/// >>> value.decimal()
+/// Decimal('0.22313016014842982893')
+#[pyclass(frozen, eq, module = "wavestep")]
+#[derive(PartialEq)]
+pub struct Value(pub Proven);
+
+#[pymethods]
+impl Value {
+    /// The number as a fraction, where it is known to be rational.
+    #[getter]
+    fn exact(&self) -> Option<Rational> {
+        self.0.exact().cloned()
+    }
+
+    /// Two fractions with the value between them.
+    #[getter]
+    fn bounds(&self) -> (Rational, Rational) {
+        let [lower, upper] = self.0.bounds();
+        (lower, upper)
+    }
+
+    /// The value as a `decimal.Decimal`: the digits that are proven, or so many of an exact one.
+    #[pyo3(signature = (digits=30))]
+    fn decimal<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = count)] digits: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let text = self.0.decimal(digits.max(1)).0.to_string();
+        py.import("decimal")?.getattr("Decimal")?.call1((text,))
+    }
+
+    /// The same as an `mpmath.mpf`.
+    #[pyo3(signature = (digits=30))]
+    fn mpf<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = count)] digits: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let text = self.0.decimal(digits.max(1)).0.to_string();
+        py.import("wavestep._convert")?.call_method1("mpf", (text,))
+    }
+
+    fn __float__(&self) -> f64 {
+        self.0.to_f64()
+    }
+
+    fn __str__(&self) -> String {
+        self.0.to_string()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Value('{}')", self.0)
+    }
+
+    /// So that a value is taken where numbers are: an exact one as it is, any other as the middle of its bounds.
+    fn as_integer_ratio(&self) -> (BigInt, BigInt) {
+        let [lower, upper] = self.0.bounds();
+        let middle = (lower + upper) / Rational::from_integer(2.into());
+        (middle.numer().clone(), middle.denom().clone())
+    }
+}

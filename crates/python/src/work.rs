@@ -1,0 +1,106 @@
+//! Long work without the interpreter's lock: Ctrl-C stops it, so does the limit of memory, and a panic becomes an
+//! exception.
+
+use crate::failure::Failure;
+use pyo3::exceptions::PyMemoryError;
+use pyo3::prelude::*;
+use std::any::Any;
+use std::cell::Cell;
+use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::time::{Duration, Instant};
+use wavestep::limits::{memory, set_memory as allow};
+
+/// How often signals and memory are looked at.
+const TICK: Duration = Duration::from_millis(50);
+
+/// What work takes beside the waves.
+const BESIDE: u64 = 64_000_000;
+
+/// What a thread that works knows of it.
+#[derive(Clone, Copy)]
+struct Watch {
+    looked: Instant,
+    /// What the process held when it was first looked at.
+    held: Option<u64>,
+}
+
+thread_local! {
+    static WATCH: Cell<Option<Watch>> = const { Cell::new(None) };
+}
+
+/// Why work was stopped.
+struct Stopped(PyErr);
+
+/// Does work without the interpreter's lock.
+pub fn released<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce() -> Result<T, Failure> + Send,
+) -> PyResult<T> {
+    let done = py.detach(|| {
+        WATCH.set(Some(Watch { looked: Instant::now(), held: None }));
+        let done = catch_unwind(AssertUnwindSafe(work));
+        WATCH.set(None);
+        done
+    });
+    match done {
+        Ok(result) => result.map_err(|failure| failure.raised(py)),
+        Err(reason) => Err(unwound(py, reason)),
+    }
+}
+
+fn unwound(py: Python<'_>, reason: Box<dyn Any + Send>) -> PyErr {
+    let reason = match reason.downcast::<Stopped>() {
+        Ok(stopped) => return stopped.0,
+        Err(reason) => reason,
+    };
+    let told = reason.downcast_ref::<&str>().map(|told| (*told).to_owned());
+    let told = told.or_else(|| reason.downcast_ref::<String>().cloned()).unwrap_or_default();
+    Failure::Internal(told).raised(py)
+}
+
+/// Looks at signals and memory between two steps of work, now and then.
+pub fn pause() {
+    let Some(mut watch) = WATCH.get().filter(|watch| watch.looked.elapsed() >= TICK) else {
+        return;
+    };
+    if let Err(stopped) = Python::attach(|py| py.check_signals()) {
+        resume_unwind(Box::new(Stopped(stopped)));
+    }
+    let now = resident();
+    watch.held = watch.held.or(now);
+    watch.looked = Instant::now();
+    WATCH.set(Some(watch));
+    let grown = now.zip(watch.held).map_or(0, |(now, before)| now.saturating_sub(before));
+    if grown > memory().saturating_add(BESIDE) {
+        let told = format!(
+            "the answer takes more than {} MB of memory; ask for an earlier time, a shorter window or fewer digits, \
+             or allow more with wavestep.set_memory",
+            memory() / 1_000_000
+        );
+        resume_unwind(Box::new(Stopped(PyMemoryError::new_err(told))));
+    }
+}
+
+/// Bytes that the process holds in memory, where Linux tells.
+fn resident() -> Option<u64> {
+    let told = fs::read_to_string("/proc/self/status").ok()?;
+    let held = told.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    Some(held.trim().strip_suffix(" kB")?.trim().parse::<u64>().ok()? * 1024)
+}
+
+/// Allows so many bytes of memory for waves from now on; the default is a quarter of the machine's.
+///
+/// >>> import wavestep as ws
+/// >>> ws.set_memory(2_000_000_000)
+#[pyfunction]
+pub fn set_memory(bytes: u64) {
+    allow(bytes);
+}
+
+/// Panics, for the test that a panic becomes an exception.
+#[pyfunction]
+#[pyo3(name = "_fail")]
+pub fn fail(py: Python<'_>) -> PyResult<()> {
+    released(py, || panic!("on purpose"))
+}

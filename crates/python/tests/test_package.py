@@ -1,0 +1,60 @@
+"""Examples, and what the package costs."""
+
+import doctest
+import pathlib
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import wavestep as ws
+from wavestep import _convert, _errors, _results
+
+PAGE = pathlib.Path(__file__).parents[3] / "docs/python.md"
+
+
+def examples() -> list[doctest.DocTest]:
+    finder = doctest.DocTestFinder(exclude_empty=True)
+    found = [test for module in (ws, _convert, _errors, _results) for test in finder.find(module)]
+    found += finder.find(ws.set_memory, "set_memory", globs={})
+    page = PAGE.read_text(encoding="utf-8").replace("```", "\n```")
+    found.append(doctest.DocTestParser().get_doctest(page, {}, PAGE.name, str(PAGE), 0))
+    return [test for test in found if test.examples]
+
+
+@pytest.mark.parametrize("example", examples(), ids=lambda test: test.name)
+def test_examples_run(example: doctest.DocTest) -> None:
+    assert doctest.DocTestRunner().run(example).failed == 0
+
+
+def test_there_are_examples() -> None:
+    assert len(examples()) >= 20
+    for name in ws.__all__:
+        assert getattr(ws, name).__doc__, name
+
+
+def best(work: Callable[[], object], times: int = 10) -> float:
+    def once() -> float:
+        begun = time.perf_counter()
+        work()
+        return time.perf_counter() - begun
+
+    return min(once() for _ in range(times))
+
+
+def test_calls_cost_little() -> None:
+    f = ws.scene("rigid-mass", mu=1).signal("f")
+    curve, times = f.compiled(0, 402), np.random.default_rng(1).uniform(0, 402, 1000)
+    assert best(lambda: f(times)) < 5e-3
+    assert best(lambda: [curve(1.5) for _ in range(1000)]) < 1000 * 20e-6
+
+
+def test_the_package_is_imported_quickly_and_without_others() -> None:
+    run = [sys.executable, "-c"]
+    code = "import sys, wavestep; assert not {'numpy', 'sympy', 'pandas'} & set(sys.modules)"
+    subprocess.run([*run, code], check=True)
+    bare = best(lambda: subprocess.run([*run, ""], check=True))
+    assert best(lambda: subprocess.run([*run, "import wavestep"], check=True)) - bare < 30e-3
