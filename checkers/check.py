@@ -14,6 +14,7 @@ from fractions import Fraction
 
 ROOTS = {}  # symbols that stand for square roots, with what is below these
 ONE = {(): {(): 1}}
+MINUS = {(): {(): {(): -1}}}  # the expression -1
 
 
 class Wrong(Exception):
@@ -160,21 +161,165 @@ def read(rows):
     return expression
 
 
-def form(rows, pieces, n, cert, derivative=False):
-    """A linear form in the waves on the n-th period, in local time; waves are zero before the first one."""
-    s, total = cert["local"], {}
-    for wave, kind, lag, coefficient in rows["waves"]:
-        need(kind in ("value", "slope", "sum"), f"unknown operator {kind}")
-        past = range(n - lag) if kind == "sum" else [n - lag] if lag <= n else []
-        for i in past:
-            piece = pieces[wave][i]
-            accumulate(total, slope(piece, s) if kind == "slope" else piece, read(coefficient))
-    for lag, function in rows["forcing"]:
-        if lag <= n:
-            later = add({(): {((s, 1),): 1}}, read_function(cert["period"]), {(): {(): Fraction(n - lag)}})
-            accumulate(total, put(read(function), cert["time"], later))
+# Linear forms in the waves: dicts from (wave, operator, lag) to coefficients; forcing has no wave and a function instead.
+
+
+def read_form(rows):
+    parts = [((wave, kind, lag), c) for wave, kind, lag, c in rows["waves"]]
+    total = {}
+    for key, rows_ in parts + [((None, "forcing", lag), function) for lag, function in rows["forcing"]]:
+        accumulate(total.setdefault(key, {}), read(rows_))
     return total
 
+
+def plus(*parts):
+    """The sum of forms, each times an expression."""
+    total = {}
+    for factor, form in parts:
+        for key, coefficient in form.items():
+            accumulate(total.setdefault(key, {}), coefficient, factor)
+    return total
+
+
+def on_period(form, pieces, n, cert):
+    """The value on the n-th period, in local time; waves are zero before the first one."""
+    s, total = cert["local"], {}
+    for (wave, kind, lag), coefficient in form.items():
+        need(kind in ("value", "slope", "sum", "forcing") and type(lag) is int and lag >= 0, f"unknown operator {kind} at {lag}")
+        if kind == "forcing" and lag <= n:
+            later = add({(): {((s, 1),): 1}}, read_function(cert["period"]), {(): {(): Fraction(n - lag)}})
+            accumulate(total, put(coefficient, cert["time"], later))
+        past = () if kind == "forcing" else range(n - lag) if kind == "sum" else [n - lag] if lag <= n else []
+        for i in past:
+            piece = pieces[wave][i]
+            accumulate(total, slope(piece, s) if kind == "slope" else piece, coefficient)
+    return total
+
+
+def whole(form):
+    """Without what cancels; what is left is later by whole periods."""
+    left = {key: c for key, c in form.items() if not is_zero(c)}
+    need(all(lag == int(lag) and lag >= 0 for _, _, lag in left), "a delay is no multiple of the period")
+    return {(name, kind, int(lag)): c for (name, kind, lag), c in left.items()}
+
+
+# From the drawing of a line to its laws.
+
+
+def periods(rows, cert):
+    """How many periods a time is; the far end of an endless bar has none."""
+    if rows is None:
+        return None
+    values, time, period = {}, read_function(rows), read_function(cert["period"])
+    count = number_at({(): time}, values) / number_at({(): period}, values)
+    need(is_zero({(): add(add({}, time), period, {(): {(): -count}})}), "a time is no multiple of the period")
+    return count
+
+
+def laws(cert):
+    """What is zero on each period and what is continuous from 0 on, by the laws of the elements: those of runs, which move
+    as one, between links, which pass a force on: bars and springs."""
+    one, minus, t = {(): ONE}, MINUS, cert["time"]
+    runs, links, clocks = [[]], [], [cert["line"][0]["clock"]]
+    for element in cert["line"]:
+        if element["is"] in ("bar", "spring"):
+            links.append(element)
+            clocks.append(element["clock"] if element["is"] == "bar" else clocks[-1])
+            runs.append([])
+        else:
+            runs[-1].append(element)
+    clocks = [periods(clock, cert) for clock in clocks]
+    of = lambda element, key: {(): read_function(element[key])}
+    wave = lambda name, lag=0: {(name, "value", lag): one}
+    acting = lambda function, lag: {(None, "forcing", lag): function}
+    kinds = lambda run: [element["is"] for element in runs[run]]
+    are_ends = [element["is"] in ("free", "fixed", "endless") for element in cert["line"]]
+    need(are_ends == [True] + [False] * (len(are_ends) - 2) + [True], "a line has two ends")
+
+    def load(element, run):
+        """The course of a load from its beginning to its end, by the clock of its place."""
+        total, course = {}, read(element["course"])
+        for key, sign in (("from", one), ("until", minus)):
+            if element[key] is not None:
+                later = put(course, t, add({(): {((t, 1),): 1}}, read_function(element[key])))
+                total = plus((one, total), (sign, acting(later, clocks[run] + periods(element[key], cert))))
+        return total
+
+    def bar(link, run):
+        """Velocity V + f + g and compressive force X + Z (f - g) of a bar at its left end (run = link) or its right one."""
+        element, here = links[link], clocks[run]
+        travel = periods(element["travel"], cert)
+        f, g = (wave(element[way]) if element[way] else {} for way in ("right", "left"))
+        if run == link and g:
+            g = wave(element["left"], travel + here - clocks[link + 1])
+        if run > link and f:
+            f = wave(element["right"], travel + here - clocks[link])
+        difference = plus((one, f), (minus, g))
+        velocity = plus((one, acting(of(element, "velocity"), here)), (one, f), (one, g))
+        return velocity, plus((one, acting(of(element, "force"), here)), (of(element, "impedance"), difference))
+
+    def velocities(run):
+        found = [load(element, run) for element in runs[run] if element["is"] == "velocity"]
+        found += [{}] * kinds(run).count("fixed")
+        for link in (run - 1, run):
+            if 0 <= link < len(links) and links[link]["is"] == "bar":
+                found.append(bar(link, run)[0])
+        for element in runs[run]:
+            if element["is"] == "motion":
+                found.append(plus((one, wave(element["wave"])), (one, acting(of(element, "from"), clocks[run]))))
+        need(found, "a velocity is missing")
+        return found
+
+    def closing(link):
+        return plus((one, velocities(link)[0]), (minus, velocities(link + 1)[0]))
+
+    def force(link, run):
+        """The compressive force in a link; in a spring k a + d a'."""
+        if not 0 <= link < len(links):
+            return {}
+        if links[link]["is"] == "bar":
+            return bar(link, run)[1]
+        return plus((of(links[link], "damping"), closing(link)), (of(links[link], "stiffness"), wave(links[link]["wave"])))
+
+    def slope_of(form):
+        """Of a velocity."""
+        steep = lambda kind, c: ("forcing", slope(c, t)) if kind == "forcing" else ("slope", c)
+        return {(name, steep(kind, c)[0], lag): steep(kind, c)[1] for (name, kind, lag), c in form.items()}
+
+    equations, starts = [], []
+    for run, elements in enumerate(runs):
+        if "endless" in kinds(run):
+            need(len(elements) == 1 and run in (0, len(links)), "an endless line ends with a bar")
+            continue
+        first, *others = velocities(run)
+        equations += [plus((one, first), (minus, other)) for other in others]
+        balance, momentum, massive = plus((one, force(run - 1, run)), (minus, force(run, run))), {}, False
+        for element in elements:
+            if element["is"] == "mass":  # momenta add up where masses start together
+                balance = plus((one, balance), (accumulate({}, of(element, "mass"), minus), slope_of(first)))
+                start = acting(of(element, "velocity"), clocks[run])
+                momentum = plus((one, momentum), (of(element, "mass"), plus((one, first), (minus, start))))
+                massive = True
+            elif element["is"] == "support":
+                balance = plus((one, balance), (accumulate({}, of(element, "damping"), minus), first))
+                if element["wave"]:
+                    moved = wave(element["wave"])
+                    balance = plus((one, balance), (accumulate({}, of(element, "stiffness"), minus), moved))
+                    equations.append(plus((one, slope_of(moved)), (minus, first)))
+                    starts.append(moved)
+            elif element["is"] == "force":
+                balance = plus((one, balance), (one, load(element, run)))
+            else:
+                need(element["is"] in ("free", "fixed", "velocity", "motion"), f"unknown element {element['is']}")
+        if "fixed" not in kinds(run) and "velocity" not in kinds(run):
+            equations.append(balance)
+            starts += [momentum] if massive else []
+    for link, element in enumerate(links):
+        if element["is"] == "spring" and element["wave"]:
+            shortened = wave(element["wave"])
+            equations.append(plus((one, slope_of(shortened)), (minus, closing(link))))
+            starts.append(shortened)
+    return [whole(form) for form in equations], [(whole(form), {}) for form in starts]
 
 def number_at(expression, values):
     """The value for pseudo-random numbers in place of symbols and of exponentials."""
@@ -204,38 +349,46 @@ def rank(rows):
     return found
 
 
-def check_determined(cert):
+def check_determined(equations, continuity, waves):
     """No other functions satisfy the statement: what has no derivatives on the period itself, differentiated, and the
     other equations determine all derivatives there; with what is continuous, all values at its start."""
-    waves, values = cert["waves"], {}
+    values = {}
 
-    def row(form_, kind):
-        now = {wave: read(c) for wave, k, lag, c in form_["waves"] if k == kind and lag == 0}
-        return [number_at(now.get(wave, {}), values) for wave in waves]
+    def row(form, kind):
+        return [number_at(form.get((wave, kind, 0), {}), values) for wave in waves]
 
-    slopes = [row(equation, "slope") for equation in cert["equations"]]
-    levels = [row(equation, "value") for equation in cert["equations"]]
+    slopes = [row(equation, "slope") for equation in equations]
+    levels = [row(equation, "value") for equation in equations]
     plain = [level for level, slope_ in zip(levels, slopes) if not any(slope_)]
-    starts = [row(law, "value") for law in cert["continuity"]]
+    starts = [row(form, "value") for form, _ in continuity]
     need(rank([r for r in slopes if any(r)] + plain) == len(waves), "the equations leave derivatives open")
     need(rank(starts + plain) == len(waves), "what is continuous leaves values open")
 
 
+def statement(cert):
+    """Forms that are zero on each period, and continuous ones with their starts: as stated, or as the drawing has them."""
+    if "line" in cert:
+        return laws(cert)
+    return list(map(read_form, cert["equations"])), [(read_form(law), read(law["start"])) for law in cert["continuity"]]
+
+
 def check_pieces(cert):
     """Every equation holds on every period; what is continuous is, and starts as stated; and nothing else does so."""
-    check_determined(cert)
+    equations, continuity = statement(cert)
     pieces = {wave: [read(piece) for piece in all_] for wave, all_ in cert["pieces"].items()}
-    need(set(pieces) == set(cert["waves"]) and len(cert["equations"]) == len(pieces), "waves and equations")
+    need(set(pieces) == set(cert["waves"]) and len(equations) == len(pieces), "waves and equations")
+    check_determined(equations, continuity, cert["waves"])
     last = cert["through"] + 1
     need(all(len(all_) == last for all_ in pieces.values()), "pieces are missing")
     zero, end = {(): {(): 0}}, read_function(cert["period"])
     for n in range(last):
-        for i, equation in enumerate(cert["equations"]):
-            need(is_zero(form(equation, pieces, n, cert)), f"equation {i} on period {n}")
-        for i, law in enumerate(cert["continuity"]):
-            begin = put(form(law, pieces, n, cert), cert["local"], zero)
-            before = put(form(law, pieces, n - 1, cert), cert["local"], end) if n else read(law["start"])
-            need(is_zero(accumulate(begin, before, {(): {(): {(): -1}}})), f"continuity {i} at the start of period {n}")
+        for i, equation in enumerate(equations):
+            need(is_zero(on_period(equation, pieces, n, cert)), f"equation {i} on period {n}")
+        for i, (form, start) in enumerate(continuity):
+            begin = put(on_period(form, pieces, n, cert), cert["local"], zero)
+            before = put(on_period(form, pieces, n - 1, cert), cert["local"], end) if n else start
+            accumulate(begin, before, MINUS)
+            need(is_zero(begin), f"continuity {i} at the start of period {n}")
     return pieces
 
 

@@ -1,5 +1,8 @@
 //! `certify`: what is claimed, with all that it takes to verify it, for checkers that share nothing with this program.
 
+mod drawing;
+mod writer;
+
 use super::arguments::Certify;
 use super::failure::Failure;
 use super::input;
@@ -7,14 +10,13 @@ use super::progress;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use serde_json::{Map, Value as Json, json};
-use std::collections::BTreeSet;
-use wavestep::expression::{Constant, Definition, Expression, Fraction};
+use wavestep::expression::{Constant, Definition};
 use wavestep::limits::VALUE_BITS;
 use wavestep::planner::has_periods;
 use wavestep::problem::{Derived, Digits, Form, Orders, Problem, ToDerive};
-use wavestep::recurrence::{LinearForm, Recurrence};
+use wavestep::recurrence::{LinearForm, Recurrence, Statement};
 use wavestep::signal::Limit;
-use wavestep_polynomial::{Polynomial, Symbol};
+use writer::Writer;
 
 /// The version of the layout, which docs/certificates.md describes.
 const VERSION: u32 = 1;
@@ -69,22 +71,6 @@ fn pieces(problem: &Problem, last: usize) -> Result<(Map<String, Json>, Writer),
             )
         })
         .collect();
-    let equations: Vec<Json> = statement
-        .equations
-        .iter()
-        .filter(is_told)
-        .map(|form| writer.form(recurrence, form))
-        .collect();
-    let continuity: Vec<Json> = statement
-        .continuity
-        .iter()
-        .filter(|law| is_told(&&law.form))
-        .map(|law| {
-            let mut form = writer.form(recurrence, &law.form);
-            form["start"] = writer.expression(&law.start);
-            form
-        })
-        .collect();
     let mut document = Map::new();
     document.insert("wavestep_certificate".into(), json!(VERSION));
     document.insert("through".into(), json!(last));
@@ -94,11 +80,36 @@ fn pieces(problem: &Problem, last: usize) -> Result<(Map<String, Json>, Writer),
     document.insert("local".into(), json!(statement.local.name()));
     document.insert("time".into(), json!(statement.time.name()));
     document.insert("period".into(), writer.function(&statement.period));
-    document.insert("equations".into(), json!(equations));
-    document.insert("continuity".into(), json!(continuity));
+    match problem.network() {
+        Ok(network) => {
+            document.insert("line".into(), drawing::line(network, &mut writer));
+        }
+        Err(_) => document.extend(stated(recurrence, statement, &is_told, &mut writer)),
+    }
     document.insert("pieces".into(), Json::Object(functions));
-    document.insert("roots".into(), writer.roots());
+    document.insert("roots".into(), writer.told_roots());
     Ok((document, writer))
+}
+
+/// The equations of a scene that states its recurrence.
+fn stated(
+    recurrence: &Recurrence,
+    statement: &Statement,
+    is_told: &dyn Fn(&&LinearForm) -> bool,
+    writer: &mut Writer,
+) -> Map<String, Json> {
+    let equations = statement.equations.iter().filter(is_told);
+    let equations: Vec<Json> = equations.map(|form| writer.form(recurrence, form)).collect();
+    let continuity = statement.continuity.iter().filter(|law| is_told(&&law.form));
+    let continuity = continuity.map(|law| {
+        let mut form = writer.form(recurrence, &law.form);
+        form["start"] = writer.expression(&law.start);
+        form
+    });
+    let continuity: Vec<Json> = continuity.collect();
+    [("equations".into(), json!(equations)), ("continuity".into(), json!(continuity))]
+        .into_iter()
+        .collect()
 }
 
 /// A value, with the pieces that it is made of.
@@ -156,74 +167,4 @@ fn value(problem: &Problem, name: &str, at: &BigRational, digits: usize) -> Resu
     document.insert("value".into(), json!(decimal.to_string()));
     document.insert("last_place".into(), json!(last_place));
     Ok(Json::Object(document))
-}
-
-/// Writes expressions as lists, and keeps the square roots that it met.
-#[derive(Default)]
-struct Writer {
-    roots: BTreeSet<Symbol>,
-}
-
-impl Writer {
-    /// `[[coefficient, {symbol: power}], …]`.
-    fn polynomial(&mut self, polynomial: &Polynomial) -> Json {
-        let symbols = polynomial.symbols();
-        self.roots.extend(symbols.iter().filter(|symbol| symbol.square().is_some()).cloned());
-        let term = |(exponents, coefficient): (&[u32], BigRational)| {
-            let powers = symbols.iter().zip(exponents).filter(|(_, power)| **power > 0);
-            let powers: Map<String, Json> =
-                powers.map(|(symbol, power)| (symbol.to_string(), json!(power))).collect();
-            json!([coefficient.to_string(), powers])
-        };
-        polynomial.terms().map(term).collect()
-    }
-
-    /// `[[numerator, [[factor, power], …]]]`, empty for zero.
-    fn function(&mut self, fraction: &Fraction) -> Json {
-        if fraction.is_zero() {
-            return json!([]);
-        }
-        let below: Vec<Json> = fraction
-            .factors()
-            .map(|(factor, power)| json!([self.polynomial(factor), power]))
-            .collect();
-        json!([[self.polynomial(fraction.numerator()), below]])
-    }
-
-    /// `[[exponent, coefficient], …]`.
-    fn expression(&mut self, expression: &Expression) -> Json {
-        expression
-            .terms()
-            .map(|(exponent, coefficient)| {
-                json!([self.function(exponent), self.function(coefficient)])
-            })
-            .collect()
-    }
-
-    /// `{"waves": [[wave, "value", lag, coefficient], …], "forcing": [[lag, function], …]}`.
-    fn form(&mut self, recurrence: &Recurrence, form: &LinearForm) -> Json {
-        let mut waves = Vec::new();
-        for (wave, operator) in form.operators() {
-            let rows =
-                [("value", &operator.value), ("slope", &operator.slope), ("sum", &operator.sum)];
-            for (kind, lags) in rows {
-                waves.extend(lags.iter().map(|(lag, coefficient)| {
-                    json!([recurrence.wave_name(wave), kind, lag, self.expression(coefficient)])
-                }));
-            }
-        }
-        let forcing: Vec<Json> = form
-            .forcing_terms()
-            .iter()
-            .map(|(lag, function)| json!([lag, self.expression(function)]))
-            .collect();
-        json!({ "waves": waves, "forcing": forcing })
-    }
-
-    /// What is below each root.
-    fn roots(&self) -> Json {
-        let square =
-            |symbol: &Symbol| Some((symbol.to_string(), json!(symbol.square()?.to_string())));
-        Json::Object(self.roots.iter().filter_map(square).collect())
-    }
 }
