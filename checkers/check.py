@@ -415,37 +415,172 @@ def number(function):
     return sum((top[()] for top in tops), Fraction(0))
 
 
-def check_value(cert):
-    """The decimal is the value, correctly rounded: numbers in place of all symbols, exponentials between bounds."""
-    pieces, time, claim = check_pieces(cert), Fraction(cert["at"]), Fraction(cert["value"])
-    s, period, total = cert["local"], number(read_function(cert["period"])), {}
+# Values between arrivals: sums of polynomials times exponentials of the time, with rational numbers.
+
+
+def seen(cert, pieces, begin):
+    """A quantity as an expression in scene time, from a time on, and when a next piece of a wave begins."""
+    period, t, total, end = number(read_function(cert["period"])), cert["time"], {}, None
+    need(begin >= 0, "the time is before the start")
     for wave, kind, delay, coefficient in cert["observed"]["waves"]:
-        need(wave in pieces, f"nothing is known of {wave}")
-        need(kind in ("value", "slope"), f"unknown operator {kind}")
-        n, local = divmod(time - Fraction(delay), period)
+        need(wave in pieces and kind in ("value", "slope"), f"unknown wave {wave} or operator {kind}")
+        n = (begin - Fraction(delay)) // period
+        end = min(filter(None, (end, Fraction(delay) + (max(n, -1) + 1) * period)))
         if n >= 0:
             need(n < len(pieces[wave]), "a period is missing")
-            piece = slope(pieces[wave][n], s) if kind == "slope" else pieces[wave][n]
-            accumulate(total, put(piece, s, {(): {(): local}}), read(coefficient))
-    accumulate(total, put(read(cert["observed"]["forcing"]), cert["time"], {(): {(): time}}))
-    parts = [(number(thawed(x)), number(r)) for x, r in total.items()]
-    slack = Fraction(10) ** cert["last_place"] / 2
-    for bits in (128, 512, 2048, 8192, 32768):
+            piece = slope(pieces[wave][n], cert["local"]) if kind == "slope" else pieces[wave][n]
+            local = add({(): {((t, 1),): 1}}, {(): {(): -Fraction(delay) - n * period}})
+            accumulate(total, put(piece, cert["local"], local), read(coefficient))
+    return accumulate(total, read(cert["observed"]["forcing"])), end
+
+
+def sign(expression, t, time):
+    """The sign at a time. Exponentials of different rational numbers are linearly independent over rational numbers."""
+    here = put(expression, t, {(): {(): time}})
+    parts = [(number(thawed(x)), number(r)) for x, r in here.items()]
+    for bits in (128, 512, 2048, 8192, 32768) if any(r for _, r in parts) else ():
         low = high = Fraction(0)
         for x, r in parts:
             a, b = sorted(r * e for e in exponential(x, bits))
             low, high = low + a, high + b
-        if claim - slack <= low and high <= claim + slack:
-            return
-        need(low <= claim + slack and claim - slack <= high, "the value is another one")
-    raise Wrong("the value is not decided")
+        if low > 0 or high < 0:
+            return 1 if low > 0 else -1
+    need(not any(r for _, r in parts), "a sign is not decided")
+    return 0
+
+
+def coefficients(function, t):
+    """Those of a polynomial in the time, without other symbols."""
+    powers = [Fraction(0)]
+    for below, m, c, power in terms(function, t):
+        need(not below and m in ((), ((t, power),)), "a symbol has no value")
+        powers += [Fraction(0)] * (power + 1 - len(powers))
+        powers[power] += c
+    return powers
+
+
+def taylor(exponent, function, t, m, h, bits):
+    """Of R exp(X) at t = m + h u: the part of X without u, the coefficients of all powers of u in R exp of the rest of X, and
+    a bound of what they leave out for |u| <= 1."""
+    constant, rate = (coefficients(exponent, t) + [Fraction(0)])[:2]
+    need(len(coefficients(exponent, t)) <= 2, "an exponent is not linear in the time")
+    powers, x = coefficients(function, t), rate * h
+    series, following = [Fraction(1)], abs(x)
+    while following > Fraction(1, 1 << bits) or 2 * abs(x) > len(series) + 1:  # then what follows is halved each time
+        series.append(series[-1] * x / len(series))
+        following = abs(series[-1] * x / len(series))
+    total = [Fraction(0)] * (len(series) + len(powers) - 1)
+    rest = Fraction(0)
+    for i in range(len(powers)):
+        own = h**i * sum(c * math.comb(j, i) * m ** (j - i) for j, c in enumerate(powers) if j >= i)
+        rest += abs(own) * 2 * following
+        for k, factor in enumerate(series):
+            total[i + k] += own * factor
+    return constant + rate * m, total, rest
+
+
+def sign_on(expression, t, begin, end):
+    """The sign on an interval: a value differs from the coefficient of u^0 by the sizes of all others at most."""
+    m, h = (begin + end) / 2, (end - begin) / 2
+    for bits in (128, 512, 2048):
+        bounds, rest = {}, Fraction(0)
+        for exponent, function in expression.items():
+            x, powers, left = taylor(thawed(exponent), function, t, m, h, bits)
+            factor = exponential(x, bits)
+            rest += left * factor[1]
+            for k, power in enumerate(powers):
+                low, high = bounds.get(k, (0, 0))
+                a, b = sorted(power * e for e in factor)
+                bounds[k] = low + a, high + b
+        low, high = bounds.pop(0, (0, 0))
+        rest += sum(max(-a, b) for a, b in bounds.values())
+        if low > rest or high < -rest:
+            return 1 if low > 0 else -1
+    raise Wrong(f"no sign is seen between {begin} and {end}")
+
+
+def cells(cert, pieces, level):
+    """Intervals without gaps from the first time of the window to the last, each with the quantity less a level and a
+    derivative that has one sign there. That of order 0 is the quantity itself; with that of order 1, or of order k where
+    those of orders 1 ... k - 1 are zero at one end, the quantity is strictly monotone; without one it is the level."""
+    t, time = cert["time"], Fraction(cert["from"])
+    for begin, end, order in cert["cells"]:
+        begin, end = Fraction(begin), Fraction(end)
+        need(begin == time and begin < end, "the intervals have gaps")
+        expression, next_ = seen(cert, pieces, begin)
+        need(next_ is None or end <= next_, "a wave arrives within an interval")
+        accumulate(expression, {(): {(): {(): -level}}})
+        if order is None:
+            need(is_zero(expression), "the quantity is not constant")
+            yield begin, end, expression, order, 0
+        else:
+            need(type(order) is int and 0 <= order <= 64, "an order is no number")
+            derivatives = [expression]
+            for _ in range(order):
+                derivatives.append(slope(derivatives[-1], t))
+            flat = lambda at: all(sign(derivative, t, at) == 0 for derivative in derivatives[1:-1])
+            need(flat(begin) or flat(end), "the derivatives between do not vanish")
+            yield begin, end, expression, order, sign_on(derivatives[-1], t, begin, end)
+        time = end
+    need(time == Fraction(cert["to"]), "the intervals end early or late")
+
+
+def check_value(cert):
+    """The decimal is the value, correctly rounded."""
+    time, claim, slack = Fraction(cert["at"]), Fraction(cert["value"]), Fraction(10) ** cert["last_place"] / 2
+    expression, _ = seen(cert, check_pieces(cert), time)
+    accumulate(expression, {(): {(): {(): slack - claim}}})
+    need(sign(expression, cert["time"], time) >= 0, "the value is another one: smaller")
+    accumulate(expression, {(): {(): {(): -2 * slack}}})
+    need(sign(expression, cert["time"], time) <= 0, "the value is another one: larger")
+
+
+def check_roots(cert):
+    """Zeros, also of limits where waves arrive, are where monotone parts change sign, or at ends of intervals."""
+    t, found = cert["time"], []
+    for begin, end, expression, order, _ in cells(cert, check_pieces(cert), Fraction(0)):
+        if order is None:
+            zeros = [(begin, end)]
+        elif order == 0:
+            continue
+        else:
+            zeros = [(at, at) for at in (begin, end) if sign(expression, t, at) == 0]
+            if sign(expression, t, begin) * sign(expression, t, end) < 0:
+                found.append((begin, end, expression))
+        for first, last in zeros:
+            joins = found and found[-1][2] is None and found[-1][1] == first
+            found.append((found.pop()[0] if joins else first, last, None))
+    claims = [tuple(map(Fraction, claim)) for claim in cert["zeros"]]
+    need(len(claims) == len(found), f"{len(found)} zeros instead of {len(claims)}")
+    need(all(a[1] < b[0] for a, b in zip(claims, claims[1:])), "two zeros are in one place")
+    for (low, high), (begin, end, expression) in zip(claims, found):
+        if expression is None:
+            need((low, high) == (begin, end) if begin < end else low <= begin <= high, f"the zero at {begin} is not told")
+        else:
+            low, high = max(low, begin), min(high, end)
+            need(low < high and sign(expression, t, low) * sign(expression, t, high) < 0, f"the zero after {begin} is not told")
+
+
+def check_extremum(cert):
+    """Nothing is beyond the rounded value by more than half a unit of its last place, and something comes as near to it."""
+    way = {"largest": 1, "smallest": -1}[cert["goal"]]
+    slack, t, (place, time) = Fraction(10) ** cert["last_place"] / 2, cert["time"], cert["attained"]
+    is_taken = False
+    bound = Fraction(cert["value"]) + way * slack
+    for i, (begin, end, expression, order, sign_) in enumerate(cells(cert, check_pieces(cert), bound)):
+        signs = [sign_] if order in (None, 0) else [sign(expression, t, at) for at in (begin, end)]
+        need(all(sign_ * way <= 0 for sign_ in signs), f"a value between {begin} and {end} is beyond the extremum")
+        if i == place:
+            accumulate(expression, {(): {(): {(): 2 * way * slack}}})
+            is_taken = begin <= Fraction(time) <= end and sign(expression, t, Fraction(time)) * way >= 0
+    need(is_taken, "the extremum is not taken where it is said")
 
 
 def check(cert):
     need(cert.get("wavestep_certificate") == 1, "a certificate of another version")
     ROOTS.clear()
     ROOTS.update({symbol: Fraction(square) for symbol, square in cert["roots"].items()})
-    kinds = {"pieces": check_pieces, "value": check_value}
+    kinds = {"pieces": check_pieces, "value": check_value, "roots": check_roots, "extremum": check_extremum}
     need(cert["kind"] in kinds, f"unknown kind {cert['kind']}")
     kinds[cert["kind"]](cert)
 

@@ -1,6 +1,7 @@
 //! `certify`: what is claimed, with all that it takes to verify it, for checkers that share nothing with this program.
 
 mod drawing;
+mod window;
 mod writer;
 
 use super::arguments::Certify;
@@ -15,7 +16,8 @@ use wavestep::limits::VALUE_BITS;
 use wavestep::planner::has_periods;
 use wavestep::problem::{Derived, Digits, Form, Orders, Problem, ToDerive};
 use wavestep::recurrence::{LinearForm, Recurrence, Statement};
-use wavestep::signal::Limit;
+use wavestep::ball::Decimal;
+use wavestep::signal::{Goal, Limit, Value};
 use writer::Writer;
 
 /// The version of the layout, which docs/certificates.md describes.
@@ -27,15 +29,33 @@ const LAST: usize = 3;
 pub fn run(options: &Certify) -> Result<String, Failure> {
     input::digits(options.digits)?;
     let problem = input::problem(&options.scene)?;
-    let (Some(name), Some(at)) = (&options.quantity, &options.at) else {
-        let (mut document, _) = pieces(&problem, options.through.unwrap_or(LAST))?;
-        document.insert("kind".into(), json!("pieces"));
-        return Ok(format!("{}\n", Json::Object(document)));
+    let document = match (&options.quantity, &options.at, goal(options)) {
+        (Some(name), Some(at), _) => {
+            let at = problem.time("--at", at.as_str())?;
+            value(&problem, name.trim(), &at, options.digits)?
+        }
+        (.., Some((goal, name))) => {
+            let to = options.to.as_deref().unwrap_or_default();
+            let window = problem.window(("--from", &options.from), ("--to", to))?;
+            window::certificate(&problem, name.trim(), goal, &window, options.digits)?
+        }
+        _ => {
+            let (mut document, _) = pieces(&problem, options.through.unwrap_or(LAST))?;
+            document.insert("kind".into(), json!("pieces"));
+            document
+        }
     };
-    Ok(format!(
-        "{}\n",
-        value(&problem, name.trim(), &problem.time("--at", at.as_str())?, options.digits)?
-    ))
+    Ok(format!("{}\n", Json::Object(document)))
+}
+
+/// What is asked about a window: an extremum, or else roots; and of which quantity.
+fn goal(options: &Certify) -> Option<(Option<Goal>, &str)> {
+    let goals = [
+        (Some(Goal::Largest), &options.max),
+        (Some(Goal::Smallest), &options.min),
+        (None, &options.zero),
+    ];
+    goals.into_iter().find_map(|(goal, name)| Some((goal, name.as_deref()?)))
 }
 
 /// What the scene states and the pieces of all waves through a period, and the square roots among the symbols.
@@ -113,12 +133,44 @@ fn stated(
 }
 
 /// A value, with the pieces that it is made of.
-fn value(problem: &Problem, name: &str, at: &BigRational, digits: usize) -> Result<Json, Failure> {
+fn value(
+    problem: &Problem,
+    name: &str,
+    at: &BigRational,
+    digits: usize,
+) -> Result<Map<String, Json>, Failure> {
+    let (mut document, _) = observed(problem, name, at)?;
+    let asked =
+        Digits { count: digits, max_bits: VALUE_BITS, limit: Limit::Right, count_echoes: false };
     let wanted = problem.wanted(name)?;
-    let refused = |reason: &str| {
-        let message = format!("there are no certificates of values {reason}");
-        Failure::usage(message, "certify its pieces, with --through")
-    };
+    let found = problem.proven(&wanted, std::slice::from_ref(at), asked, &|| ())?;
+    let (decimal, last_place) = rounded(&found.values[0], digits);
+    document.insert("kind".into(), json!("value"));
+    document.insert("at".into(), json!(at.to_string()));
+    document.insert("value".into(), json!(decimal.to_string()));
+    document.insert("last_place".into(), json!(last_place));
+    Ok(document)
+}
+
+/// The rounded value, and the power of ten of its last digit: zeros at the end are left out of decimals that are exact.
+fn rounded(value: &Value, digits: usize) -> (Decimal, i64) {
+    let (decimal, _) = value.decimal(digits);
+    let last_place = decimal.place() - (digits - decimal.significant()) as i64;
+    (decimal, last_place)
+}
+
+fn refused(reason: &str) -> Failure {
+    let message = format!("there are no certificates of values {reason}");
+    Failure::usage(message, "certify its pieces, with --through")
+}
+
+/// A quantity as a sum of waves, with all pieces that it is made of until a time; and when new pieces of it may begin.
+fn observed(
+    problem: &Problem,
+    name: &str,
+    to: &BigRational,
+) -> Result<(Map<String, Json>, Vec<BigRational>), Failure> {
+    let wanted = problem.wanted(name)?;
     let opens = problem.network().is_ok_and(|network| !has_periods(network));
     let observation = match wanted.observation() {
         _ if problem.has_units() => return Err(refused("in scenes with units")),
@@ -126,18 +178,12 @@ fn value(problem: &Problem, name: &str, at: &BigRational, digits: usize) -> Resu
         None => return Err(refused(&format!("of {name}, which is not linear in the waves"))),
         Some(observation) => observation,
     };
-    let asked =
-        Digits { count: digits, max_bits: VALUE_BITS, limit: Limit::Right, count_echoes: false };
-    let found = problem.proven(&wanted, std::slice::from_ref(at), asked, &|| ())?;
-    let (decimal, _) = found.values[0].decimal(digits);
-    // Zeros at the end are left out of decimals that are exact.
-    let last_place = decimal.place() - (digits - decimal.significant()) as i64;
     let period = problem.shortest_period().expect("values have periods of known length");
     // The clocks of waves differ: what is seen may be of a later period than its time.
     let delays: Vec<BigRational> =
         observation.waves.iter().filter_map(|seen| seen.delay.as_constant()).collect();
-    let last = delays.iter().map(|delay| ((at - delay) / &period).floor().to_integer()).max();
-    let last = last.unwrap_or_default().max(BigInt::ZERO);
+    let periods = |delay: &BigRational| ((to - delay) / &period).floor().to_integer();
+    let last = delays.iter().map(periods).max().unwrap_or_default().max(BigInt::ZERO);
     let last = usize::try_from(last)
         .map_err(|_| Failure::usage("the time is too late", "ask for an earlier time"))?;
     let (mut document, mut writer) = pieces(problem, last)?;
@@ -149,22 +195,17 @@ fn value(problem: &Problem, name: &str, at: &BigRational, digits: usize) -> Resu
     if !observation.waves.iter().all(|seen| is_told(seen.wave)) {
         return Err(refused(&format!("of {name}, which is made of integrals of waves")));
     }
-    let waves: Vec<Json> = observation
-        .waves
-        .iter()
-        .map(|seen| {
-            let wave = recurrence.wave_name(seen.wave);
-            let kind = if seen.slope { "slope" } else { "value" };
-            let delay = seen.delay.as_constant().map(|delay| delay.to_string());
-            Ok(json!([wave, kind, delay, writer.expression(&seen.coefficient)]))
-        })
-        .collect::<Result<_, Failure>>()?;
+    let waves = observation.waves.iter().map(|seen| {
+        let wave = recurrence.wave_name(seen.wave);
+        let kind = if seen.slope { "slope" } else { "value" };
+        let delay = seen.delay.as_constant().map(|delay| delay.to_string());
+        json!([wave, kind, delay, writer.expression(&seen.coefficient)])
+    });
+    let waves: Vec<Json> = waves.collect();
     let forcing = writer.expression(&observation.forcing);
-    document.insert("kind".into(), json!("value"));
     document.insert("quantity".into(), json!(name));
     document.insert("observed".into(), json!({ "waves": waves, "forcing": forcing }));
-    document.insert("at".into(), json!(at.to_string()));
-    document.insert("value".into(), json!(decimal.to_string()));
-    document.insert("last_place".into(), json!(last_place));
-    Ok(Json::Object(document))
+    let count = |n: usize| BigRational::from_integer(n.into());
+    let begins = delays.iter().flat_map(|delay| (0..=last).map(move |n| (delay, count(n))));
+    Ok((document, begins.map(|(delay, n)| delay + n * &period).collect()))
 }
