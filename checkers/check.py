@@ -1,165 +1,15 @@
 #!/usr/bin/env python3
 """Checks certificates of wavestep with nothing but the standard library; docs/certificates.md says what is claimed.
 
-A polynomial is a dict from monomials, sorted tuples of (symbol, power), to rational numbers; a rational function is a
-dict from denominators, sorted tuples of (factor, power), to polynomials; an expression is a dict from exponents X, each a
-rational function, to rational functions R: the sum of all R exp(X).
+exact.py, beside this file, adds, multiplies and compares; what is proven here, and why, is read from top to bottom.
 """
 
 import json
-import math
-import random
 import sys
 from fractions import Fraction
 
-ROOTS = {}  # symbols that stand for square roots, with what is below these
-ONE = {(): {(): 1}}
-MINUS = {(): {(): {(): -1}}}  # the expression -1
-
-
-class Wrong(Exception):
-    """What a certificate claims does not follow."""
-
-
-def need(claim, told):
-    if not claim:
-        raise Wrong(told)
-
-
-def product(a, b):
-    """Two monomials: the product, and the rational number that squares of roots leave."""
-    if not a or not b:
-        return a or b, 1
-    powers, left = dict(a), 1
-    for symbol, power in b:
-        powers[symbol] = powers.get(symbol, 0) + power
-    for symbol in ROOTS.keys() & powers.keys():
-        left *= ROOTS[symbol] ** (powers[symbol] // 2)
-        powers[symbol] %= 2
-    return tuple(sorted((s, p) for s, p in powers.items() if p)), left
-
-
-def frozen(function):
-    """A rational function as a key."""
-    return tuple(sorted((below, tuple(sorted(top.items()))) for below, top in function.items() if top))
-
-
-def thawed(key):
-    return {below: dict(top) for below, top in key}
-
-
-def add(total, function, factor=None):
-    """Adds a rational function, times a factor, to another one."""
-    for below, top in function.items():
-        for other, more in (ONE if factor is None else factor).items():
-            both = product(below, other)[0] if below and other else below or other
-            sum_ = total.setdefault(both, {})
-            for m, c in top.items():
-                for n, d in more.items():
-                    key, left = product(m, n)
-                    value = sum_.get(key, 0) + c * d * left
-                    if value:
-                        sum_[key] = value
-                    else:
-                        sum_.pop(key, None)
-    return total
-
-
-def accumulate(total, expression, factor=None):
-    """The same with expressions."""
-    for exponent, function in expression.items():
-        for other, more in ({(): ONE} if factor is None else factor).items():
-            both = frozen(add(thawed(exponent), thawed(other))) if exponent and other else exponent or other
-            add(total.setdefault(both, {}), function, more)
-    return total
-
-
-def is_zero(expression):
-    """Whether each rational function is zero: over one denominator its numerators cancel."""
-    for function in expression.values():
-        powers = {}
-        for below in function:
-            for factor, power in below:
-                powers[factor] = max(power, powers.get(factor, 0))
-        total = {}
-        for below, top in function.items():
-            lacking = ONE
-            for factor, power in powers.items():
-                for _ in range(power - dict(below).get(factor, 0)):
-                    lacking = add({}, {(): dict(factor)}, lacking)
-            add(total, {(): top}, lacking)
-        if any(total.values()):
-            return False
-    return True
-
-
-def terms(function, s):
-    """Denominator, monomial, coefficient and power of the time, which stands above alone, of each term."""
-    for below, top in function.items():
-        need(all(s not in dict(m) for factor, _ in below for m, _ in factor), "a divisor holds the time")
-        for m, c in top.items():
-            yield below, m, c, dict(m).get(s, 0)
-
-
-def slope(expression, s):
-    """The derivative with respect to a symbol: (R' + X' R) exp(X)."""
-
-    def of(function):
-        result = {}
-        for below, m, c, power in terms(function, s):
-            if power:
-                rest = tuple((t, p - (t == s)) for t, p in m if t != s or p > 1)
-                add(result, {below: {rest: c * power}})
-        return result
-
-    return {x: add(of(r), r, of(thawed(x))) for x, r in expression.items()}
-
-
-def put(expression, s, value):
-    """With a rational function in place of a symbol."""
-    powers = [ONE]
-
-    def of(function):
-        result = {}
-        for below, m, c, power in terms(function, s):
-            while len(powers) <= power:
-                powers.append(add({}, powers[-1], value))
-            add(result, {below: {tuple(pair for pair in m if pair[0] != s): c}}, powers[power])
-        return result
-
-    result = {}
-    for exponent, function in expression.items():
-        add(result.setdefault(frozen(of(thawed(exponent))), {}), of(function))
-    return result
-
-
-def read_polynomial(terms):
-    polynomial = {}
-    for coefficient, powers in terms:
-        need(all(type(p) is int and p > 0 for p in powers.values()), "a power is no positive integer")
-        monomial = tuple(sorted(powers.items()))
-        need(monomial not in polynomial and Fraction(coefficient), "a term stands twice, or is zero")
-        polynomial[monomial] = Fraction(coefficient)
-    return polynomial
-
-
-def read_function(rows):
-    function = {}
-    for top, below in rows:
-        key = ()
-        for factor, power in below:
-            need(factor and type(power) is int and power > 0, "a divisor is zero")
-            key, _ = product(key, ((tuple(sorted(read_polynomial(factor).items())), power),))
-        add(function, {key: read_polynomial(top)})
-    return function
-
-
-def read(rows):
-    expression = {}
-    for exponent, function in rows:
-        add(expression.setdefault(frozen(read_function(exponent)), {}), read_function(function))
-    return expression
-
+from exact import MINUS, ONE, ROOTS, Wrong, accumulate, add, is_zero, need, number, number_at, put, read, read_function
+from exact import sign, sign_on, slope
 
 # Linear forms in the waves: dicts from (wave, operator, lag) to coefficients; forcing has no wave and a function instead.
 
@@ -172,13 +22,20 @@ def read_form(rows):
     return total
 
 
-def plus(*parts):
-    """The sum of forms, each times an expression."""
+def plus(*forms):
     total = {}
-    for factor, form in parts:
+    for form in forms:
         for key, coefficient in form.items():
-            accumulate(total.setdefault(key, {}), coefficient, factor)
+            accumulate(total.setdefault(key, {}), coefficient)
     return total
+
+
+def times(factor, form):
+    return {key: accumulate({}, coefficient, factor) for key, coefficient in form.items()}
+
+
+def less(a, b):
+    return plus(a, times(MINUS, b))
 
 
 def on_period(form, pieces, n, cert):
@@ -218,120 +75,108 @@ def periods(rows, cert):
 
 def laws(cert):
     """What is zero on each period and what is continuous from 0 on, by the laws of the elements: those of runs, which move
-    as one, between links, which pass a force on: bars and springs."""
-    one, minus, t = {(): ONE}, MINUS, cert["time"]
-    runs, links, clocks = [[]], [], [cert["line"][0]["clock"]]
-    for element in cert["line"]:
+    as one, between links, bars and springs, which pass a force on. A place has a clock, ahead by so many periods."""
+    line, t, ends = cert["line"], cert["time"], ("free", "fixed", "endless")
+    is_end = [element["is"] in ends for element in line]
+    need(is_end == [True] + [False] * (len(line) - 2) + [True], "a line has two ends")
+    runs, links, clocks = [[]], [], [line[0]["clock"]]
+    for element in line:
         if element["is"] in ("bar", "spring"):
             links.append(element)
             clocks.append(element["clock"] if element["is"] == "bar" else clocks[-1])
             runs.append([])
         else:
+            need(element["is"] in ends + ("mass", "support", "force", "velocity", "motion"), "an unknown element")
             runs[-1].append(element)
     clocks = [periods(clock, cert) for clock in clocks]
-    of = lambda element, key: {(): read_function(element[key])}
-    wave = lambda name, lag=0: {(name, "value", lag): one}
-    acting = lambda function, lag: {(None, "forcing", lag): function}
-    kinds = lambda run: [element["is"] for element in runs[run]]
-    are_ends = [element["is"] in ("free", "fixed", "endless") for element in cert["line"]]
-    need(are_ends == [True] + [False] * (len(are_ends) - 2) + [True], "a line has two ends")
+
+    def own(run, *kinds):
+        return [element for element in runs[run] if element["is"] in kinds]
+
+    def of(element, key):
+        return {(): read_function(element[key])}
+
+    def wave(name, lag=0):
+        return {(name, "value", lag): {(): ONE}}
+
+    def acting(function, lag):
+        return {(None, "forcing", lag): function}
 
     def load(element, run):
-        """The course of a load from its beginning to its end, by the clock of its place."""
+        """The course of a load from its beginning to its end."""
         total, course = {}, read(element["course"])
-        for key, sign in (("from", one), ("until", minus)):
+        for key, factor in (("from", {(): ONE}), ("until", MINUS)):
             if element[key] is not None:
                 later = put(course, t, add({(): {((t, 1),): 1}}, read_function(element[key])))
-                total = plus((one, total), (sign, acting(later, clocks[run] + periods(element[key], cert))))
+                total = plus(total, times(factor, acting(later, clocks[run] + periods(element[key], cert))))
         return total
 
     def bar(link, run):
-        """Velocity V + f + g and compressive force X + Z (f - g) of a bar at its left end (run = link) or its right one."""
-        element, here = links[link], clocks[run]
+        """Velocity V + f + g and compressive force X + Z (f - g) of a bar at its left end (run = link) or its right one; a
+        wave enters at each end that is not endless, and takes the travel time to the other one."""
+        element, here, there = links[link], clocks[run], clocks[link + (run == link)]
+        for way, end in (("right", link), ("left", link + 1)):
+            need((element[way] is None) == bool(own(end, "endless")), "a bar lacks a wave, or has one from nowhere")
         travel = periods(element["travel"], cert)
-        f, g = (wave(element[way]) if element[way] else {} for way in ("right", "left"))
-        if run == link and g:
-            g = wave(element["left"], travel + here - clocks[link + 1])
-        if run > link and f:
-            f = wave(element["right"], travel + here - clocks[link])
-        difference = plus((one, f), (minus, g))
-        velocity = plus((one, acting(of(element, "velocity"), here)), (one, f), (one, g))
-        return velocity, plus((one, acting(of(element, "force"), here)), (of(element, "impedance"), difference))
+        late = lambda way: wave(element[way], travel + here - there) if element[way] else {}
+        now = lambda way: wave(element[way]) if element[way] else {}
+        f, g = (now("right"), late("left")) if run == link else (late("right"), now("left"))
+        velocity = plus(acting(of(element, "velocity"), here), f, g)
+        return velocity, plus(acting(of(element, "force"), here), times(of(element, "impedance"), less(f, g)))
 
     def velocities(run):
-        found = [load(element, run) for element in runs[run] if element["is"] == "velocity"]
-        found += [{}] * kinds(run).count("fixed")
-        for link in (run - 1, run):
-            if 0 <= link < len(links) and links[link]["is"] == "bar":
-                found.append(bar(link, run)[0])
-        for element in runs[run]:
-            if element["is"] == "motion":
-                found.append(plus((one, wave(element["wave"])), (one, acting(of(element, "from"), clocks[run]))))
+        """All that is known of the velocity of a run."""
+        found = [load(element, run) for element in own(run, "velocity")] + [{} for _ in own(run, "fixed")]
+        found += [bar(link, run)[0] for link in (run - 1, run) if 0 <= link < len(links) and links[link]["is"] == "bar"]
+        found += [plus(wave(element["wave"]), acting(of(element, "from"), clocks[run])) for element in own(run, "motion")]
         need(found, "a velocity is missing")
         return found
 
     def closing(link):
-        return plus((one, velocities(link)[0]), (minus, velocities(link + 1)[0]))
+        return less(velocities(link)[0], velocities(link + 1)[0])
 
     def force(link, run):
         """The compressive force in a link; in a spring k a + d a'."""
         if not 0 <= link < len(links):
             return {}
-        if links[link]["is"] == "bar":
+        spring = links[link]
+        if spring["is"] == "bar":
             return bar(link, run)[1]
-        return plus((of(links[link], "damping"), closing(link)), (of(links[link], "stiffness"), wave(links[link]["wave"])))
+        return plus(times(of(spring, "stiffness"), wave(spring["wave"])), times(of(spring, "damping"), closing(link)))
 
-    def slope_of(form):
-        """Of a velocity."""
+    def slope_of(velocity):
         steep = lambda kind, c: ("forcing", slope(c, t)) if kind == "forcing" else ("slope", c)
-        return {(name, steep(kind, c)[0], lag): steep(kind, c)[1] for (name, kind, lag), c in form.items()}
+        return {(name, steep(kind, c)[0], lag): steep(kind, c)[1] for (name, kind, lag), c in velocity.items()}
 
     equations, starts = [], []
-    for run, elements in enumerate(runs):
-        if "endless" in kinds(run):
-            need(len(elements) == 1 and run in (0, len(links)), "an endless line ends with a bar")
+    stored = [(link, closing(i)) for i, link in enumerate(links) if link["is"] == "spring"]
+    for run in range(len(runs)):
+        if own(run, "endless"):
+            need(len(runs[run]) == 1, "an endless line ends with a bar")
             continue
         first, *others = velocities(run)
-        equations += [plus((one, first), (minus, other)) for other in others]
-        balance, momentum, massive = plus((one, force(run - 1, run)), (minus, force(run, run))), {}, False
-        for element in elements:
-            if element["is"] == "mass":  # momenta add up where masses start together
-                balance = plus((one, balance), (accumulate({}, of(element, "mass"), minus), slope_of(first)))
-                start = acting(of(element, "velocity"), clocks[run])
-                momentum = plus((one, momentum), (of(element, "mass"), plus((one, first), (minus, start))))
-                massive = True
-            elif element["is"] == "support":
-                balance = plus((one, balance), (accumulate({}, of(element, "damping"), minus), first))
-                if element["wave"]:
-                    moved = wave(element["wave"])
-                    balance = plus((one, balance), (accumulate({}, of(element, "stiffness"), minus), moved))
-                    equations.append(plus((one, slope_of(moved)), (minus, first)))
-                    starts.append(moved)
-            elif element["is"] == "force":
-                balance = plus((one, balance), (one, load(element, run)))
-            else:
-                need(element["is"] in ("free", "fixed", "velocity", "motion"), f"unknown element {element['is']}")
-        if "fixed" not in kinds(run) and "velocity" not in kinds(run):
-            equations.append(balance)
-            starts += [momentum] if massive else []
-    for link, element in enumerate(links):
-        if element["is"] == "spring" and element["wave"]:
-            shortened = wave(element["wave"])
-            equations.append(plus((one, slope_of(shortened)), (minus, closing(link))))
-            starts.append(shortened)
+        equations += [less(first, other) for other in others]
+        stored += [(support, first) for support in own(run, "support")]
+        if own(run, "fixed", "velocity"):
+            continue
+        balance = plus(less(force(run - 1, run), force(run, run)), *(load(element, run) for element in own(run, "force")))
+        for mass in own(run, "mass"):
+            balance = less(balance, times(of(mass, "mass"), slope_of(first)))
+        for support in own(run, "support"):
+            pushes = times(of(support, "stiffness"), wave(support["wave"]))
+            balance = less(balance, plus(pushes, times(of(support, "damping"), first)))
+        equations.append(balance)
+        gained = lambda mass: times(of(mass, "mass"), less(first, acting(of(mass, "velocity"), clocks[run])))
+        starts += [plus(*map(gained, own(run, "mass")))] if own(run, "mass") else []  # masses that start together share it
+    for element, rate in stored:  # what springs are shortened by, and supports displaced
+        need(element["wave"] or is_zero(of(element, "stiffness")), "a spring has no compression")
+        if element["wave"]:
+            equations.append(less(slope_of(wave(element["wave"])), rate))
+            starts.append(wave(element["wave"]))
     return [whole(form) for form in equations], [(whole(form), {}) for form in starts]
 
-def number_at(expression, values):
-    """The value for pseudo-random numbers in place of symbols and of exponentials."""
-    at = lambda key: values.setdefault(key, Fraction(random.randrange(1, 1 << 60)))
-    of = lambda top: sum(c * math.prod(at(s) ** p for s, p in m) for m, c in top.items())
-    total = Fraction(0)
-    for exponent, function in expression.items():
-        for below, top in function.items():
-            need(not any(s in ROOTS for m in top for s, _ in m), "a root in an equation")
-            divisor = math.prod(of(dict(factor)) ** power for factor, power in below)
-            total += of(top) / divisor * (at(exponent) if exponent else 1)
-    return total
+
+# The pieces satisfy the laws, and nothing else does.
 
 
 def rank(rows):
@@ -375,6 +220,7 @@ def statement(cert):
 def check_pieces(cert):
     """Every equation holds on every period; what is continuous is, and starts as stated; and nothing else does so."""
     equations, continuity = statement(cert)
+    need(not is_zero({(): read_function(cert["period"])}) and cert["local"] != cert["time"], "the period, or names of times")
     pieces = {wave: [read(piece) for piece in all_] for wave, all_ in cert["pieces"].items()}
     need(set(pieces) == set(cert["waves"]) and len(equations) == len(pieces), "waves and equations")
     check_determined(equations, continuity, cert["waves"])
@@ -392,30 +238,7 @@ def check_pieces(cert):
     return pieces
 
 
-def exponential(x, bits):
-    """Two rationals with e^x between them: the Taylor sum of x/2^k, squared k times."""
-    unit, halvings = Fraction(1, 1 << bits), max(0, abs(x).__ceil__().bit_length() + 1)
-    y = x / (1 << halvings)
-    total = term = Fraction(1)
-    i = 0
-    while abs(term) > unit:
-        i += 1
-        term = Fraction(round(term * y / i / unit)) * unit
-        total += term
-    low, high = total - 2 * (i + 2) * unit, total + 2 * (i + 2) * unit
-    for _ in range(halvings):
-        low, high = (low * low // unit) * unit, -(-high * high // unit) * unit
-    return low, high
-
-
-def number(function):
-    """A rational function without symbols."""
-    tops = [top for top in function.values() if top]
-    need(all(set(top) == {()} for top in tops) and all(not b for b, top in function.items() if top), "a symbol has no value")
-    return sum((top[()] for top in tops), Fraction(0))
-
-
-# Values between arrivals: sums of polynomials times exponentials of the time, with rational numbers.
+# What a quantity is between arrivals, and what follows.
 
 
 def seen(cert, pieces, begin):
@@ -432,71 +255,6 @@ def seen(cert, pieces, begin):
             local = add({(): {((t, 1),): 1}}, {(): {(): -Fraction(delay) - n * period}})
             accumulate(total, put(piece, cert["local"], local), read(coefficient))
     return accumulate(total, read(cert["observed"]["forcing"])), end
-
-
-def sign(expression, t, time):
-    """The sign at a time. Exponentials of different rational numbers are linearly independent over rational numbers."""
-    here = put(expression, t, {(): {(): time}})
-    parts = [(number(thawed(x)), number(r)) for x, r in here.items()]
-    for bits in (128, 512, 2048, 8192, 32768) if any(r for _, r in parts) else ():
-        low = high = Fraction(0)
-        for x, r in parts:
-            a, b = sorted(r * e for e in exponential(x, bits))
-            low, high = low + a, high + b
-        if low > 0 or high < 0:
-            return 1 if low > 0 else -1
-    need(not any(r for _, r in parts), "a sign is not decided")
-    return 0
-
-
-def coefficients(function, t):
-    """Those of a polynomial in the time, without other symbols."""
-    powers = [Fraction(0)]
-    for below, m, c, power in terms(function, t):
-        need(not below and m in ((), ((t, power),)), "a symbol has no value")
-        powers += [Fraction(0)] * (power + 1 - len(powers))
-        powers[power] += c
-    return powers
-
-
-def taylor(exponent, function, t, m, h, bits):
-    """Of R exp(X) at t = m + h u: the part of X without u, the coefficients of all powers of u in R exp of the rest of X, and
-    a bound of what they leave out for |u| <= 1."""
-    constant, rate = (coefficients(exponent, t) + [Fraction(0)])[:2]
-    need(len(coefficients(exponent, t)) <= 2, "an exponent is not linear in the time")
-    powers, x = coefficients(function, t), rate * h
-    series, following = [Fraction(1)], abs(x)
-    while following > Fraction(1, 1 << bits) or 2 * abs(x) > len(series) + 1:  # then what follows is halved each time
-        series.append(series[-1] * x / len(series))
-        following = abs(series[-1] * x / len(series))
-    total = [Fraction(0)] * (len(series) + len(powers) - 1)
-    rest = Fraction(0)
-    for i in range(len(powers)):
-        own = h**i * sum(c * math.comb(j, i) * m ** (j - i) for j, c in enumerate(powers) if j >= i)
-        rest += abs(own) * 2 * following
-        for k, factor in enumerate(series):
-            total[i + k] += own * factor
-    return constant + rate * m, total, rest
-
-
-def sign_on(expression, t, begin, end):
-    """The sign on an interval: a value differs from the coefficient of u^0 by the sizes of all others at most."""
-    m, h = (begin + end) / 2, (end - begin) / 2
-    for bits in (128, 512, 2048):
-        bounds, rest = {}, Fraction(0)
-        for exponent, function in expression.items():
-            x, powers, left = taylor(thawed(exponent), function, t, m, h, bits)
-            factor = exponential(x, bits)
-            rest += left * factor[1]
-            for k, power in enumerate(powers):
-                low, high = bounds.get(k, (0, 0))
-                a, b = sorted(power * e for e in factor)
-                bounds[k] = low + a, high + b
-        low, high = bounds.pop(0, (0, 0))
-        rest += sum(max(-a, b) for a, b in bounds.values())
-        if low > rest or high < -rest:
-            return 1 if low > 0 else -1
-    raise Wrong(f"no sign is seen between {begin} and {end}")
 
 
 def cells(cert, pieces, level):
@@ -525,9 +283,16 @@ def cells(cert, pieces, level):
     need(time == Fraction(cert["to"]), "the intervals end early or late")
 
 
+def decimal(cert):
+    """A decimal, and half a unit of its last place."""
+    value, unit = Fraction(cert["value"]), Fraction(10) ** cert["last_place"]
+    need((value / unit).denominator == 1, "the decimal has more digits than it says")
+    return value, unit / 2
+
+
 def check_value(cert):
     """The decimal is the value, correctly rounded."""
-    time, claim, slack = Fraction(cert["at"]), Fraction(cert["value"]), Fraction(10) ** cert["last_place"] / 2
+    time, (claim, slack) = Fraction(cert["at"]), decimal(cert)
     expression, _ = seen(cert, check_pieces(cert), time)
     accumulate(expression, {(): {(): {(): slack - claim}}})
     need(sign(expression, cert["time"], time) >= 0, "the value is another one: smaller")
@@ -564,9 +329,8 @@ def check_roots(cert):
 def check_extremum(cert):
     """Nothing is beyond the rounded value by more than half a unit of its last place, and something comes as near to it."""
     way = {"largest": 1, "smallest": -1}[cert["goal"]]
-    slack, t, (place, time) = Fraction(10) ** cert["last_place"] / 2, cert["time"], cert["attained"]
-    is_taken = False
-    bound = Fraction(cert["value"]) + way * slack
+    (claim, slack), t, (place, time) = decimal(cert), cert["time"], cert["attained"]
+    is_taken, bound = False, claim + way * slack
     for i, (begin, end, expression, order, sign_) in enumerate(cells(cert, check_pieces(cert), bound)):
         signs = [sign_] if order in (None, 0) else [sign(expression, t, at) for at in (begin, end)]
         need(all(sign_ * way <= 0 for sign_ in signs), f"a value between {begin} and {end} is beyond the extremum")
@@ -593,4 +357,6 @@ if __name__ == "__main__":
             check(certificate)
         except Wrong as error:
             sys.exit(f"{name}: NOT proven: {error}")
+        except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as error:
+            sys.exit(f"{name}: NOT proven: it is not laid out as it should be: {error!r}")
         print(f"{name}: proven ({certificate['kind']} of {certificate['title']})")

@@ -7,6 +7,7 @@ signs between arrivals are shown by Taylor series in balls with Lagrange's remai
 import json
 import random
 import sys
+from fractions import Fraction
 
 import flint
 from flint import arb, arb_series, fmpq, fmpq_mat, fmpq_mpoly_ctx
@@ -23,9 +24,8 @@ def need(claim, told):
 
 def rational(text):
     need(isinstance(text, str), "a number is no text")
-    top, _, below = text.partition("/")
-    whole, _, decimals = top.partition(".")
-    return fmpq(int(whole + decimals), 10 ** len(decimals) * int(below or 1))
+    value = Fraction(text)
+    return fmpq(value.numerator, value.denominator)
 
 
 # Exact values: sums of quotients of polynomials times exponentials of such quotients.
@@ -331,7 +331,10 @@ class Line:
     def bar_waves(self, link, run, world):
         """The waves to the right and to the left at an end of a bar."""
         bar, (here, there) = self.links[link], (self.clocks[run], self.clocks[link if run > link else link + 1])
-        lag = lambda: self.count(bar["travel"]) + here - there
+        for way, end in (("right", link), ("left", link + 1)):
+            need((bar[way] is None) == bool(self.is_at(end, "endless")), "a bar lacks a wave, or has one from nowhere")
+        travel = self.count(bar["travel"])
+        lag = lambda: travel + here - there
         right = world.wave(bar["right"], lag() if run > link else 0) if bar["right"] else Sum({})
         left = world.wave(bar["left"], 0 if run > link else lag()) if bar["left"] else Sum({})
         return right, left
@@ -599,14 +602,16 @@ def cells(cert, claim, level):
     need(time == rational(cert["to"]), "the intervals end early or late")
 
 
-def half_unit(cert):
-    place = cert["last_place"]
-    need(type(place) is int, "a place is no number")
-    return fmpq(10) ** place / 2
+def decimal(cert):
+    """A decimal, and half a unit of its last place."""
+    need(type(cert["last_place"]) is int, "a place is no number")
+    value, unit = rational(cert["value"]), fmpq(10) ** cert["last_place"]
+    need((value / unit).q == 1, "the decimal has more digits than it says")
+    return value, unit / 2
 
 
 def check_value(cert, claim):
-    time, value, slack = rational(cert["at"]), rational(cert["value"]), half_unit(cert)
+    time, (value, slack) = rational(cert["at"]), decimal(cert)
     numbers = Numbers(claim.seen(time)[0], claim.time)
     need(numbers.shifted(slack - value).sign(time) >= 0 >= numbers.shifted(-slack - value).sign(time), "another value")
 
@@ -641,9 +646,8 @@ def check_roots(cert, claim):
 
 def check_extremum(cert, claim):
     need(cert["goal"] in ("largest", "smallest"), "an unknown goal")
-    way, slack = 1 if cert["goal"] == "largest" else -1, half_unit(cert)
-    bound, (place, time) = rational(cert["value"]) + way * slack, cert["attained"]
-    taken = False
+    way, (value, slack), (place, time) = 1 if cert["goal"] == "largest" else -1, decimal(cert), cert["attained"]
+    taken, bound = False, value + way * slack
     for i, (begin, end, numbers, order, sign) in enumerate(cells(cert, claim, bound)):
         signs = [sign] if not order else [numbers.sign(begin), numbers.sign(end)]
         need(all(way * sign <= 0 for sign in signs), f"a value between {begin} and {end} is beyond the extremum")
@@ -670,4 +674,6 @@ if __name__ == "__main__":
             check(certificate)
         except Wrong as error:
             sys.exit(f"{name}: NOT proven: {error}")
+        except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as error:
+            sys.exit(f"{name}: NOT proven: it is not laid out as it should be: {error!r}")
         print(f"{name}: proven ({certificate['kind']} of {certificate['title']})")

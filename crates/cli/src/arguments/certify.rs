@@ -33,7 +33,13 @@ pub struct Certify {
     #[arg(long, value_name = "QUANTITY", requires = "to")]
     pub zero: Option<String>,
     /// The first time of the window
-    #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true, requires = "goal")]
+    #[arg(
+        long,
+        value_name = "T",
+        default_value = "0",
+        allow_hyphen_values = true,
+        requires = "goal"
+    )]
     pub from: String,
     /// The last time of the window
     #[arg(long, value_name = "T", allow_hyphen_values = true, requires = "goal")]

@@ -11,12 +11,12 @@ use super::progress;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use serde_json::{Map, Value as Json, json};
+use wavestep::ball::Decimal;
 use wavestep::expression::{Constant, Definition};
 use wavestep::limits::VALUE_BITS;
 use wavestep::planner::has_periods;
-use wavestep::problem::{Derived, Digits, Form, Orders, Problem, ToDerive};
-use wavestep::recurrence::{LinearForm, Recurrence, Statement};
-use wavestep::ball::Decimal;
+use wavestep::problem::{Derived, Digits, Form, Orders, Problem, ToDerive, Wanted};
+use wavestep::recurrence::{LinearForm, Observation, Recurrence, Statement};
 use wavestep::signal::{Goal, Limit, Value};
 use writer::Writer;
 
@@ -139,12 +139,13 @@ fn value(
     at: &BigRational,
     digits: usize,
 ) -> Result<Map<String, Json>, Failure> {
-    let (mut document, _) = observed(problem, name, at)?;
+    let wanted = problem.wanted(name)?;
+    let observation = observation(problem, &wanted)?;
     let asked =
         Digits { count: digits, max_bits: VALUE_BITS, limit: Limit::Right, count_echoes: false };
-    let wanted = problem.wanted(name)?;
     let found = problem.proven(&wanted, std::slice::from_ref(at), asked, &|| ())?;
     let (decimal, last_place) = rounded(&found.values[0], digits);
+    let (mut document, _) = observed(problem, name, &observation, at)?;
     document.insert("kind".into(), json!("value"));
     document.insert("at".into(), json!(at.to_string()));
     document.insert("value".into(), json!(decimal.to_string()));
@@ -164,21 +165,25 @@ fn refused(reason: &str) -> Failure {
     Failure::usage(message, "certify its pieces, with --through")
 }
 
-/// A quantity as a sum of waves, with all pieces that it is made of until a time; and when new pieces of it may begin.
+/// A quantity as a sum of waves.
+fn observation(problem: &Problem, wanted: &Wanted) -> Result<Observation, Failure> {
+    let opens = problem.network().is_ok_and(|network| !has_periods(network));
+    match wanted.observation() {
+        _ if problem.has_units() => Err(refused("in scenes with units")),
+        _ if opens => Err(refused("where contacts open")),
+        None => Err(refused(&format!("of {}, which is not linear in the waves", wanted.name))),
+        Some(observation) => Ok(observation.clone()),
+    }
+}
+
+/// The same with all pieces that it is made of until a time, and the times at which new pieces may begin.
 fn observed(
     problem: &Problem,
     name: &str,
+    observation: &Observation,
     to: &BigRational,
 ) -> Result<(Map<String, Json>, Vec<BigRational>), Failure> {
-    let wanted = problem.wanted(name)?;
-    let opens = problem.network().is_ok_and(|network| !has_periods(network));
-    let observation = match wanted.observation() {
-        _ if problem.has_units() => return Err(refused("in scenes with units")),
-        _ if opens => return Err(refused("where contacts open")),
-        None => return Err(refused(&format!("of {name}, which is not linear in the waves"))),
-        Some(observation) => observation,
-    };
-    let period = problem.shortest_period().expect("values have periods of known length");
+    let period = problem.shortest_period().expect("what has values has a period of known length");
     // The clocks of waves differ: what is seen may be of a later period than its time.
     let delays: Vec<BigRational> =
         observation.waves.iter().filter_map(|seen| seen.delay.as_constant()).collect();

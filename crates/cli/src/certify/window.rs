@@ -1,6 +1,6 @@
 //! Certificates of all roots of a quantity in a window, or of its largest or smallest value there.
 
-use super::{observed, rounded};
+use super::{observation, observed, rounded};
 use crate::failure::{ACCURACY, Failure};
 use crate::progress;
 use num_rational::BigRational;
@@ -32,9 +32,10 @@ pub fn certificate(
     window: &Window,
     digits: usize,
 ) -> Result<Map<String, Json>, Failure> {
-    let (mut document, begins) = observed(problem, name, &window[1])?;
     let wanted = problem.wanted(name)?;
+    let observation = observation(problem, &wanted)?;
     let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?;
+    let (mut document, begins) = observed(problem, name, &observation, &window[1])?;
     let _progress = progress::spinner("searching");
     let search = Search::new(&*signal)?.half_open();
     let mut insert = |key: &str, value: Json| document.insert(key.into(), value);
@@ -196,15 +197,13 @@ impl<'a> Cover<'a> {
     ) -> Result<bool, Failure> {
         let two = BigRational::from_integer(2.into());
         let place = ((from + to) / &two, (to - from) / two);
-        let taylor =
-            self.signal.taylor(stretch, order, (&place.0, &place.1), TERMS, self.bits)?;
+        let taylor = self.signal.taylor(stretch, order, (&place.0, &place.1), TERMS, self.bits)?;
         let mut middle = taylor.coefficient(0);
         if order == 0 {
             middle = middle.subtract(&Ball::from_rational(&self.level, self.bits), self.bits);
         }
-        let rest = (1..TERMS).fold(taylor.remainder.clone(), |rest, k| {
-            rest.add(&taylor.coefficient(k).magnitude())
-        });
+        let rest = (1..TERMS)
+            .fold(taylor.remainder.clone(), |rest, k| rest.add(&taylor.coefficient(k).magnitude()));
         let rest = rest.add(&rest.scale(-MARGIN_BITS));
         Ok(middle.widened(&rest).sign().is_some_and(|sign| sign.is_ne()))
     }
