@@ -72,16 +72,31 @@ def outcome(checker, document):
     return None
 
 
+def same_functions(one, other):
+    """Whether two lists hold equal expressions."""
+    equal = lambda a, b: exact.is_zero(exact.accumulate(exact.read(a), exact.read(b), exact.MINUS))
+    return len(one) == len(other) and all(map(equal, one, other))
+
+
+def same_formula(one, other):
+    """Whether two formulas for every n are equal, number by number, in whatever order their terms stand."""
+    if one.keys() != other.keys() or not same_functions(one["first"], other["first"]):
+        return False
+    is_sequence = "rate" not in one
+    terms = [sorted(own["terms"], key=lambda term: json.dumps(term[:: -1 if is_sequence else 1])) for own in (one, other)]
+    orders = [[term[1 if is_sequence else 0] for term in own] for own in terms]
+    numbers = [[own[key] or [] for key in ("rate", "ratio", "laguerre") if key in own] for own in (one, other)]
+    parts = [[part for term in own for part in (term[::2] if is_sequence else [[[[], term[1]]]])] for own in terms]
+    lists = [parts[i] + [[[[], number]] for number in numbers[i]] for i in (0, 1)]
+    return orders[0] == orders[1] and same_functions(*lists)
+
+
 def same_claims(one, other):
     """Whether both claim the same of the waves, whatever the way in which it is written, and name the same values and zeros:
     a decimal or a bracket may hold them more closely or less so."""
-    equal = lambda a, b: exact.is_zero(exact.accumulate(exact.read(a), exact.read(b), exact.MINUS))
-    pieces = [document["pieces"] for document in (one, other)]
-    if pieces[0].keys() != pieces[1].keys():
-        return False
-    for wave, functions in pieces[0].items():
-        others = pieces[1][wave]
-        if len(functions) != len(others) or not all(map(equal, functions, others)):
+    for key, same in (("pieces", same_functions), ("general", same_formula)):
+        claims = [document.get(key, {}) for document in (one, other)]
+        if claims[0].keys() != claims[1].keys() or not all(same(own, claims[1][wave]) for wave, own in claims[0].items()):
             return False
     if any(one.get(key) != other.get(key) and Fraction(one[key]) != Fraction(other[key]) for key in ("at", "from", "to")):
         return False

@@ -1,64 +1,16 @@
 #!/usr/bin/env python3
 """Checks certificates of wavestep with nothing but the standard library; docs/certificates.md says what is claimed.
 
-exact.py, beside this file, adds, multiplies and compares; what is proven here, and why, is read from top to bottom.
+exact.py, beside this file, adds, multiplies and compares; what is proven here, and why, reads from top to bottom.
 """
 
 import json
+import math
 import sys
 from fractions import Fraction
 
-from exact import MINUS, ONE, ROOTS, Wrong, accumulate, add, is_zero, need, number, number_at, put, read, read_function
-from exact import sign, sign_on, slope
-
-# Linear forms in the waves: dicts from (wave, operator, lag) to coefficients; forcing has no wave and a function instead.
-
-
-def read_form(rows):
-    parts = [((wave, kind, lag), c) for wave, kind, lag, c in rows["waves"]]
-    total = {}
-    for key, rows_ in parts + [((None, "forcing", lag), function) for lag, function in rows["forcing"]]:
-        accumulate(total.setdefault(key, {}), read(rows_))
-    return total
-
-
-def plus(*forms):
-    total = {}
-    for form in forms:
-        for key, coefficient in form.items():
-            accumulate(total.setdefault(key, {}), coefficient)
-    return total
-
-
-def times(factor, form):
-    return {key: accumulate({}, coefficient, factor) for key, coefficient in form.items()}
-
-
-def less(a, b):
-    return plus(a, times(MINUS, b))
-
-
-def on_period(form, pieces, n, cert):
-    """The value on the n-th period, in local time; waves are zero before the first one."""
-    s, total = cert["local"], {}
-    for (wave, kind, lag), coefficient in form.items():
-        need(kind in ("value", "slope", "sum", "forcing") and type(lag) is int and lag >= 0, f"unknown operator {kind} at {lag}")
-        if kind == "forcing" and lag <= n:
-            later = add({(): {((s, 1),): 1}}, read_function(cert["period"]), {(): {(): Fraction(n - lag)}})
-            accumulate(total, put(coefficient, cert["time"], later))
-        past = () if kind == "forcing" else range(n - lag) if kind == "sum" else [n - lag] if lag <= n else []
-        for i in past:
-            piece = pieces[wave][i]
-            accumulate(total, slope(piece, s) if kind == "slope" else piece, coefficient)
-    return total
-
-
-def whole(form):
-    """Without what cancels; what is left is later by whole periods."""
-    left = {key: c for key, c in form.items() if not is_zero(c)}
-    need(all(lag == int(lag) and lag >= 0 for _, _, lag in left), "a delay is no multiple of the period")
-    return {(name, kind, int(lag)): c for (name, kind, lag), c in left.items()}
-
+from exact import MINUS, ONE, ROOTS, Wrong, accumulate, add, frozen, is_zero, key_of, less, need, number, number_at, on_period
+from exact import plus, power, put, rational, read, read_form, read_function, sign, sign_on, slope, times, whole
 
 # From the drawing of a line to its laws.
 
@@ -217,17 +169,19 @@ def statement(cert):
     return list(map(read_form, cert["equations"])), [(read_form(law), read(law["start"])) for law in cert["continuity"]]
 
 
-def check_pieces(cert):
-    """Every equation holds on every period; what is continuous is, and starts as stated; and nothing else does so."""
+def check_statement(cert):
+    """The laws, which are as many as waves and have one solution."""
     equations, continuity = statement(cert)
     need(not is_zero({(): read_function(cert["period"])}) and cert["local"] != cert["time"], "the period, or names of times")
-    pieces = {wave: [read(piece) for piece in all_] for wave, all_ in cert["pieces"].items()}
-    need(set(pieces) == set(cert["waves"]) and len(equations) == len(pieces), "waves and equations")
+    need(len(equations) == len(cert["waves"]) == len(set(cert["waves"])), "waves and equations")
     check_determined(equations, continuity, cert["waves"])
-    last = cert["through"] + 1
-    need(all(len(all_) == last for all_ in pieces.values()), "pieces are missing")
+    return equations, continuity
+
+
+def check_periods(cert, equations, continuity, pieces):
+    """Every equation holds on every period; what is continuous is, and starts as stated."""
     zero, end = {(): {(): 0}}, read_function(cert["period"])
-    for n in range(last):
+    for n in range(min(map(len, pieces.values()))):
         for i, equation in enumerate(equations):
             need(is_zero(on_period(equation, pieces, n, cert)), f"equation {i} on period {n}")
         for i, (form, start) in enumerate(continuity):
@@ -235,7 +189,145 @@ def check_pieces(cert):
             before = put(on_period(form, pieces, n - 1, cert), cert["local"], end) if n else start
             accumulate(begin, before, MINUS)
             need(is_zero(begin), f"continuity {i} at the start of period {n}")
+
+
+def check_pieces(cert):
+    """The pieces satisfy the laws, and nothing else does so."""
+    pieces = {wave: [read(piece) for piece in all_] for wave, all_ in cert["pieces"].items()}
+    need(set(pieces) == set(cert["waves"]), "waves and pieces")
+    need(all(len(all_) == cert["through"] + 1 for all_ in pieces.values()), "pieces are missing")
+    check_periods(cert, *check_statement(cert), pieces)
     return pieces
+
+
+# Formulas for every n: the first ones satisfy the laws, and from some n on all do, by one identity.
+
+
+def check_general(cert):
+    equations, continuity = check_statement(cert)
+    equations = list(map(without_sums, equations))
+    forms, laws_ = cert["general"], equations + [form for form, _ in continuity]
+    keys = [key for form in laws_ for key in form]
+    need(set(forms) == set(cert["waves"]) and '"#' not in json.dumps(cert), "waves, formulas, or names of symbols")
+    need(all(is_free(c, cert) for form in laws_ for (_, kind, _), c in form.items() if kind != "forcing"), "a coefficient")
+    latest = max(lag for _, _, lag in keys)
+    if all("rate" in own for own in forms.values()):
+        check_echoes(cert, equations, continuity, latest)
+    else:
+        check_sequences(cert, equations, continuity, latest)
+
+
+def without_sums(form):
+    """With sums over all earlier periods: less the same form one period before, which holds as well."""
+    if all(kind != "sum" for _, kind, _ in form):
+        return form
+    total = {}
+    for (wave, kind, lag), c in form.items():
+        parts = ({(wave, "value", lag + 1): c},) if kind == "sum" else ({(wave, kind, lag): c}, times(MINUS, {(wave, kind, lag + 1): c}))
+        total = plus(total, *parts)
+    return total
+
+
+def is_free(expression, cert):
+    return all(is_zero(slope(expression, cert[time])) for time in ("local", "time"))
+
+
+def check_sequences(cert, equations, continuity, latest):
+    """Waves that are constant on each period: sums of c n^j r^n. Each r^n is as good as a symbol of its own."""
+    need(not continuity and all(kind != "slope" for form in equations for _, kind, _ in form), "derivatives of sequences")
+    forms = {wave: [(read(c), j, read(ratio)) for c, j, ratio in own["terms"]] for wave, own in cert["general"].items()}
+    begins = latest + max(len(own["first"]) for own in cert["general"].values()) + 1
+
+    def value(wave, n):
+        first, total = cert["general"][wave]["first"], {}
+        if n < len(first):
+            return read(first[n])
+        for c, j, ratio in forms[wave]:
+            accumulate(total, c, power(ratio, n, {(): {(): {(): Fraction(n) ** j}}}))
+        return total
+
+    need(all(is_free(part, cert) for own in forms.values() for c, _, ratio in own for part in (c, ratio)), "a sequence")
+    pieces = {wave: [value(wave, n) for n in range(begins)] for wave in forms}
+    check_periods(cert, equations, continuity, pieces)
+    for i, equation in enumerate(equations):
+        sums = {}  # by ratios, times their powers n - latest
+        for (wave, kind, lag), coefficient in equation.items():
+            if kind == "forcing":
+                need(is_free(coefficient, cert), "a load that changes")
+                accumulate(sums.setdefault(key_of({(): ONE}), {}), coefficient)
+                continue
+            for c, j, ratio in forms[wave]:
+                before = {(): {(): {(("#n", 1),): 1, (): Fraction(-lag)}}}
+                factor = power(ratio, latest - lag, power(before, j, c))
+                accumulate(sums.setdefault(key_of(ratio), {}), coefficient, factor)
+        need(all(map(is_zero, sums.values())), f"equation {i} for every n")
+
+
+def check_echoes(cert, equations, continuity, latest):
+    """Waves are sums of echoes, w(t) = sum of e_k(t - k D), so laws hold for each delay k D; from some k on, with T_k Laguerre's
+    polynomials L_k(c x) or x^k/k!,  e_k(x) = r^k exp(-b x) (sum of c_i T_(k-i)(x)).  Laplace's transform of exp(-b x) T_k(x) is
+    v^k/u^(k+1) with u = p + b, and v = u - c or 1; that of a slope is p times that of the function, less its value at 0."""
+    s, forms, functions = cert["local"], cert["general"], {(): ONE}
+    begins = 2 + latest + max(max([len(own["first"])] + [i for i, _ in own["terms"]]) for own in forms.values())
+    some = next(iter(forms.values()))
+    same = ("rate", "ratio", "laguerre")
+    need(all([own[key] for key in same] == [some[key] for key in same] for own in forms.values()), "different echoes")
+    b, r = ({(): read_function(some[key])} for key in ("rate", "ratio"))
+    c = some["laguerre"] and {(): read_function(some["laguerre"])}
+    symbol = lambda name: {(): {(): {((name, 1),): 1}}}
+    terms = {wave: [(i, {(): read_function(own_c)}) for i, own_c in own["terms"]] for wave, own in forms.items()}
+    need(all(is_free(part, cert) for part in [b, r, c or b] + [c_ for own in terms.values() for _, c_ in own]), "an echo")
+
+    def basic(k):
+        """T_k(x)."""
+        need(k >= 0, "an echo before the first one")
+        if not c:
+            return power(symbol(s), k, {(): {(): {(): Fraction(1, math.factorial(k))}}})
+        total, minus = {}, accumulate({}, accumulate({}, c, MINUS), symbol(s))
+        for j in range(k + 1):
+            accumulate(total, power(minus, j, {(): {(): {(): Fraction(math.comb(k, j), math.factorial(j))}}}))
+        return total
+
+    def echo(wave, k):
+        if k < len(forms[wave]["first"]):
+            return read(forms[wave]["first"][k])
+        total = {}
+        for i, c_i in terms[wave]:
+            accumulate(total, basic(k - i), c_i)
+        decay = {frozen(accumulate({}, accumulate({}, b, MINUS), symbol(s))[()]): functions[()]}
+        return power(r, k, accumulate({}, total, decay))
+
+    def late(form, k):
+        """What a form has of the delay k D."""
+        total = {}
+        for (wave, kind, lag), coefficient in form.items():
+            if kind == "forcing" and lag == k:
+                accumulate(total, put(coefficient, cert["time"], symbol(s)[()]))
+            elif kind != "forcing" and lag <= k:
+                known = echo(wave, k - lag)
+                accumulate(total, slope(known, s) if kind == "slope" else known, coefficient)
+        return total
+
+    for k in range(begins):
+        need(all(is_zero(late(equation, k)) for equation in equations), f"an equation for echo {k}")
+        for form, start in continuity:
+            value = put(late(form, k), s, {(): {(): 0}})
+            need(is_zero(accumulate(value, {} if k else start, MINUS)), f"continuity of echo {k}")
+
+    p = symbol("#p")
+    u = accumulate(accumulate({}, p), b)
+    v = accumulate(accumulate({}, u), c, MINUS) if c else functions
+    orders = [lag + i for form in equations for wave, kind, lag in form if wave for i, _ in terms[wave]]
+    for form, kinds in [(equation, ("slope",)) for equation in equations] + [(form, ("value",)) for form, _ in continuity]:
+        transform, start = {}, {}  # over r^(k - latest) (v/u)^k and over r^(k - latest)
+        for (wave, kind, lag), coefficient in form.items():
+            for i, c_i in terms.get(wave, ()):
+                j, own = lag + i, power(r, latest - lag, accumulate({}, coefficient, c_i))
+                whole_ = power(v, max(orders) - j, power(u, j - min(orders), own))
+                accumulate(transform, whole_, p if kind == "slope" else functions)
+                accumulate(start, own if kind in kinds and c else {})
+        need(kinds == ("value",) or is_zero(transform), "an equation for all later echoes")
+        need(is_zero(start), "the values with which all later echoes begin")
 
 
 # What a quantity is between arrivals, and what follows.
@@ -247,12 +339,12 @@ def seen(cert, pieces, begin):
     need(begin >= 0, "the time is before the start")
     for wave, kind, delay, coefficient in cert["observed"]["waves"]:
         need(wave in pieces and kind in ("value", "slope"), f"unknown wave {wave} or operator {kind}")
-        n = (begin - Fraction(delay)) // period
-        end = min(filter(None, (end, Fraction(delay) + (max(n, -1) + 1) * period)))
+        n = (begin - rational(delay)) // period
+        end = min(filter(None, (end, rational(delay) + (max(n, -1) + 1) * period)))
         if n >= 0:
             need(n < len(pieces[wave]), "a period is missing")
             piece = slope(pieces[wave][n], cert["local"]) if kind == "slope" else pieces[wave][n]
-            local = add({(): {((t, 1),): 1}}, {(): {(): -Fraction(delay) - n * period}})
+            local = add({(): {((t, 1),): 1}}, {(): {(): -rational(delay) - n * period}})
             accumulate(total, put(piece, cert["local"], local), read(coefficient))
     return accumulate(total, read(cert["observed"]["forcing"])), end
 
@@ -261,9 +353,9 @@ def cells(cert, pieces, level):
     """Intervals without gaps from the first time of the window to the last, each with the quantity less a level and a
     derivative that has one sign there. That of order 0 is the quantity itself; with that of order 1, or of order k where
     those of orders 1 ... k - 1 are zero at one end, the quantity is strictly monotone; without one it is the level."""
-    t, time = cert["time"], Fraction(cert["from"])
+    t, time = cert["time"], rational(cert["from"])
     for begin, end, order in cert["cells"]:
-        begin, end = Fraction(begin), Fraction(end)
+        begin, end = rational(begin), rational(end)
         need(begin == time and begin < end, "the intervals have gaps")
         expression, next_ = seen(cert, pieces, begin)
         need(next_ is None or end <= next_, "a wave arrives within an interval")
@@ -280,19 +372,19 @@ def cells(cert, pieces, level):
             need(flat(begin) or flat(end), "the derivatives between do not vanish")
             yield begin, end, expression, order, sign_on(derivatives[-1], t, begin, end)
         time = end
-    need(time == Fraction(cert["to"]), "the intervals end early or late")
+    need(time == rational(cert["to"]), "the intervals end early or late")
 
 
 def decimal(cert):
     """A decimal, and half a unit of its last place."""
-    value, unit = Fraction(cert["value"]), Fraction(10) ** cert["last_place"]
+    value, unit = rational(cert["value"]), Fraction(10) ** cert["last_place"]
     need((value / unit).denominator == 1, "the decimal has more digits than it says")
     return value, unit / 2
 
 
 def check_value(cert):
     """The decimal is the value, correctly rounded."""
-    time, (claim, slack) = Fraction(cert["at"]), decimal(cert)
+    time, (claim, slack) = rational(cert["at"]), decimal(cert)
     expression, _ = seen(cert, check_pieces(cert), time)
     accumulate(expression, {(): {(): {(): slack - claim}}})
     need(sign(expression, cert["time"], time) >= 0, "the value is another one: smaller")
@@ -315,7 +407,7 @@ def check_roots(cert):
         for first, last in zeros:
             joins = found and found[-1][2] is None and found[-1][1] == first
             found.append((found.pop()[0] if joins else first, last, None))
-    claims = [tuple(map(Fraction, claim)) for claim in cert["zeros"]]
+    claims = [tuple(map(rational, claim)) for claim in cert["zeros"]]
     need(len(claims) == len(found), f"{len(found)} zeros instead of {len(claims)}")
     need(all(a[1] < b[0] for a, b in zip(claims, claims[1:])), "two zeros are in one place")
     for (low, high), (begin, end, expression) in zip(claims, found):
@@ -336,15 +428,15 @@ def check_extremum(cert):
         need(all(sign_ * way <= 0 for sign_ in signs), f"a value between {begin} and {end} is beyond the extremum")
         if i == place:
             accumulate(expression, {(): {(): {(): 2 * way * slack}}})
-            is_taken = begin <= Fraction(time) <= end and sign(expression, t, Fraction(time)) * way >= 0
+            is_taken = begin <= rational(time) <= end and sign(expression, t, rational(time)) * way >= 0
     need(is_taken, "the extremum is not taken where it is said")
 
 
 def check(cert):
-    need(cert.get("wavestep_certificate") == 1, "a certificate of another version")
+    need(cert["wavestep_certificate"] == 1, "a certificate of another version")
     ROOTS.clear()
-    ROOTS.update({symbol: Fraction(square) for symbol, square in cert["roots"].items()})
-    kinds = {"pieces": check_pieces, "value": check_value, "roots": check_roots, "extremum": check_extremum}
+    ROOTS.update({symbol: rational(square) for symbol, square in cert["roots"].items()})
+    kinds = {"pieces": check_pieces, "general": check_general, "value": check_value, "roots": check_roots, "extremum": check_extremum}
     need(cert["kind"] in kinds, f"unknown kind {cert['kind']}")
     kinds[cert["kind"]](cert)
 

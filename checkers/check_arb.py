@@ -6,6 +6,7 @@ signs between arrivals are shown by Taylor series in balls with Lagrange's remai
 
 import json
 import random
+import re
 import sys
 from fractions import Fraction
 
@@ -23,7 +24,8 @@ def need(claim, told):
 
 
 def rational(text):
-    need(isinstance(text, str), "a number is no text")
+    """A fraction or a decimal, without an exponent that would fill the memory."""
+    need(re.fullmatch(r"-?[0-9]+(/[0-9]+|(\.[0-9]+)?(e-?[0-9]{1,4})?)", text), f"{text[:40]} is no number")
     value = Fraction(text)
     return fmpq(value.numerator, value.denominator)
 
@@ -35,7 +37,8 @@ class Ring:
     """The polynomials in all symbols of a certificate, where squares of roots are numbers."""
 
     def __init__(self, cert):
-        names = {cert["local"], cert["time"], *cert["roots"]}
+        need('"#' not in json.dumps(cert), "a name of ours")
+        names = {cert["local"], cert["time"], *cert["roots"], "#n", "#p", "#r"}
 
         def collect(node):
             if isinstance(node, dict):
@@ -43,7 +46,7 @@ class Ring:
             for child in node.values() if isinstance(node, dict) else node if isinstance(node, list) else ():
                 collect(child)
 
-        collect([cert[key] for key in ("period", "line", "equations", "continuity", "pieces", "observed") if key in cert])
+        collect([cert[key] for key in ("period", "line", "equations", "continuity", "pieces", "general", "observed") if key in cert])
         self.names = sorted(names)
         self.context = fmpq_mpoly_ctx.get(self.names, "lex")
         self.symbols = dict(zip(self.names, self.context.gens()))
@@ -169,6 +172,18 @@ class Sum:
 
 def constant(ring, value):
     return Sum.of(ring.number(0), ring.number(value))
+
+
+def inverse(quotient):
+    need(quotient.top != 0, "a divisor is zero")
+    return Quotient(quotient.ring, quotient.below, quotient.top)
+
+
+def power(base, exponent, total):
+    """Times a power, which may be negative where the base is a quotient."""
+    for _ in range(abs(exponent)):
+        total = total * (base if exponent > 0 else inverse(base))
+    return total
 
 
 # What laws are evaluated for: the waves on a period, or one wave at a time.
@@ -433,12 +448,16 @@ class Claim:
         self.cert, self.ring = cert, Ring(cert)
         self.local, self.time, self.period = cert["local"], cert["time"], self.ring.quotient(cert["period"])
         need(self.local != self.time and self.period.top != 0, "names of times, or the period")
-        self.pieces = {wave: list(map(self.ring.sum, all_)) for wave, all_ in cert["pieces"].items()}
-        self.slopes = {wave: [piece.slope(self.local) for piece in all_] for wave, all_ in self.pieces.items()}
+        self.set_pieces({wave: list(map(self.ring.sum, all_)) for wave, all_ in cert.get("pieces", {}).items()})
         self.laws = Line(cert, self) if "line" in cert else Stated(cert, self.ring)
-        self.count = cert["through"] + 1
-        need(set(self.pieces) == set(cert["waves"]) and len(cert["waves"]) == len(self.pieces), "names of waves")
+        self.count = cert["through"] + 1 if "pieces" in cert else 0
+        claimed = cert["pieces" if "pieces" in cert else "general"]
+        need(set(claimed) == set(cert["waves"]) and len(cert["waves"]) == len(claimed), "names of waves")
         need(all(len(all_) == self.count for all_ in self.pieces.values()), "pieces are missing")
+
+    def set_pieces(self, pieces):
+        self.pieces = pieces
+        self.slopes = {wave: [piece.slope(self.local) for piece in all_] for wave, all_ in pieces.items()}
 
     def check(self):
         need(all(total.is_zero() for total in self.between()), "something begins within a period")
@@ -578,6 +597,249 @@ class Numbers:
         raise Wrong(f"no sign is seen between {begin} and {end}")
 
 
+# Formulas for every n.
+
+
+class Later:
+    """The same one period later."""
+
+    def __init__(self, world):
+        self.world = world
+        self.rates = Later(world.rates) if world.rates is not None else None
+
+    def wave(self, name, lag):
+        return self.world.wave(name, lag + 1)
+
+    def forcing(self, function, lag):
+        return self.world.forcing(function, lag + 1)
+
+    def sum(self, name, lag):
+        return Sum({})
+
+
+class Sums:
+    """What a sum over earlier periods has of the last of these."""
+
+    def __init__(self, world):
+        self.world, self.rates = world, None
+
+    def sum(self, name, lag):
+        return self.world.wave(name, lag + 1)
+
+    def wave(self, name, lag):
+        return Sum({})
+
+    forcing = wave
+
+
+def differences(laws, world):
+    """Laws less the same one period before: sums over earlier periods are gone."""
+    three = zip(laws.zeros(world), laws.zeros(Later(world)), laws.zeros(Sums(world)), strict=True)
+    return [now - before + sums for now, before, sums in three]
+
+
+class Counting:
+    """A world that only notes the largest delay."""
+
+    def __init__(self):
+        self.latest, self.rates = 0, self
+
+    def wave(self, name, lag):
+        need(lag == int(lag) and lag >= 0, "a wave returns before it left, or between two periods")
+        return self.forcing(name, lag)
+
+    def forcing(self, _, lag):
+        self.latest = max(self.latest, int(lag) + 1)
+        return Sum({})
+
+    sum = wave
+
+
+def latest_of(laws):
+    world = Counting()
+    laws.continuous(world), laws.zeros(world)
+    return world.latest
+
+
+class Echoes:
+    """Waves as sums of echoes, e_k(t - k D): what laws hold for the delay k D, with rational or symbolic k."""
+
+    def __init__(self, claim, forms):
+        self.claim, self.ring = claim, claim.ring
+        some = next(iter(forms.values()))
+        for key in ("rate", "ratio", "laguerre"):
+            need(all(own[key] == some[key] for own in forms.values()), "different echoes")
+        self.b, self.r = self.ring.quotient(some["rate"]), self.ring.quotient(some["ratio"])
+        self.c = self.ring.quotient(some["laguerre"]) if some["laguerre"] else None
+        self.first = {wave: list(map(self.ring.sum, own["first"])) for wave, own in forms.items()}
+        self.terms = {wave: [(i, self.ring.quotient(c)) for i, c in own["terms"]] for wave, own in forms.items()}
+        numbers = [c for own in self.terms.values() for _, c in own] + [self.b, self.r] + [self.c] * (self.c is not None)
+        need(all(is_free(Sum.of(self.ring.number(0), number), claim) for number in numbers), "a number depends on time")
+        self.minus = self.ring.number(-1)
+        self.x = Quotient(self.ring, self.ring.symbols[claim.local], self.ring.one)
+        self.known = {}
+
+    def basic(self, m):
+        """L_m(c x) by its recurrence, or x^m/m!."""
+        need(m >= 0, "an echo before the first one")
+        one = self.ring.number(1)
+        before, now = self.ring.number(0), one
+        for k in range(m):
+            if self.c is None:
+                now = now * self.x * self.ring.number(fmpq(1, k + 1))
+            else:
+                factor = self.ring.number(2 * k + 1) + self.minus * self.c * self.x
+                following = factor * now + self.ring.number(-k) * before
+                before, now = now, following * self.ring.number(fmpq(1, k + 1))
+        return now
+
+    def echo(self, wave, k):
+        if k < len(self.first[wave]):
+            return self.first[wave][k]
+        if (wave, k) not in self.known:
+            total = self.ring.number(0)
+            for i, c in self.terms[wave]:
+                total = total + c * self.basic(k - i)
+            self.known[wave, k] = Sum.of(self.minus * self.b * self.x, power(self.r, k, total))
+        return self.known[wave, k]
+
+    def late(self, wave, lag, slopes):
+        """The transform of e_(k - lag) or of its slope over that of T_k, both without r^k, and the value of e_(k - lag) at 0."""
+        p = Quotient(self.ring, self.ring.symbols["#p"], self.ring.one)
+        u = p + self.b
+        v = u + self.minus * self.c if self.c is not None else self.ring.number(1)
+        total, start = self.ring.number(0), self.ring.number(0)
+        for i, c in self.terms[wave]:
+            own = power(self.r, -lag, c)
+            total = total + power(u, lag + i, power(v, -lag - i, own))
+            start = start + own
+        return (p * total if slopes else total), start if self.c is not None else self.ring.number(0)
+
+
+class Delay:
+    """What waves, or their slopes, have of one delay k D."""
+
+    def __init__(self, echoes, k, slopes=False):
+        self.echoes, self.k, self.slopes = echoes, k, slopes
+        self.rates = None if slopes else Delay(echoes, k, True)
+
+    def wave(self, name, lag):
+        need(lag == int(lag) and lag >= 0, "a wave returns before it left, or between two periods")
+        if lag > self.k:
+            return Sum({})
+        echo = self.echoes.echo(name, self.k - int(lag))
+        return echo.slope(self.echoes.claim.local) if self.slopes else echo
+
+    def forcing(self, function, lag):
+        if lag != self.k:
+            return Sum({})
+        time = self.echoes.claim.time
+        return (function.slope(time) if self.slopes else function).put(time, self.echoes.x)
+
+    def sum(self, name, lag):
+        return Sum({})
+
+
+class Transform:
+    """All late echoes at once: their transforms, or (of slopes) what these lack, the values at 0."""
+
+    def __init__(self, echoes, starts, slopes=False):
+        self.echoes, self.starts, self.slopes = echoes, starts, slopes
+        self.rates = None if slopes else Transform(echoes, starts, True)
+
+    def wave(self, name, lag):
+        transform, start = self.echoes.late(name, int(lag), self.slopes)
+        kept = self.slopes if self.starts == "slopes" else not self.slopes
+        start = start if kept else self.echoes.ring.number(0)
+        return Sum.of(self.echoes.ring.number(0), transform if self.starts is None else start)
+
+    def forcing(self, function, lag):
+        return Sum({})
+
+    sum = forcing
+
+
+def is_free(total, claim):
+    return total.slope(claim.local).is_zero() and total.slope(claim.time).is_zero()
+
+
+def check_general(cert, claim):
+    forms = cert["general"]
+    if isinstance(claim.laws, Stated):
+        for waves, _ in claim.laws.equations + [form for form, _ in claim.laws.continuity]:
+            need(all(is_free(c, claim) for *_, c in waves), "a coefficient depends on time")
+    begins = latest_of(claim.laws) + 2 + max(len(own["first"]) for own in forms.values())
+    if not all("rate" in own for own in forms.values()):
+        return check_sequences(claim, forms, begins)
+    echoes = Echoes(claim, forms)
+    begins += max([0] + [i for own in echoes.terms.values() for i, _ in own])
+    starts, zero = claim.laws.starts(), claim.ring.number(0)
+    for k in range(begins):
+        world = Delay(echoes, k)
+        need(all(total.is_zero() for total in differences(claim.laws, world)), f"a law for echo {k}")
+        for form, start in zip(claim.laws.continuous(world), starts, strict=True):
+            begin = form.put(claim.local, zero)
+            need((begin if k else begin - start).is_zero(), f"continuity of echo {k}")
+    for starts in (None, "slopes"):
+        need(all(total.is_zero() for total in differences(claim.laws, Transform(echoes, starts))), "a law for all later echoes")
+    begin = claim.laws.continuous(Transform(echoes, "values"))
+    need(all(total.is_zero() for total in begin), "the values with which all later echoes begin")
+
+
+class Sequence:
+    """Waves that are sums of c n^j r^n, with a power of `#r` in place of each r^n."""
+
+    def __init__(self, claim, forms):
+        self.claim, self.ring, self.tags, self.rates = claim, claim.ring, {}, None
+        read = self.ring.sum
+        self.first = {wave: list(map(read, own["first"])) for wave, own in forms.items()}
+        self.terms = {wave: [(read(c), j, read(r)) for c, j, r in own["terms"]] for wave, own in forms.items()}
+        need(all(is_free(part, claim) for own in self.terms.values() for c, _, r in own for part in (c, r)), "a sequence")
+        need(all(type(j) is int and j >= 0 for own in self.terms.values() for _, j, _ in own), "a power")
+        self.latest = latest_of(claim.laws) + 1
+
+    def at(self, wave, n):
+        if n < len(self.first[wave]):
+            return self.first[wave][n]
+        total = Sum({})
+        for c, j, ratio in self.terms[wave]:
+            total = total + power(ratio, n, c * constant(self.ring, fmpq(n) ** j))
+        return total
+
+    def tag(self, ratio):
+        key = tuple(sorted((x, r.key()) for x, (_, r) in ratio.parts.items()))
+        tag = self.ring.symbols["#r"] ** self.tags.setdefault(key, len(self.tags))
+        return Sum.of(self.ring.number(0), Quotient(self.ring, tag, self.ring.one))
+
+    def wave(self, name, lag):
+        n = Sum.of(self.ring.number(0), Quotient(self.ring, self.ring.symbols["#n"] - int(lag), self.ring.one))
+        total = Sum({})
+        for c, j, ratio in self.terms[name]:
+            total = total + self.tag(ratio) * power(ratio, self.latest - int(lag), power(n, j, c))
+        return total
+
+    def forcing(self, function, lag):
+        need(is_free(function, self.claim), "a load that changes")
+        return self.tag(constant(self.ring, 1)) * function
+
+    def sum(self, name, lag):
+        return Sum({})
+
+
+def check_sequences(claim, forms, begins):
+    world = Sequence(claim, forms)
+    claim.set_pieces({wave: [world.at(wave, n) for n in range(begins)] for wave in forms})
+    claim.count = begins
+    need(not claim.laws.starts(), "sequences start nowhere")
+    units = [claim.laws.zeros(Unit(claim.ring, wave, True)) for wave in forms]
+    need(all(total.is_zero() for unit in units for total in unit), "derivatives of sequences")
+    claim.check()
+    need(all(total.is_zero() for total in differences(claim.laws, world)), "a law for every n")
+
+
+# Claims about a window.
+
+
 def cells(cert, claim, level):
     """The intervals of the window: the quantity less a level there, what order has one sign, and which."""
     time = rational(cert["from"])
@@ -659,7 +921,7 @@ def check_extremum(cert, claim):
 
 def check(cert):
     need(cert.get("wavestep_certificate") == 1, "a certificate of another version")
-    kinds = {"pieces": lambda *_: None, "value": check_value, "roots": check_roots, "extremum": check_extremum}
+    kinds = {"pieces": lambda *_: None, "general": check_general, "value": check_value, "roots": check_roots, "extremum": check_extremum}
     need(cert["kind"] in kinds, f"unknown kind {cert['kind']}")
     claim = Claim(cert)
     claim.check()

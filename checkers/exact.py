@@ -7,6 +7,7 @@ rational function, to rational functions R: the sum of all R exp(X).
 
 import math
 import random
+import re
 from fractions import Fraction
 
 ROOTS = {}  # symbols that stand for square roots, with what is below these
@@ -130,13 +131,19 @@ def put(expression, s, value):
     return result
 
 
+def rational(text):
+    """A fraction or a decimal, without an exponent that would fill the memory."""
+    need(re.fullmatch(r"-?[0-9]+(/[0-9]+|(\.[0-9]+)?(e-?[0-9]{1,4})?)", text), f"{text[:40]} is no number")
+    return Fraction(text)
+
+
 def read_polynomial(terms):
     polynomial = {}
     for coefficient, powers in terms:
         need(all(type(p) is int and p > 0 for p in powers.values()), "a power is no positive integer")
         monomial = tuple(sorted(powers.items()))
-        need(monomial not in polynomial and Fraction(coefficient), "a term stands twice, or is zero")
-        polynomial[monomial] = Fraction(coefficient)
+        need(monomial not in polynomial and rational(coefficient), "a term stands twice, or is zero")
+        polynomial[monomial] = rational(coefficient)
     return polynomial
 
 
@@ -171,6 +178,69 @@ def number_at(expression, values):
     return total
 
 
+def power(base, exponent, total):
+    """An expression to a power, times another one."""
+    need(type(exponent) is int and exponent >= 0, "a power is negative")
+    for _ in range(exponent):
+        total = accumulate({}, total, base)
+    return total
+
+
+def key_of(expression):
+    """An expression as a key."""
+    return tuple(sorted((x, frozen(function)) for x, function in expression.items()))
+
+
+# Linear forms in the waves: dicts from (wave, operator, lag) to coefficients; forcing has no wave and a function instead.
+
+
+def read_form(rows):
+    parts = [((wave, kind, lag), c) for wave, kind, lag, c in rows["waves"]]
+    total = {}
+    for key, rows_ in parts + [((None, "forcing", lag), function) for lag, function in rows["forcing"]]:
+        need(key[0] is None or key[1] in ("value", "slope", "sum"), f"unknown operator {key[1]}")
+        need(type(key[2]) is int and key[2] >= 0, "a lag is no number of periods")
+        accumulate(total.setdefault(key, {}), read(rows_))
+    return total
+
+
+def plus(*forms):
+    total = {}
+    for form in forms:
+        for key, coefficient in form.items():
+            accumulate(total.setdefault(key, {}), coefficient)
+    return total
+
+
+def times(factor, form):
+    return {key: accumulate({}, coefficient, factor) for key, coefficient in form.items()}
+
+
+def less(a, b):
+    return plus(a, times(MINUS, b))
+
+
+def on_period(form, pieces, n, cert):
+    """The value on the n-th period, in local time; waves are zero before the first one."""
+    s, total = cert["local"], {}
+    for (wave, kind, lag), coefficient in form.items():
+        if kind == "forcing" and lag <= n:
+            later = add({(): {((s, 1),): 1}}, read_function(cert["period"]), {(): {(): Fraction(n - lag)}})
+            accumulate(total, put(coefficient, cert["time"], later))
+        past = () if kind == "forcing" else range(n - lag) if kind == "sum" else [n - lag] if lag <= n else []
+        for i in past:
+            piece = pieces[wave][i]
+            accumulate(total, slope(piece, s) if kind == "slope" else piece, coefficient)
+    return total
+
+
+def whole(form):
+    """Without what cancels; what is left is later by whole periods."""
+    left = {key: c for key, c in form.items() if not is_zero(c)}
+    need(all(lag == int(lag) and lag >= 0 for _, _, lag in left), "a delay is no multiple of the period")
+    return {(name, kind, int(lag)): c for (name, kind, lag), c in left.items()}
+
+
 # Values: sums of polynomials times exponentials of the time, with rational numbers.
 
 
@@ -193,6 +263,7 @@ def coefficients(function, t):
 
 def exponential(x, bits):
     """Two rationals with e^x between them: the Taylor sum of x/2^k, squared k times."""
+    need(abs(x) < 1 << 20, "an exponent is too large")
     unit, halvings = Fraction(1, 1 << bits), max(0, abs(x).__ceil__().bit_length() + 1)
     y = x / (1 << halvings)
     total = term = Fraction(1)
@@ -228,6 +299,7 @@ def taylor(exponent, function, t, m, h, bits):
     constant, rate = (coefficients(exponent, t) + [Fraction(0)])[:2]
     need(len(coefficients(exponent, t)) <= 2, "an exponent is not linear in the time")
     powers, x = coefficients(function, t), rate * h
+    need(abs(x) < 4096, "an interval is too long")
     series, following = [Fraction(1)], abs(x)
     while following > Fraction(1, 1 << bits) or 2 * abs(x) > len(series) + 1:  # then what follows is halved each time
         series.append(series[-1] * x / len(series))

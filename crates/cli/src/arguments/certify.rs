@@ -6,10 +6,11 @@ use clap::{ArgGroup, Args};
 #[derive(Args)]
 #[command(group = ArgGroup::new("goal").args(["max", "min", "zero"]), after_help = "Examples:\n  \
     wavestep certify rigid-mass --through 8 -o rigid-mass.json\n  \
+    wavestep certify rigid-mass --general -o general.json\n  \
     wavestep certify rigid-mass --set mu=1/4 --quantity velocity --at 33/10 --digits 30 -o value.json\n  \
     wavestep certify rigid-mass --set mu=1 --zero strain_impact --from 2 --to 4 -o roots.json\n  \
     wavestep certify mass-on-fixed-bar --set mu=1/4 --max strain_fixed --to 6 -o largest.json\n  \
-    python3 checkers/check.py rigid-mass.json value.json roots.json largest.json\n\n\
+    python3 checkers/check.py rigid-mass.json general.json value.json roots.json largest.json\n\n\
 A certificate holds what is claimed with all that a reader needs to verify it, without this program.")]
 pub struct Certify {
     #[command(flatten)]
@@ -17,6 +18,9 @@ pub struct Certify {
     /// Certify the pieces of all waves on the periods 0 … N [default: 3, or as far as --at needs]
     #[arg(long, value_name = "N", conflicts_with_all = ["at", "goal"])]
     pub through: Option<usize>,
+    /// Certify a formula for every n of all waves
+    #[arg(long, conflicts_with_all = ["through", "at", "goal", "digits"])]
+    pub general: bool,
     /// Certify the value of this wave or observable
     #[arg(long, value_name = "NAME", requires = "at", conflicts_with = "goal")]
     pub quantity: Option<String>,

@@ -15,8 +15,8 @@ use wavestep::ball::Decimal;
 use wavestep::expression::{Constant, Definition};
 use wavestep::limits::VALUE_BITS;
 use wavestep::planner::has_periods;
-use wavestep::problem::{Derived, Digits, Form, Orders, Problem, ToDerive, Wanted};
-use wavestep::recurrence::{LinearForm, Observation, Recurrence, Statement};
+use wavestep::problem::{Derived, Digits, Form, Orders, Problem, Symbols, ToDerive, Wanted};
+use wavestep::recurrence::Observation;
 use wavestep::signal::{Goal, Limit, Value};
 use writer::Writer;
 
@@ -39,11 +39,8 @@ pub fn run(options: &Certify) -> Result<String, Failure> {
             let window = problem.window(("--from", &options.from), ("--to", to))?;
             window::certificate(&problem, name.trim(), goal, &window, options.digits)?
         }
-        _ => {
-            let (mut document, _) = pieces(&problem, options.through.unwrap_or(LAST))?;
-            document.insert("kind".into(), json!("pieces"));
-            document
-        }
+        _ if options.general => general(&problem)?,
+        _ => pieces(&problem, options.through.unwrap_or(LAST))?.0,
     };
     Ok(format!("{}\n", Json::Object(document)))
 }
@@ -58,8 +55,8 @@ fn goal(options: &Certify) -> Option<(Option<Goal>, &str)> {
     goals.into_iter().find_map(|(goal, name)| Some((goal, name.as_deref()?)))
 }
 
-/// What the scene states and the pieces of all waves through a period, and the square roots among the symbols.
-fn pieces(problem: &Problem, last: usize) -> Result<(Map<String, Json>, Writer), Failure> {
+/// What the scene states: its line, or its equations.
+fn stated(problem: &Problem, writer: &mut Writer) -> Result<Map<String, Json>, Failure> {
     let recurrence = problem.recurrence()?;
     let statement = recurrence.statement();
     // A square root with a name may be any number: formulas hold it as a symbol.
@@ -74,62 +71,65 @@ fn pieces(problem: &Problem, last: usize) -> Result<(Map<String, Json>, Writer),
             "certificates are written where all rates have formulas",
         ));
     }
-    let progress = progress::spinner("deriving");
-    let derived = problem.functions(ToDerive::Waves, Orders::Through(0, last), Form::Period)?;
-    drop(progress);
-    let Derived::Functions(all) = derived else { unreachable!("waves with periods have pieces") };
-    let mut writer = Writer::default();
-    // Integrals of waves, which displacements are made of, follow from the others.
-    let is_shown = |wave: usize| all.iter().any(|own| own.name == recurrence.wave_name(wave));
-    let is_told = |form: &&LinearForm| form.operators().all(|(wave, _)| is_shown(wave));
-    let functions: Map<String, Json> = all
-        .iter()
-        .map(|own| {
-            (
-                own.name.clone(),
-                own.expressions.iter().map(|piece| writer.expression(piece)).collect(),
-            )
-        })
-        .collect();
     let mut document = Map::new();
-    document.insert("wavestep_certificate".into(), json!(VERSION));
-    document.insert("through".into(), json!(last));
-    document.insert("constants".into(), json!(problem.constants(None)?));
-    document.insert("title".into(), json!(problem.title()));
-    document.insert("waves".into(), json!(all.iter().map(|own| &own.name).collect::<Vec<_>>()));
-    document.insert("local".into(), json!(statement.local.name()));
-    document.insert("time".into(), json!(statement.time.name()));
-    document.insert("period".into(), writer.function(&statement.period));
-    match problem.network() {
-        Ok(network) => {
-            document.insert("line".into(), drawing::line(network, &mut writer));
-        }
-        Err(_) => document.extend(stated(recurrence, statement, &is_told, &mut writer)),
+    let mut insert = |key: &str, value: Json| document.insert(key.into(), value);
+    insert("wavestep_certificate", json!(VERSION));
+    insert("constants", json!(problem.constants(None)?));
+    insert("title", json!(problem.title()));
+    insert("waves", json!(problem.waves()));
+    insert("local", json!(statement.local.name()));
+    insert("time", json!(statement.time.name()));
+    insert("period", writer.function(&statement.period));
+    if let Ok(network) = problem.network() {
+        insert("line", drawing::line(network, writer));
+        return Ok(document);
     }
-    document.insert("pieces".into(), Json::Object(functions));
-    document.insert("roots".into(), writer.told_roots());
-    Ok((document, writer))
-}
-
-/// The equations of a scene that states its recurrence.
-fn stated(
-    recurrence: &Recurrence,
-    statement: &Statement,
-    is_told: &dyn Fn(&&LinearForm) -> bool,
-    writer: &mut Writer,
-) -> Map<String, Json> {
-    let equations = statement.equations.iter().filter(is_told);
-    let equations: Vec<Json> = equations.map(|form| writer.form(recurrence, form)).collect();
-    let continuity = statement.continuity.iter().filter(|law| is_told(&&law.form));
-    let continuity = continuity.map(|law| {
+    let equations = statement.equations.iter().map(|form| writer.form(recurrence, form));
+    insert("equations", equations.collect());
+    let continuity = statement.continuity.iter().map(|law| {
         let mut form = writer.form(recurrence, &law.form);
         form["start"] = writer.expression(&law.start);
         form
     });
-    let continuity: Vec<Json> = continuity.collect();
-    [("equations".into(), json!(equations)), ("continuity".into(), json!(continuity))]
-        .into_iter()
-        .collect()
+    insert("continuity", continuity.collect());
+    Ok(document)
+}
+
+/// The pieces of all waves through a period; the writer has met the square roots among the symbols.
+fn pieces(problem: &Problem, last: usize) -> Result<(Map<String, Json>, Writer), Failure> {
+    let mut writer = Writer::default();
+    let mut document = stated(problem, &mut writer)?;
+    let progress = progress::spinner("deriving");
+    let derived = problem.functions(ToDerive::Waves, Orders::Through(0, last), Form::Period)?;
+    drop(progress);
+    let Derived::Functions(all) = derived else { unreachable!("waves with periods have pieces") };
+    let written = all.into_iter().map(|own| {
+        let pieces = own.expressions.iter().map(|piece| writer.expression(piece));
+        (own.name, pieces.collect())
+    });
+    let written: Map<String, Json> = written.collect();
+    document.insert("kind".into(), json!("pieces"));
+    document.insert("through".into(), json!(last));
+    document.insert("pieces".into(), Json::Object(written));
+    document.insert("roots".into(), writer.told_roots());
+    Ok((document, writer))
+}
+
+/// The forms of all waves for every period.
+fn general(problem: &Problem) -> Result<Map<String, Json>, Failure> {
+    // Where there is none, it is told why.
+    problem.general_formulas(ToDerive::Waves, Symbols::Own)?;
+    let mut writer = Writer::default();
+    let mut document = stated(problem, &mut writer)?;
+    let (solution, mut forms) = (problem.solution()?, Map::new());
+    for (wave, name) in problem.waves().into_iter().enumerate() {
+        let form = solution.general(wave).expect("it has a formula");
+        forms.insert(name.into(), writer.general(form));
+    }
+    document.insert("kind".into(), json!("general"));
+    document.insert("general".into(), Json::Object(forms));
+    document.insert("roots".into(), writer.told_roots());
+    Ok(document)
 }
 
 /// A value, with the pieces that it is made of.

@@ -5,6 +5,7 @@ use serde_json::{Map, Value as Json, json};
 use std::collections::BTreeSet;
 use wavestep::expression::{Expression, Fraction};
 use wavestep::recurrence::{LinearForm, Recurrence};
+use wavestep::solution::{Family, GeneralForm};
 use wavestep_polynomial::{Polynomial, Symbol};
 
 /// Writes expressions as lists, and keeps the square roots that it met.
@@ -67,6 +68,38 @@ impl Writer {
             .map(|(lag, function)| json!([lag, self.expression(function)]))
             .collect();
         json!({ "waves": waves, "forcing": forcing })
+    }
+
+    /// `{"first": […], "terms": …}`: `Σ c n^j λ^n` as `[[c, j, λ], …]`, or echoes `ρ^k e^(-b x) Σ c T_(k - i)(x)` with their
+    /// family and numbers and `[[i, c], …]`.
+    pub fn general(&mut self, form: &GeneralForm) -> Json {
+        match form {
+            GeneralForm::Geometric(form) => {
+                let first: Vec<Json> = form.first.iter().map(|own| self.expression(own)).collect();
+                let terms = form.terms.iter().map(|term| {
+                    json!([
+                        self.expression(&term.coefficient),
+                        term.power,
+                        self.expression(&term.ratio)
+                    ])
+                });
+                let terms: Vec<Json> = terms.collect();
+                json!({ "first": first, "terms": terms })
+            }
+            GeneralForm::Echoes(form) => {
+                let first: Vec<Json> = form.first.iter().map(|own| self.expression(own)).collect();
+                let terms = form.terms.iter().map(|(lag, c)| json!([lag, self.function(c)]));
+                let terms: Vec<Json> = terms.collect();
+                let c = match &form.family {
+                    Family::Laguerre(c) => Some(self.function(c)),
+                    Family::Power => None,
+                };
+                json!({
+                    "first": first, "terms": terms, "laguerre": c,
+                    "rate": self.function(&form.rate), "ratio": self.function(&form.ratio),
+                })
+            }
+        }
     }
 
     /// What is below each root.

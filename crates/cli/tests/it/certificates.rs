@@ -36,6 +36,22 @@ const WINDOWS: [&str; 8] = [
     "two-bars --set r=1/2 --min force --to 9",
 ];
 
+/// Scenes with formulas for every n: sequences, Laguerre polynomials, sums over earlier periods.
+const GENERAL: [&str; 12] = [
+    "bars-of-equal-length",
+    "bars-that-part",
+    "constant-force",
+    "mass-on-fixed-bar",
+    "mass-on-free-bar",
+    "pulse-shape",
+    "pushed-bar",
+    "rigid-mass",
+    "saint-venant",
+    "striker-on-long-bar",
+    "struck-free-bar",
+    "two-bars",
+];
+
 /// The mass ratios of Saint-Venant's problem.
 const RATIOS: [&str; 6] = ["1/10", "1/4", "1", "3/2", "3", "10"];
 
@@ -93,8 +109,9 @@ fn certify(folder: &Path, line: &str, file: &str) {
 fn certificates(folder: &Path) -> Vec<String> {
     let pieces = certified().map(|scene| format!("{scene} --through 4"));
     let ratios = RATIOS.map(|ratio| format!("saint-venant --set mu={ratio} --through 6"));
+    let general = GENERAL.map(|scene| format!("{scene} --general"));
     let asked = VALUES.into_iter().chain(WINDOWS).map(str::to_owned);
-    let lines = pieces.chain(ratios).chain(asked).enumerate();
+    let lines = pieces.chain(ratios).chain(general).chain(asked).enumerate();
     let written = lines.map(|(i, line)| {
         let file = format!("{i}.json");
         certify(folder, &line, &file);
@@ -194,9 +211,11 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let pieces = ask("rigid-mass --through 2");
     let line = ask("hopkinson --through 2");
     let value = ask(VALUES[0]);
+    let general = ask("saint-venant --general");
+    let sequences = ask("two-bars --general");
     let (roots, largest) = (ask(WINDOWS[0]), ask(WINDOWS[4]));
     type Change = fn(&mut serde_json::Value);
-    let cases: [(&serde_json::Value, Change, &str); 19] = [
+    let cases: [(&serde_json::Value, Change, &str); 23] = [
         (&pieces, |own| own["pieces"]["f"][2][0][1][0][0][0][0] = "7".into(), "period 2"),
         (&pieces, |own| own["continuity"][0]["start"] = serde_json::json!([]), "continuity 0"),
         (&pieces, |own| own["continuity"] = serde_json::json!([]), "leaves values open"),
@@ -207,6 +226,14 @@ fn wrong_claims_are_told_by_what_is_wrong() {
         (&line, |own| own["line"][2]["travel"] = own["period"].clone(), "no multiple"),
         (&line, |own| own["line"][0]["is"] = "fixed".into(), "no multiple"),
         (&line, |own| own["line"][1]["right"] = serde_json::json!(null), "lacks a wave"),
+        (&general, |own| own["general"]["f"]["rate"] = own["period"].clone(), "different echoes"),
+        (
+            &general,
+            |own| own["general"]["g"]["terms"][0][1] = own["period"].clone(),
+            "an equation for echo 1",
+        ),
+        (&general, |own| own["line"][1]["mass"] = own["period"].clone(), "echo"),
+        (&sequences, |own| own["general"]["f"]["terms"][1][1] = 1.into(), "equation"),
         (&value, |own| own["value"] = "0.3".into(), "another one"),
         (&value, |own| own["at"] = "34/10".into(), "another one"),
         (&value, |own| own["last_place"] = (-3).into(), "more digits than it says"),
@@ -247,6 +274,7 @@ fn what_has_no_certificate_is_told() {
         ("certify saint-venant --set mu=1 --quantity velocity --at 5", "where contacts open"),
         ("certify hopkinson --quantity force --at 1ms", "with units"),
         ("certify rigid-mass --quantity f --at 1", "mu"),
+        ("certify pile --general", "no closed form in n"),
         ("certify rigid-mass --at 1", "--quantity"),
         ("certify rigid-mass --zero velocity", "--to"),
         ("certify pile --max toe_force --to 10", "square roots"),
