@@ -203,7 +203,7 @@ impl<'a> Cover<'a> {
             middle = middle.subtract(&Ball::from_rational(&self.level, self.bits), self.bits);
         }
         let rest = (1..TERMS)
-            .fold(taylor.remainder.clone(), |rest, k| rest.add(&taylor.coefficient(k).magnitude()));
+            .fold(taylor.remainder, |rest, k| rest.add(&taylor.coefficient(k).magnitude()));
         let rest = rest.add(&rest.scale(-MARGIN_BITS));
         Ok(middle.widened(&rest).sign().is_some_and(|sign| sign.is_ne()))
     }
