@@ -213,9 +213,10 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let value = ask(VALUES[0]);
     let general = ask("saint-venant --general");
     let sequences = ask("two-bars --general");
+    let velocity = ask(WINDOWS[1]);
     let (roots, largest) = (ask(WINDOWS[0]), ask(WINDOWS[4]));
     type Change = fn(&mut serde_json::Value);
-    let cases: [(&serde_json::Value, Change, &str); 23] = [
+    let cases: [(&serde_json::Value, Change, &str); 26] = [
         (&pieces, |own| own["pieces"]["f"][2][0][1][0][0][0][0] = "7".into(), "period 2"),
         (&pieces, |own| own["continuity"][0]["start"] = serde_json::json!([]), "continuity 0"),
         (&pieces, |own| own["continuity"] = serde_json::json!([]), "leaves values open"),
@@ -241,6 +242,9 @@ fn wrong_claims_are_told_by_what_is_wrong() {
         (&roots, |own| own["zeros"][0] = serde_json::json!(["3", "306/100"]), "is not told"),
         (&roots, |own| drop(own["cells"].as_array_mut().unwrap().remove(1)), "gaps"),
         (&roots, |own| own["cells"] = serde_json::json!([["2", "4", 0]]), "no sign is seen"),
+        (&roots, |own| own["cells"][0][2] = 2.into(), "do not vanish"),
+        (&roots, |own| own["to"] = "5".into(), "end early"),
+        (&velocity, |own| own["cells"] = serde_json::json!([["0", "6", 0]]), "a wave arrives"),
         (&largest, |own| own["value"] = "-0.1".into(), "beyond the extremum"),
         (&largest, |own| own["attained"][1] = "0".into(), "not taken"),
     ];
