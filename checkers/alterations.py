@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Alters certificates at random, one place at a time, and tells which alterations the checker lets pass.
 
-An alteration that passes is harmless where the pieces, the time and the value are as they were: they satisfy the altered
-statement too. `alterations.py COUNT FILE…` exits with 1 where any other one passes.
+An alteration that passes is harmless where the pieces, times, values and zeros are as they were: they satisfy the altered
+statement too. `alterations.py COUNT FILE…` exits with 1 where any other one passes, or where the two checkers disagree;
+without python-flint there is one.
 """
 
 import copy
@@ -12,6 +13,14 @@ import sys
 from fractions import Fraction
 
 import check
+import exact
+
+try:
+    import check_arb
+
+    CHECKERS = [check, check_arb]
+except ImportError:
+    CHECKERS = [check]
 
 
 def places(node, path=()):
@@ -30,8 +39,12 @@ def altered_text(text, random_):
 
 
 def alter(document, random_):
-    """One alteration: of a number, a sign, a name, an exponent; or a part left out, doubled, or moved."""
+    """One alteration: of a number, a sign, a name, an exponent; or a part left out, doubled, or moved. Half of them are of
+    the pieces for the most part; the others choose among what a certificate holds, so that short claims have their share."""
     path = random_.choice(list(places(document))[1:])
+    if random_.random() < 0.5:
+        key = random_.choice(list(document))
+        path = (key,) + random_.choice(list(places(document[key])))
     parent = document
     for key in path[:-1]:
         parent = parent[key]
@@ -50,27 +63,51 @@ def alter(document, random_):
     return path
 
 
-def outcome(document):
+def outcome(checker, document):
+    """Why it is not proven; what cannot be read is caught as well."""
     try:
-        check.check(document)
-    except Exception as error:  # what cannot be read is caught as well
+        checker.check(document)
+    except Exception as error:
         return type(error).__name__
     return None
 
 
-def same_claims(one, other):
-    """Whether both claim the same of the waves, whatever the way in which it is written."""
-    minus = {(): {(): {(): -1}}}
-    equal = lambda a, b: check.is_zero(check.accumulate(check.read(a), check.read(b), minus))
-    pieces = [document["pieces"] for document in (one, other)]
-    if pieces[0].keys() != pieces[1].keys():
+def same_functions(one, other):
+    """Whether two lists hold equal expressions."""
+    equal = lambda a, b: exact.is_zero(exact.accumulate(exact.read(a), exact.read(b), exact.MINUS))
+    return len(one) == len(other) and all(map(equal, one, other))
+
+
+def same_formula(one, other):
+    """Whether two formulas for every n are equal, number by number, in whatever order their terms stand."""
+    if one.keys() != other.keys() or not same_functions(one["first"], other["first"]):
         return False
-    for wave, functions in pieces[0].items():
-        others = pieces[1][wave]
-        if len(functions) != len(others) or not all(map(equal, functions, others)):
+    is_sequence = "rate" not in one
+    terms = [sorted(own["terms"], key=lambda term: json.dumps(term[:: -1 if is_sequence else 1])) for own in (one, other)]
+    orders = [[term[1 if is_sequence else 0] for term in own] for own in terms]
+    numbers = [[own[key] or [] for key in ("rate", "ratio", "laguerre") if key in own] for own in (one, other)]
+    parts = [[part for term in own for part in (term[::2] if is_sequence else [[[[], term[1]]]])] for own in terms]
+    lists = [parts[i] + [[[[], number]] for number in numbers[i]] for i in (0, 1)]
+    return orders[0] == orders[1] and same_functions(*lists)
+
+
+def same_claims(one, other):
+    """Whether both claim the same of the waves, whatever the way in which it is written, and name the same values and zeros:
+    a decimal or a bracket may hold them more closely or less so."""
+    for key, same in (("pieces", same_functions), ("general", same_formula)):
+        claims = [document.get(key, {}) for document in (one, other)]
+        if claims[0].keys() != claims[1].keys() or not all(same(own, claims[1][wave]) for wave, own in claims[0].items()):
             return False
-    numbers = lambda document: [Fraction(document.get(key, 0)) for key in ("value", "at")]
-    return numbers(one) == numbers(other)
+    if any(one.get(key) != other.get(key) and Fraction(one[key]) != Fraction(other[key]) for key in ("at", "from", "to")):
+        return False
+    if one.get("goal") != other.get("goal"):
+        return False
+    values = [check.decimal(document) for document in (one, other) if "value" in document]
+    if values and abs(values[0][0] - values[1][0]) > values[0][1] + values[1][1]:
+        return False
+    zeros = [[list(map(Fraction, pair)) for pair in document.get("zeros", [])] for document in (one, other)]
+    overlap = lambda a, b: a[0] <= b[1] and b[0] <= a[1]
+    return len(zeros[0]) == len(zeros[1]) and all(map(overlap, *zeros))
 
 
 def main(count, files):
@@ -82,14 +119,18 @@ def main(count, files):
         path = alter(document, random_)
         if document == original:
             continue
-        if outcome(document) is not None:
+        verdicts = [outcome(checker, document) for checker in CHECKERS]
+        if len({verdict is None for verdict in verdicts}) > 1:
+            missed += 1
+            print(f"judged differently in {original['title']} ({original['kind']}): {path} {verdicts}")
+        elif verdicts[0] is not None:
             caught += 1
         elif same_claims(document, original):
             harmless += 1
         else:
             missed += 1
             print(f"missed in {original['title']} ({original['kind']}): {path}")
-    print(f"{count} alterations: {caught} caught, {harmless} harmless, {missed} missed")
+    print(f"{count} alterations, {len(CHECKERS)} checkers: {caught} caught, {harmless} harmless, {missed} missed")
     return missed > 0
 
 

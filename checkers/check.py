@@ -1,192 +1,134 @@
 #!/usr/bin/env python3
 """Checks certificates of wavestep with nothing but the standard library; docs/certificates.md says what is claimed.
 
-A polynomial is a dict from monomials, sorted tuples of (symbol, power), to rational numbers; a rational function is a
-dict from denominators, sorted tuples of (factor, power), to polynomials; an expression is a dict from exponents X, each a
-rational function, to rational functions R: the sum of all R exp(X).
+exact.py, beside this file, adds, multiplies and compares; what is proven here, and why, reads from top to bottom.
 """
 
 import json
 import math
-import random
 import sys
 from fractions import Fraction
 
-ROOTS = {}  # symbols that stand for square roots, with what is below these
-ONE = {(): {(): 1}}
+from exact import MINUS, ONE, ROOTS, Wrong, accumulate, add, frozen, is_zero, key_of, less, need, number, number_at, on_period
+from exact import plus, power, put, rational, read, read_form, read_function, sign, sign_on, slope, times, whole
+
+# From the drawing of a line to its laws.
 
 
-class Wrong(Exception):
-    """What a certificate claims does not follow."""
+def periods(rows, cert):
+    """How many periods a time is; the far end of an endless bar has none."""
+    if rows is None:
+        return None
+    values, time, period = {}, read_function(rows), read_function(cert["period"])
+    count = number_at({(): time}, values) / number_at({(): period}, values)
+    need(is_zero({(): add(add({}, time), period, {(): {(): -count}})}), "a time is no multiple of the period")
+    return count
 
 
-def need(claim, told):
-    if not claim:
-        raise Wrong(told)
+def laws(cert):
+    """What is zero on each period and what is continuous from 0 on, by the laws of the elements: those of runs, which move
+    as one, between links, bars and springs, which pass a force on. A place has a clock, ahead by so many periods."""
+    line, t, ends = cert["line"], cert["time"], ("free", "fixed", "endless")
+    is_end = [element["is"] in ends for element in line]
+    need(is_end == [True] + [False] * (len(line) - 2) + [True], "a line has two ends")
+    runs, links, clocks = [[]], [], [line[0]["clock"]]
+    for element in line:
+        if element["is"] in ("bar", "spring"):
+            links.append(element)
+            clocks.append(element["clock"] if element["is"] == "bar" else clocks[-1])
+            runs.append([])
+        else:
+            need(element["is"] in ends + ("mass", "support", "force", "velocity", "motion"), "an unknown element")
+            runs[-1].append(element)
+    clocks = [periods(clock, cert) for clock in clocks]
+
+    def own(run, *kinds):
+        return [element for element in runs[run] if element["is"] in kinds]
+
+    def of(element, key):
+        return {(): read_function(element[key])}
+
+    def wave(name, lag=0):
+        return {(name, "value", lag): {(): ONE}}
+
+    def acting(function, lag):
+        return {(None, "forcing", lag): function}
+
+    def load(element, run):
+        """The course of a load from its beginning to its end."""
+        total, course = {}, read(element["course"])
+        for key, factor in (("from", {(): ONE}), ("until", MINUS)):
+            if element[key] is not None:
+                later = put(course, t, add({(): {((t, 1),): 1}}, read_function(element[key])))
+                total = plus(total, times(factor, acting(later, clocks[run] + periods(element[key], cert))))
+        return total
+
+    def bar(link, run):
+        """Velocity V + f + g and compressive force X + Z (f - g) of a bar at its left end (run = link) or its right one; a
+        wave enters at each end that is not endless, and takes the travel time to the other one."""
+        element, here, there = links[link], clocks[run], clocks[link + (run == link)]
+        for way, end in (("right", link), ("left", link + 1)):
+            need((element[way] is None) == bool(own(end, "endless")), "a bar lacks a wave, or has one from nowhere")
+        travel = periods(element["travel"], cert)
+        late = lambda way: wave(element[way], travel + here - there) if element[way] else {}
+        now = lambda way: wave(element[way]) if element[way] else {}
+        f, g = (now("right"), late("left")) if run == link else (late("right"), now("left"))
+        velocity = plus(acting(of(element, "velocity"), here), f, g)
+        return velocity, plus(acting(of(element, "force"), here), times(of(element, "impedance"), less(f, g)))
+
+    def velocities(run):
+        """All that is known of the velocity of a run."""
+        found = [load(element, run) for element in own(run, "velocity")] + [{} for _ in own(run, "fixed")]
+        found += [bar(link, run)[0] for link in (run - 1, run) if 0 <= link < len(links) and links[link]["is"] == "bar"]
+        found += [plus(wave(element["wave"]), acting(of(element, "from"), clocks[run])) for element in own(run, "motion")]
+        need(found, "a velocity is missing")
+        return found
+
+    def closing(link):
+        return less(velocities(link)[0], velocities(link + 1)[0])
+
+    def force(link, run):
+        """The compressive force in a link; in a spring k a + d a'."""
+        if not 0 <= link < len(links):
+            return {}
+        spring = links[link]
+        if spring["is"] == "bar":
+            return bar(link, run)[1]
+        return plus(times(of(spring, "stiffness"), wave(spring["wave"])), times(of(spring, "damping"), closing(link)))
+
+    def slope_of(velocity):
+        steep = lambda kind, c: ("forcing", slope(c, t)) if kind == "forcing" else ("slope", c)
+        return {(name, steep(kind, c)[0], lag): steep(kind, c)[1] for (name, kind, lag), c in velocity.items()}
+
+    equations, starts = [], []
+    stored = [(link, closing(i)) for i, link in enumerate(links) if link["is"] == "spring"]
+    for run in range(len(runs)):
+        if own(run, "endless"):
+            need(len(runs[run]) == 1, "an endless line ends with a bar")
+            continue
+        first, *others = velocities(run)
+        equations += [less(first, other) for other in others]
+        stored += [(support, first) for support in own(run, "support")]
+        if own(run, "fixed", "velocity"):
+            continue
+        balance = plus(less(force(run - 1, run), force(run, run)), *(load(element, run) for element in own(run, "force")))
+        for mass in own(run, "mass"):
+            balance = less(balance, times(of(mass, "mass"), slope_of(first)))
+        for support in own(run, "support"):
+            pushes = times(of(support, "stiffness"), wave(support["wave"]))
+            balance = less(balance, plus(pushes, times(of(support, "damping"), first)))
+        equations.append(balance)
+        gained = lambda mass: times(of(mass, "mass"), less(first, acting(of(mass, "velocity"), clocks[run])))
+        starts += [plus(*map(gained, own(run, "mass")))] if own(run, "mass") else []  # masses that start together share it
+    for element, rate in stored:  # what springs are shortened by, and supports displaced
+        need(element["wave"] or is_zero(of(element, "stiffness")), "a spring has no compression")
+        if element["wave"]:
+            equations.append(less(slope_of(wave(element["wave"])), rate))
+            starts.append(wave(element["wave"]))
+    return [whole(form) for form in equations], [(whole(form), {}) for form in starts]
 
 
-def product(a, b):
-    """Two monomials: the product, and the rational number that squares of roots leave."""
-    if not a or not b:
-        return a or b, 1
-    powers, left = dict(a), 1
-    for symbol, power in b:
-        powers[symbol] = powers.get(symbol, 0) + power
-    for symbol in ROOTS.keys() & powers.keys():
-        left *= ROOTS[symbol] ** (powers[symbol] // 2)
-        powers[symbol] %= 2
-    return tuple(sorted((s, p) for s, p in powers.items() if p)), left
-
-
-def frozen(function):
-    """A rational function as a key."""
-    return tuple(sorted((below, tuple(sorted(top.items()))) for below, top in function.items() if top))
-
-
-def thawed(key):
-    return {below: dict(top) for below, top in key}
-
-
-def add(total, function, factor=None):
-    """Adds a rational function, times a factor, to another one."""
-    for below, top in function.items():
-        for other, more in (ONE if factor is None else factor).items():
-            both = product(below, other)[0] if below and other else below or other
-            sum_ = total.setdefault(both, {})
-            for m, c in top.items():
-                for n, d in more.items():
-                    key, left = product(m, n)
-                    value = sum_.get(key, 0) + c * d * left
-                    if value:
-                        sum_[key] = value
-                    else:
-                        sum_.pop(key, None)
-    return total
-
-
-def accumulate(total, expression, factor=None):
-    """The same with expressions."""
-    for exponent, function in expression.items():
-        for other, more in ({(): ONE} if factor is None else factor).items():
-            both = frozen(add(thawed(exponent), thawed(other))) if exponent and other else exponent or other
-            add(total.setdefault(both, {}), function, more)
-    return total
-
-
-def is_zero(expression):
-    """Whether each rational function is zero: over one denominator its numerators cancel."""
-    for function in expression.values():
-        powers = {}
-        for below in function:
-            for factor, power in below:
-                powers[factor] = max(power, powers.get(factor, 0))
-        total = {}
-        for below, top in function.items():
-            lacking = ONE
-            for factor, power in powers.items():
-                for _ in range(power - dict(below).get(factor, 0)):
-                    lacking = add({}, {(): dict(factor)}, lacking)
-            add(total, {(): top}, lacking)
-        if any(total.values()):
-            return False
-    return True
-
-
-def terms(function, s):
-    """Denominator, monomial, coefficient and power of the time, which stands above alone, of each term."""
-    for below, top in function.items():
-        need(all(s not in dict(m) for factor, _ in below for m, _ in factor), "a divisor holds the time")
-        for m, c in top.items():
-            yield below, m, c, dict(m).get(s, 0)
-
-
-def slope(expression, s):
-    """The derivative with respect to a symbol: (R' + X' R) exp(X)."""
-
-    def of(function):
-        result = {}
-        for below, m, c, power in terms(function, s):
-            if power:
-                rest = tuple((t, p - (t == s)) for t, p in m if t != s or p > 1)
-                add(result, {below: {rest: c * power}})
-        return result
-
-    return {x: add(of(r), r, of(thawed(x))) for x, r in expression.items()}
-
-
-def put(expression, s, value):
-    """With a rational function in place of a symbol."""
-    powers = [ONE]
-
-    def of(function):
-        result = {}
-        for below, m, c, power in terms(function, s):
-            while len(powers) <= power:
-                powers.append(add({}, powers[-1], value))
-            add(result, {below: {tuple(pair for pair in m if pair[0] != s): c}}, powers[power])
-        return result
-
-    result = {}
-    for exponent, function in expression.items():
-        add(result.setdefault(frozen(of(thawed(exponent))), {}), of(function))
-    return result
-
-
-def read_polynomial(terms):
-    polynomial = {}
-    for coefficient, powers in terms:
-        need(all(type(p) is int and p > 0 for p in powers.values()), "a power is no positive integer")
-        monomial = tuple(sorted(powers.items()))
-        need(monomial not in polynomial and Fraction(coefficient), "a term stands twice, or is zero")
-        polynomial[monomial] = Fraction(coefficient)
-    return polynomial
-
-
-def read_function(rows):
-    function = {}
-    for top, below in rows:
-        key = ()
-        for factor, power in below:
-            need(factor and type(power) is int and power > 0, "a divisor is zero")
-            key, _ = product(key, ((tuple(sorted(read_polynomial(factor).items())), power),))
-        add(function, {key: read_polynomial(top)})
-    return function
-
-
-def read(rows):
-    expression = {}
-    for exponent, function in rows:
-        add(expression.setdefault(frozen(read_function(exponent)), {}), read_function(function))
-    return expression
-
-
-def form(rows, pieces, n, cert, derivative=False):
-    """A linear form in the waves on the n-th period, in local time; waves are zero before the first one."""
-    s, total = cert["local"], {}
-    for wave, kind, lag, coefficient in rows["waves"]:
-        need(kind in ("value", "slope", "sum"), f"unknown operator {kind}")
-        past = range(n - lag) if kind == "sum" else [n - lag] if lag <= n else []
-        for i in past:
-            piece = pieces[wave][i]
-            accumulate(total, slope(piece, s) if kind == "slope" else piece, read(coefficient))
-    for lag, function in rows["forcing"]:
-        if lag <= n:
-            later = add({(): {((s, 1),): 1}}, read_function(cert["period"]), {(): {(): Fraction(n - lag)}})
-            accumulate(total, put(read(function), cert["time"], later))
-    return total
-
-
-def number_at(expression, values):
-    """The value for pseudo-random numbers in place of symbols and of exponentials."""
-    at = lambda key: values.setdefault(key, Fraction(random.randrange(1, 1 << 60)))
-    of = lambda top: sum(c * math.prod(at(s) ** p for s, p in m) for m, c in top.items())
-    total = Fraction(0)
-    for exponent, function in expression.items():
-        for below, top in function.items():
-            need(not any(s in ROOTS for m in top for s, _ in m), "a root in an equation")
-            divisor = math.prod(of(dict(factor)) ** power for factor, power in below)
-            total += of(top) / divisor * (at(exponent) if exponent else 1)
-    return total
+# The pieces satisfy the laws, and nothing else does.
 
 
 def rank(rows):
@@ -204,95 +146,297 @@ def rank(rows):
     return found
 
 
-def check_determined(cert):
+def check_determined(equations, continuity, waves):
     """No other functions satisfy the statement: what has no derivatives on the period itself, differentiated, and the
     other equations determine all derivatives there; with what is continuous, all values at its start."""
-    waves, values = cert["waves"], {}
+    values = {}
 
-    def row(form_, kind):
-        now = {wave: read(c) for wave, k, lag, c in form_["waves"] if k == kind and lag == 0}
-        return [number_at(now.get(wave, {}), values) for wave in waves]
+    def row(form, kind):
+        return [number_at(form.get((wave, kind, 0), {}), values) for wave in waves]
 
-    slopes = [row(equation, "slope") for equation in cert["equations"]]
-    levels = [row(equation, "value") for equation in cert["equations"]]
+    slopes = [row(equation, "slope") for equation in equations]
+    levels = [row(equation, "value") for equation in equations]
     plain = [level for level, slope_ in zip(levels, slopes) if not any(slope_)]
-    starts = [row(law, "value") for law in cert["continuity"]]
+    starts = [row(form, "value") for form, _ in continuity]
     need(rank([r for r in slopes if any(r)] + plain) == len(waves), "the equations leave derivatives open")
     need(rank(starts + plain) == len(waves), "what is continuous leaves values open")
 
 
-def check_pieces(cert):
-    """Every equation holds on every period; what is continuous is, and starts as stated; and nothing else does so."""
-    check_determined(cert)
-    pieces = {wave: [read(piece) for piece in all_] for wave, all_ in cert["pieces"].items()}
-    need(set(pieces) == set(cert["waves"]) and len(cert["equations"]) == len(pieces), "waves and equations")
-    last = cert["through"] + 1
-    need(all(len(all_) == last for all_ in pieces.values()), "pieces are missing")
+def statement(cert):
+    """Forms that are zero on each period, and continuous ones with their starts: as stated, or as the drawing has them."""
+    if "line" in cert:
+        return laws(cert)
+    return list(map(read_form, cert["equations"])), [(read_form(law), read(law["start"])) for law in cert["continuity"]]
+
+
+def check_statement(cert):
+    """The laws, which are as many as waves and have one solution."""
+    equations, continuity = statement(cert)
+    need(not is_zero({(): read_function(cert["period"])}) and cert["local"] != cert["time"], "the period, or names of times")
+    need(len(equations) == len(cert["waves"]) == len(set(cert["waves"])), "waves and equations")
+    check_determined(equations, continuity, cert["waves"])
+    return equations, continuity
+
+
+def check_periods(cert, equations, continuity, pieces):
+    """Every equation holds on every period; what is continuous is, and starts as stated."""
     zero, end = {(): {(): 0}}, read_function(cert["period"])
-    for n in range(last):
-        for i, equation in enumerate(cert["equations"]):
-            need(is_zero(form(equation, pieces, n, cert)), f"equation {i} on period {n}")
-        for i, law in enumerate(cert["continuity"]):
-            begin = put(form(law, pieces, n, cert), cert["local"], zero)
-            before = put(form(law, pieces, n - 1, cert), cert["local"], end) if n else read(law["start"])
-            need(is_zero(accumulate(begin, before, {(): {(): {(): -1}}})), f"continuity {i} at the start of period {n}")
+    for n in range(min(map(len, pieces.values()))):
+        for i, equation in enumerate(equations):
+            need(is_zero(on_period(equation, pieces, n, cert)), f"equation {i} on period {n}")
+        for i, (form, start) in enumerate(continuity):
+            begin = put(on_period(form, pieces, n, cert), cert["local"], zero)
+            before = put(on_period(form, pieces, n - 1, cert), cert["local"], end) if n else start
+            accumulate(begin, before, MINUS)
+            need(is_zero(begin), f"continuity {i} at the start of period {n}")
+
+
+def check_pieces(cert):
+    """The pieces satisfy the laws, and nothing else does so."""
+    pieces = {wave: [read(piece) for piece in all_] for wave, all_ in cert["pieces"].items()}
+    need(set(pieces) == set(cert["waves"]), "waves and pieces")
+    need(all(len(all_) == cert["through"] + 1 for all_ in pieces.values()), "pieces are missing")
+    check_periods(cert, *check_statement(cert), pieces)
     return pieces
 
 
-def exponential(x, bits):
-    """Two rationals with e^x between them: the Taylor sum of x/2^k, squared k times."""
-    unit, halvings = Fraction(1, 1 << bits), max(0, abs(x).__ceil__().bit_length() + 1)
-    y = x / (1 << halvings)
-    total = term = Fraction(1)
-    i = 0
-    while abs(term) > unit:
-        i += 1
-        term = Fraction(round(term * y / i / unit)) * unit
-        total += term
-    low, high = total - 2 * (i + 2) * unit, total + 2 * (i + 2) * unit
-    for _ in range(halvings):
-        low, high = (low * low // unit) * unit, -(-high * high // unit) * unit
-    return low, high
+# Formulas for every n: the first ones satisfy the laws, and from some n on all do, by one identity.
 
 
-def number(function):
-    """A rational function without symbols."""
-    tops = [top for top in function.values() if top]
-    need(all(set(top) == {()} for top in tops) and all(not b for b, top in function.items() if top), "a symbol has no value")
-    return sum((top[()] for top in tops), Fraction(0))
+def check_general(cert):
+    equations, continuity = check_statement(cert)
+    equations = list(map(without_sums, equations))
+    forms, laws_ = cert["general"], equations + [form for form, _ in continuity]
+    keys = [key for form in laws_ for key in form]
+    need(set(forms) == set(cert["waves"]) and '"#' not in json.dumps(cert), "waves, formulas, or names of symbols")
+    need(all(is_free(c, cert) for form in laws_ for (_, kind, _), c in form.items() if kind != "forcing"), "a coefficient")
+    latest = max(lag for _, _, lag in keys)
+    if all("rate" in own for own in forms.values()):
+        check_echoes(cert, equations, continuity, latest)
+    else:
+        check_sequences(cert, equations, continuity, latest)
+
+
+def without_sums(form):
+    """With sums over all earlier periods: less the same form one period before, which holds as well."""
+    if all(kind != "sum" for _, kind, _ in form):
+        return form
+    total = {}
+    for (wave, kind, lag), c in form.items():
+        parts = ({(wave, "value", lag + 1): c},) if kind == "sum" else ({(wave, kind, lag): c}, times(MINUS, {(wave, kind, lag + 1): c}))
+        total = plus(total, *parts)
+    return total
+
+
+def is_free(expression, cert):
+    return all(is_zero(slope(expression, cert[time])) for time in ("local", "time"))
+
+
+def check_sequences(cert, equations, continuity, latest):
+    """Waves that are constant on each period: sums of c n^j r^n. Each r^n is as good as a symbol of its own."""
+    need(not continuity and all(kind != "slope" for form in equations for _, kind, _ in form), "derivatives of sequences")
+    forms = {wave: [(read(c), j, read(ratio)) for c, j, ratio in own["terms"]] for wave, own in cert["general"].items()}
+    begins = latest + max(len(own["first"]) for own in cert["general"].values()) + 1
+
+    def value(wave, n):
+        first, total = cert["general"][wave]["first"], {}
+        if n < len(first):
+            return read(first[n])
+        for c, j, ratio in forms[wave]:
+            accumulate(total, c, power(ratio, n, {(): {(): {(): Fraction(n) ** j}}}))
+        return total
+
+    need(all(is_free(part, cert) for own in forms.values() for c, _, ratio in own for part in (c, ratio)), "a sequence")
+    pieces = {wave: [value(wave, n) for n in range(begins)] for wave in forms}
+    check_periods(cert, equations, continuity, pieces)
+    for i, equation in enumerate(equations):
+        sums = {}  # by ratios, times their powers n - latest
+        for (wave, kind, lag), coefficient in equation.items():
+            if kind == "forcing":
+                need(is_free(coefficient, cert), "a load that changes")
+                accumulate(sums.setdefault(key_of({(): ONE}), {}), coefficient)
+                continue
+            for c, j, ratio in forms[wave]:
+                before = {(): {(): {(("#n", 1),): 1, (): Fraction(-lag)}}}
+                factor = power(ratio, latest - lag, power(before, j, c))
+                accumulate(sums.setdefault(key_of(ratio), {}), coefficient, factor)
+        need(all(map(is_zero, sums.values())), f"equation {i} for every n")
+
+
+def check_echoes(cert, equations, continuity, latest):
+    """Waves are sums of echoes, w(t) = sum of e_k(t - k D), so laws hold for each delay k D; from some k on, with T_k Laguerre's
+    polynomials L_k(c x) or x^k/k!,  e_k(x) = r^k exp(-b x) (sum of c_i T_(k-i)(x)).  Laplace's transform of exp(-b x) T_k(x) is
+    v^k/u^(k+1) with u = p + b, and v = u - c or 1; that of a slope is p times that of the function, less its value at 0."""
+    s, forms, functions = cert["local"], cert["general"], {(): ONE}
+    begins = 2 + latest + max(max([len(own["first"])] + [i for i, _ in own["terms"]]) for own in forms.values())
+    some = next(iter(forms.values()))
+    same = ("rate", "ratio", "laguerre")
+    need(all([own[key] for key in same] == [some[key] for key in same] for own in forms.values()), "different echoes")
+    b, r = ({(): read_function(some[key])} for key in ("rate", "ratio"))
+    c = some["laguerre"] and {(): read_function(some["laguerre"])}
+    symbol = lambda name: {(): {(): {((name, 1),): 1}}}
+    terms = {wave: [(i, {(): read_function(own_c)}) for i, own_c in own["terms"]] for wave, own in forms.items()}
+    need(all(is_free(part, cert) for part in [b, r, c or b] + [c_ for own in terms.values() for _, c_ in own]), "an echo")
+
+    def basic(k):
+        """T_k(x)."""
+        need(k >= 0, "an echo before the first one")
+        if not c:
+            return power(symbol(s), k, {(): {(): {(): Fraction(1, math.factorial(k))}}})
+        total, minus = {}, accumulate({}, accumulate({}, c, MINUS), symbol(s))
+        for j in range(k + 1):
+            accumulate(total, power(minus, j, {(): {(): {(): Fraction(math.comb(k, j), math.factorial(j))}}}))
+        return total
+
+    def echo(wave, k):
+        if k < len(forms[wave]["first"]):
+            return read(forms[wave]["first"][k])
+        total = {}
+        for i, c_i in terms[wave]:
+            accumulate(total, basic(k - i), c_i)
+        decay = {frozen(accumulate({}, accumulate({}, b, MINUS), symbol(s))[()]): functions[()]}
+        return power(r, k, accumulate({}, total, decay))
+
+    def late(form, k):
+        """What a form has of the delay k D."""
+        total = {}
+        for (wave, kind, lag), coefficient in form.items():
+            if kind == "forcing" and lag == k:
+                accumulate(total, put(coefficient, cert["time"], symbol(s)[()]))
+            elif kind != "forcing" and lag <= k:
+                known = echo(wave, k - lag)
+                accumulate(total, slope(known, s) if kind == "slope" else known, coefficient)
+        return total
+
+    for k in range(begins):
+        need(all(is_zero(late(equation, k)) for equation in equations), f"an equation for echo {k}")
+        for form, start in continuity:
+            value = put(late(form, k), s, {(): {(): 0}})
+            need(is_zero(accumulate(value, {} if k else start, MINUS)), f"continuity of echo {k}")
+
+    p = symbol("#p")
+    u = accumulate(accumulate({}, p), b)
+    v = accumulate(accumulate({}, u), c, MINUS) if c else functions
+    orders = [lag + i for form in equations for wave, kind, lag in form if wave for i, _ in terms[wave]]
+    for form, kinds in [(equation, ("slope",)) for equation in equations] + [(form, ("value",)) for form, _ in continuity]:
+        transform, start = {}, {}  # over r^(k - latest) (v/u)^k and over r^(k - latest)
+        for (wave, kind, lag), coefficient in form.items():
+            for i, c_i in terms.get(wave, ()):
+                j, own = lag + i, power(r, latest - lag, accumulate({}, coefficient, c_i))
+                whole_ = power(v, max(orders) - j, power(u, j - min(orders), own))
+                accumulate(transform, whole_, p if kind == "slope" else functions)
+                accumulate(start, own if kind in kinds and c else {})
+        need(kinds == ("value",) or is_zero(transform), "an equation for all later echoes")
+        need(is_zero(start), "the values with which all later echoes begin")
+
+
+# What a quantity is between arrivals, and what follows.
+
+
+def seen(cert, pieces, begin):
+    """A quantity as an expression in scene time, from a time on, and when a next piece of a wave begins."""
+    period, t, total, end = number(read_function(cert["period"])), cert["time"], {}, None
+    need(begin >= 0, "the time is before the start")
+    for wave, kind, delay, coefficient in cert["observed"]["waves"]:
+        need(wave in pieces and kind in ("value", "slope"), f"unknown wave {wave} or operator {kind}")
+        n = (begin - rational(delay)) // period
+        end = min(filter(None, (end, rational(delay) + (max(n, -1) + 1) * period)))
+        if n >= 0:
+            need(n < len(pieces[wave]), "a period is missing")
+            piece = slope(pieces[wave][n], cert["local"]) if kind == "slope" else pieces[wave][n]
+            local = add({(): {((t, 1),): 1}}, {(): {(): -rational(delay) - n * period}})
+            accumulate(total, put(piece, cert["local"], local), read(coefficient))
+    return accumulate(total, read(cert["observed"]["forcing"])), end
+
+
+def cells(cert, pieces, level):
+    """Intervals without gaps from the first time of the window to the last, each with the quantity less a level and a
+    derivative that has one sign there. That of order 0 is the quantity itself; with that of order 1, or of order k where
+    those of orders 1 ... k - 1 are zero at one end, the quantity is strictly monotone; without one it is the level."""
+    t, time = cert["time"], rational(cert["from"])
+    for begin, end, order in cert["cells"]:
+        begin, end = rational(begin), rational(end)
+        need(begin == time and begin < end, "the intervals have gaps")
+        expression, next_ = seen(cert, pieces, begin)
+        need(next_ is None or end <= next_, "a wave arrives within an interval")
+        accumulate(expression, {(): {(): {(): -level}}})
+        if order is None:
+            need(is_zero(expression), "the quantity is not constant")
+            yield begin, end, expression, order, 0
+        else:
+            need(type(order) is int and 0 <= order <= 64, "an order is no number")
+            derivatives = [expression]
+            for _ in range(order):
+                derivatives.append(slope(derivatives[-1], t))
+            flat = lambda at: all(sign(derivative, t, at) == 0 for derivative in derivatives[1:-1])
+            need(flat(begin) or flat(end), "the derivatives between do not vanish")
+            yield begin, end, expression, order, sign_on(derivatives[-1], t, begin, end)
+        time = end
+    need(time == rational(cert["to"]), "the intervals end early or late")
+
+
+def decimal(cert):
+    """A decimal, and half a unit of its last place."""
+    value, unit = rational(cert["value"]), Fraction(10) ** cert["last_place"]
+    need((value / unit).denominator == 1, "the decimal has more digits than it says")
+    return value, unit / 2
 
 
 def check_value(cert):
-    """The decimal is the value, correctly rounded: numbers in place of all symbols, exponentials between bounds."""
-    pieces, time, claim = check_pieces(cert), Fraction(cert["at"]), Fraction(cert["value"])
-    s, period, total = cert["local"], number(read_function(cert["period"])), {}
-    for wave, kind, delay, coefficient in cert["observed"]["waves"]:
-        need(wave in pieces, f"nothing is known of {wave}")
-        need(kind in ("value", "slope"), f"unknown operator {kind}")
-        n, local = divmod(time - Fraction(delay), period)
-        if n >= 0:
-            need(n < len(pieces[wave]), "a period is missing")
-            piece = slope(pieces[wave][n], s) if kind == "slope" else pieces[wave][n]
-            accumulate(total, put(piece, s, {(): {(): local}}), read(coefficient))
-    accumulate(total, put(read(cert["observed"]["forcing"]), cert["time"], {(): {(): time}}))
-    parts = [(number(thawed(x)), number(r)) for x, r in total.items()]
-    slack = Fraction(10) ** cert["last_place"] / 2
-    for bits in (128, 512, 2048, 8192, 32768):
-        low = high = Fraction(0)
-        for x, r in parts:
-            a, b = sorted(r * e for e in exponential(x, bits))
-            low, high = low + a, high + b
-        if claim - slack <= low and high <= claim + slack:
-            return
-        need(low <= claim + slack and claim - slack <= high, "the value is another one")
-    raise Wrong("the value is not decided")
+    """The decimal is the value, correctly rounded."""
+    time, (claim, slack) = rational(cert["at"]), decimal(cert)
+    expression, _ = seen(cert, check_pieces(cert), time)
+    accumulate(expression, {(): {(): {(): slack - claim}}})
+    need(sign(expression, cert["time"], time) >= 0, "the value is another one: smaller")
+    accumulate(expression, {(): {(): {(): -2 * slack}}})
+    need(sign(expression, cert["time"], time) <= 0, "the value is another one: larger")
+
+
+def check_roots(cert):
+    """Zeros, also of limits where waves arrive, are where monotone parts change sign, or at ends of intervals."""
+    t, found = cert["time"], []
+    for begin, end, expression, order, _ in cells(cert, check_pieces(cert), Fraction(0)):
+        if order is None:
+            zeros = [(begin, end)]
+        elif order == 0:
+            continue
+        else:
+            zeros = [(at, at) for at in (begin, end) if sign(expression, t, at) == 0]
+            if sign(expression, t, begin) * sign(expression, t, end) < 0:
+                found.append((begin, end, expression))
+        for first, last in zeros:
+            joins = found and found[-1][2] is None and found[-1][1] == first
+            found.append((found.pop()[0] if joins else first, last, None))
+    claims = [tuple(map(rational, claim)) for claim in cert["zeros"]]
+    need(len(claims) == len(found), f"{len(found)} zeros instead of {len(claims)}")
+    need(all(a[1] < b[0] for a, b in zip(claims, claims[1:])), "two zeros are in one place")
+    for (low, high), (begin, end, expression) in zip(claims, found):
+        if expression is None:
+            need((low, high) == (begin, end) if begin < end else low <= begin <= high, f"the zero at {begin} is not told")
+        else:
+            low, high = max(low, begin), min(high, end)
+            need(low < high and sign(expression, t, low) * sign(expression, t, high) < 0, f"the zero after {begin} is not told")
+
+
+def check_extremum(cert):
+    """Nothing is beyond the rounded value by more than half a unit of its last place, and something comes as near to it."""
+    way = {"largest": 1, "smallest": -1}[cert["goal"]]
+    (claim, slack), t, (place, time) = decimal(cert), cert["time"], cert["attained"]
+    is_taken, bound = False, claim + way * slack
+    for i, (begin, end, expression, order, sign_) in enumerate(cells(cert, check_pieces(cert), bound)):
+        signs = [sign_] if order in (None, 0) else [sign(expression, t, at) for at in (begin, end)]
+        need(all(sign_ * way <= 0 for sign_ in signs), f"a value between {begin} and {end} is beyond the extremum")
+        if i == place:
+            accumulate(expression, {(): {(): {(): 2 * way * slack}}})
+            is_taken = begin <= rational(time) <= end and sign(expression, t, rational(time)) * way >= 0
+    need(is_taken, "the extremum is not taken where it is said")
 
 
 def check(cert):
-    need(cert.get("wavestep_certificate") == 1, "a certificate of another version")
+    need(cert["wavestep_certificate"] == 1, "a certificate of another version")
     ROOTS.clear()
-    ROOTS.update({symbol: Fraction(square) for symbol, square in cert["roots"].items()})
-    kinds = {"pieces": check_pieces, "value": check_value}
+    ROOTS.update({symbol: rational(square) for symbol, square in cert["roots"].items()})
+    kinds = {"pieces": check_pieces, "general": check_general, "value": check_value, "roots": check_roots, "extremum": check_extremum}
     need(cert["kind"] in kinds, f"unknown kind {cert['kind']}")
     kinds[cert["kind"]](cert)
 
@@ -305,4 +449,6 @@ if __name__ == "__main__":
             check(certificate)
         except Wrong as error:
             sys.exit(f"{name}: NOT proven: {error}")
+        except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as error:
+            sys.exit(f"{name}: NOT proven: it is not laid out as it should be: {error!r}")
         print(f"{name}: proven ({certificate['kind']} of {certificate['title']})")

@@ -168,6 +168,12 @@ impl Network {
         self.clocks.leads.iter()
     }
 
+    /// Whether something happens at a node at the start or by a load; else what moves with a velocity of its own there is
+    /// followed as a difference from its velocity at the start.
+    pub fn is_disturbed(&self, node: usize) -> bool {
+        self.clocks.counted[node].is_some()
+    }
+
     /// The observables of the scene.
     pub fn observables(&self) -> &[Observed] {
         &self.observables

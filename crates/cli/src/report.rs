@@ -16,9 +16,7 @@ pub fn run(options: &Report) -> Result<String, Failure> {
         &Request {
             version: env!("CARGO_PKG_VERSION"),
             command: &command(options),
-            certificate: &|| {
-                certify::of_pieces(&problem, certify::LAST).map_err(|failure| failure.to_string())
-            },
+            certificate: &|| certify::of_pieces(&problem).map_err(|failure| failure.to_string()),
             progress: &|part| progress.set_message(part.to_owned()),
         },
     );

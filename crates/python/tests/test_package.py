@@ -2,6 +2,7 @@
 
 import doctest
 import pathlib
+import re
 import subprocess
 import sys
 import time
@@ -58,3 +59,11 @@ def test_the_package_is_imported_quickly_and_without_others() -> None:
     subprocess.run([*run, code], check=True)
     bare = best(lambda: subprocess.run([*run, ""], check=True))
     assert best(lambda: subprocess.run([*run, "import wavestep"], check=True)) - bare < 30e-3
+
+
+def test_the_python_of_the_readme(capsys: pytest.CaptureFixture[str]) -> None:
+    readme = (PAGE.parents[1] / "README.md").read_text(encoding="utf-8")
+    (block,) = re.findall(r"^```python\n(.*?)^```$", readme, re.MULTILINE | re.DOTALL)
+    exec(block, {})
+    printed = block.splitlines()[-1].split("# ")[1]
+    assert capsys.readouterr().out == printed + "\n"

@@ -1,28 +1,55 @@
 //! Arguments of `certify`.
 
 use super::{Output, Scene};
-use clap::Args;
+use clap::{ArgGroup, Args};
 
 #[derive(Args)]
-#[command(after_help = "Examples:\n  \
+#[command(group = ArgGroup::new("goal").args(["max", "min", "zero"]), after_help = "Examples:\n  \
     wavestep certify rigid-mass --through 8 -o rigid-mass.json\n  \
+    wavestep certify rigid-mass --general -o general.json\n  \
     wavestep certify rigid-mass --set mu=1/4 --quantity velocity --at 33/10 --digits 30 -o value.json\n  \
-    python3 checkers/check.py rigid-mass.json value.json\n\n\
+    wavestep certify rigid-mass --set mu=1 --zero strain_impact --from 2 --to 4 -o roots.json\n  \
+    wavestep certify mass-on-fixed-bar --set mu=1/4 --max strain_fixed --to 6 -o largest.json\n  \
+    python3 checkers/check.py rigid-mass.json general.json value.json roots.json largest.json\n\n\
 A certificate holds what is claimed with all that a reader needs to verify it, without this program.")]
 pub struct Certify {
     #[command(flatten)]
     pub scene: Scene,
     /// Certify the pieces of all waves on the periods 0 … N [default: 3, or as far as --at needs]
-    #[arg(long, value_name = "N", conflicts_with = "at")]
+    #[arg(long, value_name = "N", conflicts_with_all = ["at", "goal"])]
     pub through: Option<usize>,
+    /// Certify a formula for every n of all waves
+    #[arg(long, conflicts_with_all = ["through", "at", "goal", "digits"])]
+    pub general: bool,
     /// Certify the value of this wave or observable
-    #[arg(long, value_name = "NAME", requires = "at")]
+    #[arg(long, value_name = "NAME", requires = "at", conflicts_with = "goal")]
     pub quantity: Option<String>,
     /// At this scene time
     #[arg(long, value_name = "T", allow_hyphen_values = true, requires = "quantity")]
     pub at: Option<String>,
+    /// Certify the largest value of this wave or observable
+    #[arg(long, value_name = "QUANTITY")]
+    pub max: Option<String>,
+    /// Certify the smallest value
+    #[arg(long, value_name = "QUANTITY")]
+    pub min: Option<String>,
+    /// Certify all times at which it is zero, and that there are no others
+    #[arg(long, value_name = "QUANTITY")]
+    pub zero: Option<String>,
+    /// The first time of the window
+    #[arg(
+        long,
+        value_name = "T",
+        default_value = "0",
+        allow_hyphen_values = true,
+        requires = "goal"
+    )]
+    pub from: String,
+    /// The last time of the window [default: four periods, or twice the way along the line]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, requires = "goal")]
+    pub to: Option<String>,
     /// How many significant digits
-    #[arg(long, value_name = "D", default_value_t = 15, requires = "at")]
+    #[arg(long, value_name = "D", default_value_t = 15, conflicts_with = "through")]
     pub digits: usize,
     #[command(flatten)]
     pub output: Output,

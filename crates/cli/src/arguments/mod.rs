@@ -162,7 +162,7 @@ pub enum Subcommand {
     Events(Events),
     /// Check a scene: read it, order its equations, and derive it in two ways
     Check(Check),
-    /// Write a certificate of pieces or of a value, for an independent checker
+    /// Write a certificate of formulas, values or roots, for independent checkers
     Certify(Certify),
     /// Lock formulas and proven values in a file, for `check --locked`
     Lock(Lock),

@@ -180,32 +180,6 @@ fn the_formula_of_the_readme_is_derived() {
     assert!(readme.lines().count() <= 200);
 }
 
-/// The Python of the README prints what the comment in it says. Left out where there is no Python.
-#[test]
-fn the_python_of_the_readme_runs() {
-    let readme = read("README.md");
-    let parts = blocks(&readme).into_iter().flatten();
-    let [python] = &parts.filter(|block| block.info == "python").collect::<Vec<_>>()[..] else {
-        panic!("one block of Python");
-    };
-    let (_, printed) = python.lines.last().unwrap().split_once("# ").expect("a comment");
-    let binary = Path::new(env!("CARGO_BIN_EXE_wavestep"));
-    let mut paths = vec![binary.parent().unwrap().to_owned()];
-    paths.extend(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()));
-    let mut command = std::process::Command::new("python3");
-    command.args(["-c", &python.lines.join("\n")]);
-    command.env("PATH", std::env::join_paths(paths).unwrap());
-    match command.output() {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            eprintln!("python3 is missing: left out");
-        }
-        output => {
-            let output = output.unwrap();
-            assert_eq!(String::from_utf8(output.stdout).unwrap(), format!("{printed}\n"));
-        }
-    }
-}
-
 /// The site has every page once, the tutorial first; links within the repository lead to files that are there.
 #[test]
 fn the_site_has_every_page_and_links_lead_somewhere() {

@@ -1,0 +1,334 @@
+"""Exact values, and signs of what they stand for, with nothing but the standard library.
+
+A polynomial is a dict from monomials, sorted tuples of (symbol, power), to rational numbers; a rational function is a
+dict from denominators, sorted tuples of (factor, power), to polynomials; an expression is a dict from exponents X, each a
+rational function, to rational functions R: the sum of all R exp(X).
+"""
+
+import math
+import random
+import re
+from fractions import Fraction
+
+ROOTS = {}  # symbols that stand for square roots, with what is below these
+ONE = {(): {(): 1}}
+MINUS = {(): {(): {(): -1}}}  # the expression -1
+
+
+class Wrong(Exception):
+    """What a certificate claims does not follow."""
+
+
+def need(claim, told):
+    if not claim:
+        raise Wrong(told)
+
+
+def product(a, b):
+    """Two monomials: the product, and the rational number that squares of roots leave."""
+    if not a or not b:
+        return a or b, 1
+    powers, left = dict(a), 1
+    for symbol, power in b:
+        powers[symbol] = powers.get(symbol, 0) + power
+    for symbol in ROOTS.keys() & powers.keys():
+        left *= ROOTS[symbol] ** (powers[symbol] // 2)
+        powers[symbol] %= 2
+    return tuple(sorted((s, p) for s, p in powers.items() if p)), left
+
+
+def frozen(function):
+    """A rational function as a key."""
+    return tuple(sorted((below, tuple(sorted(top.items()))) for below, top in function.items() if top))
+
+
+def thawed(key):
+    return {below: dict(top) for below, top in key}
+
+
+def add(total, function, factor=None):
+    """Adds a rational function, times a factor, to another one."""
+    for below, top in function.items():
+        for other, more in (ONE if factor is None else factor).items():
+            both = product(below, other)[0] if below and other else below or other
+            sum_ = total.setdefault(both, {})
+            for m, c in top.items():
+                for n, d in more.items():
+                    key, left = product(m, n)
+                    value = sum_.get(key, 0) + c * d * left
+                    if value:
+                        sum_[key] = value
+                    else:
+                        sum_.pop(key, None)
+    return total
+
+
+def accumulate(total, expression, factor=None):
+    """The same with expressions."""
+    for exponent, function in expression.items():
+        for other, more in ({(): ONE} if factor is None else factor).items():
+            both = frozen(add(thawed(exponent), thawed(other))) if exponent and other else exponent or other
+            add(total.setdefault(both, {}), function, more)
+    return total
+
+
+def is_zero(expression):
+    """Whether each rational function is zero: over one denominator its numerators cancel."""
+    for function in expression.values():
+        powers = {}
+        for below in function:
+            for factor, power in below:
+                powers[factor] = max(power, powers.get(factor, 0))
+        total = {}
+        for below, top in function.items():
+            lacking = ONE
+            for factor, power in powers.items():
+                for _ in range(power - dict(below).get(factor, 0)):
+                    lacking = add({}, {(): dict(factor)}, lacking)
+            add(total, {(): top}, lacking)
+        if any(total.values()):
+            return False
+    return True
+
+
+def terms(function, s):
+    """Denominator, monomial, coefficient and power of the time, which stands above alone, of each term."""
+    for below, top in function.items():
+        need(all(s not in dict(m) for factor, _ in below for m, _ in factor), "a divisor holds the time")
+        for m, c in top.items():
+            yield below, m, c, dict(m).get(s, 0)
+
+
+def slope(expression, s):
+    """The derivative with respect to a symbol: (R' + X' R) exp(X)."""
+
+    def of(function):
+        result = {}
+        for below, m, c, power in terms(function, s):
+            if power:
+                rest = tuple((t, p - (t == s)) for t, p in m if t != s or p > 1)
+                add(result, {below: {rest: c * power}})
+        return result
+
+    return {x: add(of(r), r, of(thawed(x))) for x, r in expression.items()}
+
+
+def put(expression, s, value):
+    """With a rational function in place of a symbol."""
+    powers = [ONE]
+
+    def of(function):
+        result = {}
+        for below, m, c, power in terms(function, s):
+            while len(powers) <= power:
+                powers.append(add({}, powers[-1], value))
+            add(result, {below: {tuple(pair for pair in m if pair[0] != s): c}}, powers[power])
+        return result
+
+    result = {}
+    for exponent, function in expression.items():
+        add(result.setdefault(frozen(of(thawed(exponent))), {}), of(function))
+    return result
+
+
+def rational(text):
+    """A fraction or a decimal, without an exponent that would fill the memory."""
+    need(re.fullmatch(r"-?[0-9]+(/[0-9]+|(\.[0-9]+)?(e-?[0-9]{1,4})?)", text), f"{text[:40]} is no number")
+    return Fraction(text)
+
+
+def read_polynomial(terms):
+    polynomial = {}
+    for coefficient, powers in terms:
+        need(all(type(p) is int and p > 0 for p in powers.values()), "a power is no positive integer")
+        monomial = tuple(sorted(powers.items()))
+        need(monomial not in polynomial and rational(coefficient), "a term stands twice, or is zero")
+        polynomial[monomial] = rational(coefficient)
+    return polynomial
+
+
+def read_function(rows):
+    function = {}
+    for top, below in rows:
+        key = ()
+        for factor, power in below:
+            need(factor and type(power) is int and power > 0, "a divisor is zero")
+            key, _ = product(key, ((tuple(sorted(read_polynomial(factor).items())), power),))
+        add(function, {key: read_polynomial(top)})
+    return function
+
+
+def read(rows):
+    expression = {}
+    for exponent, function in rows:
+        add(expression.setdefault(frozen(read_function(exponent)), {}), read_function(function))
+    return expression
+
+
+def number_at(expression, values):
+    """The value for pseudo-random numbers in place of symbols and of exponentials."""
+    at = lambda key: values.setdefault(key, Fraction(random.randrange(1, 1 << 60)))
+    of = lambda top: sum(c * math.prod(at(s) ** p for s, p in m) for m, c in top.items())
+    total = Fraction(0)
+    for exponent, function in expression.items():
+        for below, top in function.items():
+            need(not any(s in ROOTS for m in top for s, _ in m), "a root in an equation")
+            divisor = math.prod(of(dict(factor)) ** power for factor, power in below)
+            total += of(top) / divisor * (at(exponent) if exponent else 1)
+    return total
+
+
+def power(base, exponent, total):
+    """An expression to a power, times another one."""
+    need(type(exponent) is int and exponent >= 0, "a power is negative")
+    for _ in range(exponent):
+        total = accumulate({}, total, base)
+    return total
+
+
+def key_of(expression):
+    """An expression as a key."""
+    return tuple(sorted((x, frozen(function)) for x, function in expression.items()))
+
+
+# Linear forms in the waves: dicts from (wave, operator, lag) to coefficients; forcing has no wave and a function instead.
+
+
+def read_form(rows):
+    parts = [((wave, kind, lag), c) for wave, kind, lag, c in rows["waves"]]
+    total = {}
+    for key, rows_ in parts + [((None, "forcing", lag), function) for lag, function in rows["forcing"]]:
+        need(key[0] is None or key[1] in ("value", "slope", "sum"), f"unknown operator {key[1]}")
+        need(type(key[2]) is int and key[2] >= 0, "a lag is no number of periods")
+        accumulate(total.setdefault(key, {}), read(rows_))
+    return total
+
+
+def plus(*forms):
+    total = {}
+    for form in forms:
+        for key, coefficient in form.items():
+            accumulate(total.setdefault(key, {}), coefficient)
+    return total
+
+
+def times(factor, form):
+    return {key: accumulate({}, coefficient, factor) for key, coefficient in form.items()}
+
+
+def less(a, b):
+    return plus(a, times(MINUS, b))
+
+
+def on_period(form, pieces, n, cert):
+    """The value on the n-th period, in local time; waves are zero before the first one."""
+    s, total = cert["local"], {}
+    for (wave, kind, lag), coefficient in form.items():
+        if kind == "forcing" and lag <= n:
+            later = add({(): {((s, 1),): 1}}, read_function(cert["period"]), {(): {(): Fraction(n - lag)}})
+            accumulate(total, put(coefficient, cert["time"], later))
+        past = () if kind == "forcing" else range(n - lag) if kind == "sum" else [n - lag] if lag <= n else []
+        for i in past:
+            piece = pieces[wave][i]
+            accumulate(total, slope(piece, s) if kind == "slope" else piece, coefficient)
+    return total
+
+
+def whole(form):
+    """Without what cancels; what is left is later by whole periods."""
+    left = {key: c for key, c in form.items() if not is_zero(c)}
+    need(all(lag == int(lag) and lag >= 0 for _, _, lag in left), "a delay is no multiple of the period")
+    return {(name, kind, int(lag)): c for (name, kind, lag), c in left.items()}
+
+
+# Values: sums of polynomials times exponentials of the time, with rational numbers.
+
+
+def number(function):
+    """A rational function without symbols."""
+    tops = [top for top in function.values() if top]
+    need(all(set(top) == {()} for top in tops) and all(not b for b, top in function.items() if top), "a symbol has no value")
+    return sum((top[()] for top in tops), Fraction(0))
+
+
+def coefficients(function, t):
+    """Those of a polynomial in the time, without other symbols."""
+    powers = [Fraction(0)]
+    for below, m, c, power in terms(function, t):
+        need(not below and m in ((), ((t, power),)), "a symbol has no value")
+        powers += [Fraction(0)] * (power + 1 - len(powers))
+        powers[power] += c
+    return powers
+
+
+def exponential(x, bits):
+    """Two rationals with e^x between them: the Taylor sum of x/2^k, squared k times."""
+    need(abs(x) < 1 << 20, "an exponent is too large")
+    unit, halvings = Fraction(1, 1 << bits), max(0, abs(x).__ceil__().bit_length() + 1)
+    y = x / (1 << halvings)
+    total = term = Fraction(1)
+    i = 0
+    while abs(term) > unit:
+        i += 1
+        term = Fraction(round(term * y / i / unit)) * unit
+        total += term
+    low, high = total - 2 * (i + 2) * unit, total + 2 * (i + 2) * unit
+    for _ in range(halvings):
+        low, high = (low * low // unit) * unit, -(-high * high // unit) * unit
+    return low, high
+
+
+def sign(expression, t, time):
+    """The sign at a time. Exponentials of different rational numbers are linearly independent over rational numbers."""
+    here = put(expression, t, {(): {(): time}})
+    parts = [(number(thawed(x)), number(r)) for x, r in here.items()]
+    for bits in (128, 512, 2048, 8192, 32768) if any(r for _, r in parts) else ():
+        low = high = Fraction(0)
+        for x, r in parts:
+            a, b = sorted(r * e for e in exponential(x, bits))
+            low, high = low + a, high + b
+        if low > 0 or high < 0:
+            return 1 if low > 0 else -1
+    need(not any(r for _, r in parts), "a sign is not decided")
+    return 0
+
+
+def taylor(exponent, function, t, m, h, bits):
+    """Of R exp(X) at t = m + h u: the part of X without u, the coefficients of all powers of u in R exp of the rest of X, and
+    a bound of what they leave out for |u| <= 1."""
+    constant, rate = (coefficients(exponent, t) + [Fraction(0)])[:2]
+    need(len(coefficients(exponent, t)) <= 2, "an exponent is not linear in the time")
+    powers, x = coefficients(function, t), rate * h
+    need(abs(x) < 4096, "an interval is too long")
+    series, following = [Fraction(1)], abs(x)
+    while following > Fraction(1, 1 << bits) or 2 * abs(x) > len(series) + 1:  # then what follows is halved each time
+        series.append(series[-1] * x / len(series))
+        following = abs(series[-1] * x / len(series))
+    total = [Fraction(0)] * (len(series) + len(powers) - 1)
+    rest = Fraction(0)
+    for i in range(len(powers)):
+        own = h**i * sum(c * math.comb(j, i) * m ** (j - i) for j, c in enumerate(powers) if j >= i)
+        rest += abs(own) * 2 * following
+        for k, factor in enumerate(series):
+            total[i + k] += own * factor
+    return constant + rate * m, total, rest
+
+
+def sign_on(expression, t, begin, end):
+    """The sign on an interval: a value differs from the coefficient of u^0 by the sizes of all others at most."""
+    m, h = (begin + end) / 2, (end - begin) / 2
+    for bits in (128, 512, 2048):
+        bounds, rest = {}, Fraction(0)
+        for exponent, function in expression.items():
+            x, powers, left = taylor(thawed(exponent), function, t, m, h, bits)
+            factor = exponential(x, bits)
+            rest += left * factor[1]
+            for k, power in enumerate(powers):
+                low, high = bounds.get(k, (0, 0))
+                a, b = sorted(power * e for e in factor)
+                bounds[k] = low + a, high + b
+        low, high = bounds.pop(0, (0, 0))
+        rest += sum(max(-a, b) for a, b in bounds.values())
+        if low > rest or high < -rest:
+            return 1 if low > 0 else -1
+    raise Wrong(f"no sign is seen between {begin} and {end}")

@@ -1,0 +1,224 @@
+//! `certify`: what is claimed, with all that it takes to verify it, for checkers that share nothing with this program.
+
+mod drawing;
+mod window;
+mod writer;
+
+use super::arguments::Certify;
+use super::failure::Failure;
+use super::input;
+use super::progress;
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use serde_json::{Map, Value as Json, json};
+use wavestep::ball::Decimal;
+use wavestep::expression::{Constant, Definition};
+use wavestep::limits::VALUE_BITS;
+use wavestep::planner::has_periods;
+use wavestep::problem::{Derived, Digits, Form, Orders, Problem, Symbols, ToDerive, Wanted};
+use wavestep::recurrence::Observation;
+use wavestep::signal::{Goal, Limit, Value};
+use writer::Writer;
+
+/// The version of the layout, which docs/certificates.md describes.
+const VERSION: u32 = 1;
+
+/// The last period without --through.
+const LAST: usize = 3;
+
+pub fn run(options: &Certify) -> Result<String, Failure> {
+    input::digits(options.digits)?;
+    let problem = input::problem(&options.scene)?;
+    let document = match (&options.quantity, &options.at, goal(options)) {
+        (Some(name), Some(at), _) => {
+            let at = problem.time("--at", at.as_str())?;
+            value(&problem, name.trim(), &at, options.digits)?
+        }
+        (.., Some((goal, name))) => {
+            let window = input::window(&problem, &options.from, options.to.as_deref())?;
+            window::certificate(&problem, name.trim(), goal, &window, options.digits)?
+        }
+        _ if options.general => general(&problem)?,
+        _ => pieces(&problem, options.through.unwrap_or(LAST))?.0,
+    };
+    Ok(written(document))
+}
+
+/// The certificate of the first pieces.
+pub fn of_pieces(problem: &Problem) -> Result<String, Failure> {
+    Ok(written(pieces(problem, LAST)?.0))
+}
+
+fn written(document: Map<String, Json>) -> String {
+    format!("{}\n", Json::Object(document))
+}
+
+/// What is asked about a window: an extremum, or else roots; and of which quantity.
+fn goal(options: &Certify) -> Option<(Option<Goal>, &str)> {
+    let goals = [
+        (Some(Goal::Largest), &options.max),
+        (Some(Goal::Smallest), &options.min),
+        (None, &options.zero),
+    ];
+    goals.into_iter().find_map(|(goal, name)| Some((goal, name.as_deref()?)))
+}
+
+/// What the scene states: its line, or its equations.
+fn stated(problem: &Problem, writer: &mut Writer) -> Result<Map<String, Json>, Failure> {
+    let recurrence = problem.recurrence()?;
+    let statement = recurrence.statement();
+    // A square root with a name may be any number: formulas hold it as a symbol.
+    let is_rate = |constant: &&Constant| !matches!(constant.value, Definition::Root(_));
+    if let Some(constant) = recurrence.constants().iter().find(is_rate) {
+        let message = format!(
+            "formulas of this scene hold the rate `{}`, which has no formula",
+            constant.symbol
+        );
+        return Err(Failure::usage(
+            message,
+            "certificates are written where all rates have formulas",
+        ));
+    }
+    let mut document = Map::new();
+    let mut insert = |key: &str, value: Json| document.insert(key.into(), value);
+    insert("wavestep_certificate", json!(VERSION));
+    insert("constants", json!(problem.constants(None)?));
+    insert("title", json!(problem.title()));
+    insert("waves", json!(problem.waves()));
+    insert("local", json!(statement.local.name()));
+    insert("time", json!(statement.time.name()));
+    insert("period", writer.function(&statement.period));
+    if let Ok(network) = problem.network() {
+        insert("line", drawing::line(network, writer));
+        return Ok(document);
+    }
+    let equations = statement.equations.iter().map(|form| writer.form(recurrence, form));
+    insert("equations", equations.collect());
+    let continuity = statement.continuity.iter().map(|law| {
+        let mut form = writer.form(recurrence, &law.form);
+        form["start"] = writer.expression(&law.start);
+        form
+    });
+    insert("continuity", continuity.collect());
+    Ok(document)
+}
+
+/// The pieces of all waves through a period; the writer has met the square roots among the symbols.
+fn pieces(problem: &Problem, last: usize) -> Result<(Map<String, Json>, Writer), Failure> {
+    let mut writer = Writer::default();
+    let mut document = stated(problem, &mut writer)?;
+    let progress = progress::spinner("deriving");
+    let derived = problem.functions(ToDerive::Waves, Orders::Through(0, last), Form::Period)?;
+    drop(progress);
+    let Derived::Functions(all) = derived else { unreachable!("waves with periods have pieces") };
+    let written = all.into_iter().map(|own| {
+        let pieces = own.expressions.iter().map(|piece| writer.expression(piece));
+        (own.name, pieces.collect())
+    });
+    let written: Map<String, Json> = written.collect();
+    document.insert("kind".into(), json!("pieces"));
+    document.insert("through".into(), json!(last));
+    document.insert("pieces".into(), Json::Object(written));
+    document.insert("roots".into(), writer.told_roots());
+    Ok((document, writer))
+}
+
+/// The forms of all waves for every period.
+fn general(problem: &Problem) -> Result<Map<String, Json>, Failure> {
+    // Where there is none, it is told why.
+    problem.general_formulas(ToDerive::Waves, Symbols::Own)?;
+    let mut writer = Writer::default();
+    let mut document = stated(problem, &mut writer)?;
+    let (solution, mut forms) = (problem.solution()?, Map::new());
+    for (wave, name) in problem.waves().into_iter().enumerate() {
+        let form = solution.general(wave).expect("it has a formula");
+        forms.insert(name.into(), writer.general(form));
+    }
+    document.insert("kind".into(), json!("general"));
+    document.insert("general".into(), Json::Object(forms));
+    document.insert("roots".into(), writer.told_roots());
+    Ok(document)
+}
+
+/// A value, with the pieces that it is made of.
+fn value(
+    problem: &Problem,
+    name: &str,
+    at: &BigRational,
+    digits: usize,
+) -> Result<Map<String, Json>, Failure> {
+    let wanted = problem.wanted(name)?;
+    let observation = observation(problem, &wanted)?;
+    let asked =
+        Digits { count: digits, max_bits: VALUE_BITS, limit: Limit::Right, count_echoes: false };
+    let found = problem.proven(&wanted, std::slice::from_ref(at), asked, &|| ())?;
+    let (decimal, last_place) = rounded(&found.values[0], digits);
+    let (mut document, _) = observed(problem, name, &observation, at)?;
+    document.insert("kind".into(), json!("value"));
+    document.insert("at".into(), json!(at.to_string()));
+    document.insert("value".into(), json!(decimal.to_string()));
+    document.insert("last_place".into(), json!(last_place));
+    Ok(document)
+}
+
+/// The rounded value, and the power of ten of its last digit: zeros at the end are left out of decimals that are exact.
+fn rounded(value: &Value, digits: usize) -> (Decimal, i64) {
+    let (decimal, _) = value.decimal(digits);
+    let last_place = decimal.place() - (digits - decimal.significant()) as i64;
+    (decimal, last_place)
+}
+
+fn refused(reason: &str) -> Failure {
+    let message = format!("there are no certificates of values {reason}");
+    Failure::usage(message, "certify its pieces, with --through")
+}
+
+/// A quantity as a sum of waves.
+fn observation(problem: &Problem, wanted: &Wanted) -> Result<Observation, Failure> {
+    let opens = problem.network().is_ok_and(|network| !has_periods(network));
+    match wanted.observation() {
+        _ if problem.has_units() => Err(refused("in scenes with units")),
+        _ if opens => Err(refused("where contacts open")),
+        None => Err(refused(&format!("of {}, which is not linear in the waves", wanted.name))),
+        Some(observation) => Ok(observation.clone()),
+    }
+}
+
+/// The same with all pieces that it is made of until a time, and the times at which new pieces may begin.
+fn observed(
+    problem: &Problem,
+    name: &str,
+    observation: &Observation,
+    to: &BigRational,
+) -> Result<(Map<String, Json>, Vec<BigRational>), Failure> {
+    let period = problem.shortest_period().expect("what has values has a period of known length");
+    // The clocks of waves differ: what is seen may be of a later period than its time.
+    let delays: Vec<BigRational> =
+        observation.waves.iter().filter_map(|seen| seen.delay.as_constant()).collect();
+    let periods = |delay: &BigRational| ((to - delay) / &period).floor().to_integer();
+    let last = delays.iter().map(periods).max().unwrap_or_default().max(BigInt::ZERO);
+    let last = usize::try_from(last)
+        .map_err(|_| Failure::usage("the time is too late", "ask for an earlier time"))?;
+    let (mut document, mut writer) = pieces(problem, last)?;
+    if !writer.roots.is_empty() {
+        return Err(refused("whose formulas hold square roots"));
+    }
+    let recurrence = problem.recurrence()?;
+    let is_told = |wave: usize| document["pieces"].get(recurrence.wave_name(wave)).is_some();
+    if !observation.waves.iter().all(|seen| is_told(seen.wave)) {
+        return Err(refused(&format!("of {name}, which is made of integrals of waves")));
+    }
+    let waves = observation.waves.iter().map(|seen| {
+        let wave = recurrence.wave_name(seen.wave);
+        let kind = if seen.slope { "slope" } else { "value" };
+        let delay = seen.delay.as_constant().map(|delay| delay.to_string());
+        json!([wave, kind, delay, writer.expression(&seen.coefficient)])
+    });
+    let waves: Vec<Json> = waves.collect();
+    let forcing = writer.expression(&observation.forcing);
+    document.insert("quantity".into(), json!(name));
+    document.insert("observed".into(), json!({ "waves": waves, "forcing": forcing }));
+    let count = |n: usize| BigRational::from_integer(n.into());
+    let begins = delays.iter().flat_map(|delay| (0..=last).map(move |n| (delay, count(n))));
+    Ok((document, begins.map(|(delay, n)| delay + n * &period).collect()))
+}

@@ -1,0 +1,228 @@
+//! Certificates of all roots of a quantity in a window, or of its largest or smallest value there.
+
+use super::{observation, observed, rounded};
+use crate::failure::{ACCURACY, Failure};
+use crate::progress;
+use num_rational::BigRational;
+use serde_json::{Map, Value as Json, json};
+use wavestep::ball::Ball;
+use wavestep::limits::SEARCH_BITS;
+use wavestep::planner::Purpose;
+use wavestep::problem::Problem;
+use wavestep::signal::{Extremum, Goal, Limit, Place, Root, Search, Signal, Value};
+
+/// The terms of Taylor polynomials.
+const TERMS: usize = 20;
+
+/// The bits of their coefficients, beyond those of the digits asked for.
+const SPARE_BITS: u64 = 256;
+
+/// How often a part of the window is halved at most.
+const DEPTH: usize = 256;
+
+/// By what share, as a power of two, a bound has to be met more than enough, so that a checker proves it too.
+const MARGIN_BITS: i64 = 20;
+
+type Window = [BigRational; 2];
+
+pub fn certificate(
+    problem: &Problem,
+    name: &str,
+    goal: Option<Goal>,
+    window: &Window,
+    digits: usize,
+) -> Result<Map<String, Json>, Failure> {
+    let wanted = problem.wanted(name)?;
+    let observation = observation(problem, &wanted)?;
+    let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?;
+    let (mut document, begins) = observed(problem, name, &observation, &window[1])?;
+    let _progress = progress::spinner("searching");
+    let search = Search::new(&*signal)?.half_open();
+    let mut insert = |key: &str, value: Json| document.insert(key.into(), value);
+    let mut cover = Cover::of(&*signal, digits);
+    let cuts = cuts(&*signal, begins)?;
+    if let Some(goal) = goal {
+        let found = search.extremum(goal, digits, SEARCH_BITS)?;
+        if matches!(found.value, Value::Enclosed(_)) {
+            return Err(undecided("a digit of the extremum"));
+        }
+        let (decimal, last_place) = rounded(&found.value, digits);
+        let half = power_of_ten(last_place) / BigRational::from_integer(2.into());
+        cover.level = match goal {
+            Goal::Largest => decimal.to_rational() + half,
+            Goal::Smallest => decimal.to_rational() - half,
+        };
+        cover.run(&cuts)?;
+        insert("kind", json!("extremum"));
+        insert("goal", json!(if goal == Goal::Largest { "largest" } else { "smallest" }));
+        insert("value", json!(decimal.to_string()));
+        insert("last_place", json!(last_place));
+        insert("attained", cover.attained(&found, digits)?);
+    } else {
+        let found = search.roots(&cover.level, digits, SEARCH_BITS)?;
+        cover.run(&cuts)?;
+        let roots: Vec<Option<Window>> =
+            found.all.iter().map(|root| place(root, digits)).collect::<Result<_, Failure>>()?;
+        let told = |[from, to]: Window| json!([from.to_string(), to.to_string()]);
+        insert("kind", json!("roots"));
+        insert("zeros", roots.into_iter().flatten().map(told).collect());
+    }
+    insert("from", json!(window[0].to_string()));
+    insert("to", json!(window[1].to_string()));
+    let told = |cell: &Cell| json!([cell.from.to_string(), cell.to.to_string(), cell.order]);
+    insert("cells", cover.cells.iter().map(told).collect());
+    Ok(document)
+}
+
+fn undecided(what: &str) -> Failure {
+    let message = format!("{what} stays undecided, so there is no certificate");
+    Failure::new(ACCURACY, message, "ask for another window, or for other digits")
+}
+
+fn power_of_ten(place: i64) -> BigRational {
+    BigRational::from_integer(10.into()).pow(i32::try_from(place).expect("digits are limited"))
+}
+
+/// Times between which the quantity is one function, as it is written in the certificate and as it is searched.
+fn cuts(signal: &dyn Signal, begins: Vec<BigRational>) -> Result<Vec<BigRational>, Failure> {
+    let [from, to] = signal.window();
+    let mut cuts = begins;
+    for stretch in 0..signal.count()? {
+        let begin = signal.exact_time(stretch, Limit::Right);
+        cuts.push(begin.ok_or_else(|| undecided("a time at which a wave arrives"))?);
+    }
+    cuts.push(to.clone());
+    cuts.retain(|time| from <= time && time <= to);
+    cuts.sort();
+    cuts.dedup();
+    Ok(cuts)
+}
+
+/// Where a root is; a jump is none.
+fn place(root: &Root, digits: usize) -> Result<Option<Window>, Failure> {
+    let exact = |time: &Value| time.exact().cloned().ok_or_else(|| undecided("the time of a root"));
+    Ok(match root {
+        Root::Simple { time, .. } => {
+            let (decimal, place) = rounded(time, digits);
+            let (time, unit) = (decimal.to_rational(), power_of_ten(place));
+            Some([&time - &unit, time + unit])
+        }
+        Root::End { time } | Root::Arrival { time, .. } => Some([exact(time)?, exact(time)?]),
+        Root::Interval { from, to, .. } => Some([exact(from)?, exact(to)?]),
+        Root::Jump { .. } => None,
+        Root::Undecided { .. } => return Err(undecided("whether there is a root")),
+    })
+}
+
+/// A part of the window on which a derivative has one sign: of order 0 the quantity less a level; of order k > 1 where
+/// those of the orders 1 … k - 1 vanish at one end; without one the quantity is the level itself.
+struct Cell {
+    from: BigRational,
+    to: BigRational,
+    order: Option<usize>,
+}
+
+/// Cells that cover the window, so that a checker need not look for them.
+struct Cover<'a> {
+    signal: &'a dyn Signal,
+    level: BigRational,
+    bits: u64,
+    cells: Vec<Cell>,
+}
+
+impl<'a> Cover<'a> {
+    fn of(signal: &'a dyn Signal, digits: usize) -> Cover<'a> {
+        let bits = SPARE_BITS + 4 * digits as u64;
+        Cover { signal, level: BigRational::default(), bits, cells: Vec::new() }
+    }
+
+    fn run(&mut self, cuts: &[BigRational]) -> Result<(), Failure> {
+        for part in cuts.windows(2) {
+            let stretch = self.signal.stretch_at(&part[0], Limit::Right)?;
+            self.descend(stretch.expect("it begins there"), part[0].clone(), part[1].clone(), 0)?;
+        }
+        Ok(())
+    }
+
+    fn descend(
+        &mut self,
+        stretch: usize,
+        from: BigRational,
+        to: BigRational,
+        depth: usize,
+    ) -> Result<(), Failure> {
+        if depth > DEPTH {
+            return Err(undecided("the sign near a time"));
+        }
+        if let Some(order) = self.order(stretch, &from, &to)? {
+            self.cells.push(Cell { from, to, order });
+            return Ok(());
+        }
+        let middle = (&from + &to) / BigRational::from_integer(2.into());
+        self.descend(stretch, from, middle.clone(), depth + 1)?;
+        self.descend(stretch, middle, to, depth + 1)
+    }
+
+    /// What is proven of a part of a stretch, where something is.
+    fn order(
+        &self,
+        stretch: usize,
+        from: &BigRational,
+        to: &BigRational,
+    ) -> Result<Option<Option<usize>>, Failure> {
+        let bounds = [from.clone(), to.clone()];
+        if self.signal.equals(stretch, &self.level, &bounds, self.bits)? {
+            return Ok(Some(None));
+        }
+        let mut orders = vec![0, 1];
+        for (end, time) in [(Limit::Right, from), (Limit::Left, to)] {
+            if self.signal.exact_time(stretch, end).as_ref() == Some(time) {
+                orders.push(1 + self.signal.flatness(stretch, end, 1)?);
+            }
+        }
+        for order in orders {
+            if self.has_one_sign(stretch, order, from, to)? {
+                return Ok(Some(Some(order)));
+            }
+        }
+        Ok(None)
+    }
+
+    fn has_one_sign(
+        &self,
+        stretch: usize,
+        order: usize,
+        from: &BigRational,
+        to: &BigRational,
+    ) -> Result<bool, Failure> {
+        let two = BigRational::from_integer(2.into());
+        let place = ((from + to) / &two, (to - from) / two);
+        let taylor = self.signal.taylor(stretch, order, (&place.0, &place.1), TERMS, self.bits)?;
+        let mut middle = taylor.coefficient(0);
+        if order == 0 {
+            middle = middle.subtract(&Ball::from_rational(&self.level, self.bits), self.bits);
+        }
+        let rest = (1..TERMS)
+            .fold(taylor.remainder, |rest, k| rest.add(&taylor.coefficient(k).magnitude()));
+        let rest = rest.add(&rest.scale(-MARGIN_BITS));
+        Ok(middle.widened(&rest).sign().is_some_and(|sign| sign.is_ne()))
+    }
+
+    /// The number of a cell and a time there, at which the extremum is taken or approached.
+    fn attained(&self, found: &Extremum, digits: usize) -> Result<Json, Failure> {
+        let (time, before) = match &found.places[0] {
+            Place::Critical(time) | Place::End(time) | Place::Plateau { from: time, .. } => {
+                (time, false)
+            }
+            Place::Arrival { time, after, .. } => (time, !after),
+            Place::Undecided { .. } => return Err(undecided("the time of the extremum")),
+        };
+        let decimal = || rounded(time, digits).0.to_rational();
+        let time = time.exact().cloned().unwrap_or_else(decimal);
+        let begins = |cell: &Cell| !before && cell.from == time;
+        let holds = |cell: &Cell| cell.from < time && time <= cell.to;
+        let cell = self.cells.iter().position(begins).or(self.cells.iter().position(holds));
+        let cell = cell.ok_or_else(|| undecided("the time of the extremum"))?;
+        Ok(json!([cell, time.to_string()]))
+    }
+}
