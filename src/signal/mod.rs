@@ -34,7 +34,7 @@ pub use find::{Extremum, Goal, Place, Root, Roots, Search};
 pub(crate) use method::values_of;
 pub use method::{
     Certified, Compiled, Evaluator, Marched, MethodError, StablePrecision, Summation, Summed,
-    Table, instructions,
+    Table, instructions, limit_instructions,
 };
 pub use operations::of_recurrence;
 pub(crate) use operations::{

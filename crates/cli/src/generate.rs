@@ -44,7 +44,8 @@ fn vocabulary(mut command: clap::Command) -> String {
             words.push(Word { option, meaning, commands: vec![name] });
         }
     }
-    for argument in command.get_arguments().filter(|own| own.is_global_set()) {
+    for argument in command.get_arguments().filter(|own| own.is_global_set() && !own.is_hide_set())
+    {
         let long = argument.get_long().unwrap_or_default();
         let value = argument.get_value_names().map_or("", |names| &names[0]);
         let meaning = argument.get_help().map(|help| help.to_string()).unwrap_or_default();

@@ -50,6 +50,7 @@ use failure::Failure;
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 use wavestep::scenes::{SCENES, Scene};
+use wavestep::signal::limit_instructions;
 
 /// Runs the command that the arguments name.
 pub fn run() -> ExitCode {
@@ -66,6 +67,9 @@ pub fn run() -> ExitCode {
     };
     if let Some(memory) = arguments.memory {
         wavestep::limits::set_memory(memory);
+    }
+    if let Some(name) = &arguments.instructions {
+        assert!(limit_instructions(name), "the arguments have these names only");
     }
     budget::watch(arguments.time_limit);
     let result = match &arguments.subcommand {

@@ -1,5 +1,7 @@
 //! Which vector instructions an evaluation uses.
 
+use std::sync::atomic::{AtomicU8, Ordering};
+
 /// A set of instructions for evaluation, from the one that every machine has to the widest.
 ///
 /// `Avx2` and `Avx512` give the same doubles bit for bit. `Baseline` has no fused multiply-add, so
@@ -39,8 +41,16 @@ impl Level {
         Self::ALL.into_iter().filter(|level| level.is_available())
     }
 
-    /// The widest level of this machine.
+    /// The widest level of this machine, at most that of [`Level::limit`].
     pub fn best() -> Self {
-        Self::available().last().unwrap_or(Self::Baseline)
+        let most = MOST.load(Ordering::Relaxed);
+        Self::available().filter(|level| *level as u8 <= most).last().unwrap_or(Self::Baseline)
+    }
+
+    /// From now on, evaluates with this level at most.
+    pub fn limit(self) {
+        MOST.store(self as u8, Ordering::Relaxed);
     }
 }
+
+static MOST: AtomicU8 = AtomicU8::new(Level::Avx512 as u8);

@@ -57,6 +57,16 @@ pub trait Evaluator {
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError>;
 }
 
+/// From now on, polynomials are evaluated with the vector instructions of this name at most: `baseline`, `avx2` or
+/// `avx512`. False where there are none of this name.
+#[must_use]
+pub fn limit_instructions(name: &str) -> bool {
+    use wavestep_kernels::Level::{Avx2, Avx512, Baseline};
+    let levels = [("baseline", Baseline), ("avx2", Avx2), ("avx512", Avx512)];
+    let level = levels.into_iter().find_map(|(own, level)| (own == name).then_some(level));
+    level.inspect(|level| level.limit()).is_some()
+}
+
 /// The vector instructions that polynomials are evaluated with on this machine.
 pub fn instructions() -> String {
     format!("{:?}", wavestep_kernels::Level::best())

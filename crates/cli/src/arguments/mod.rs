@@ -100,6 +100,10 @@ pub struct Arguments {
     /// Time limit, such as 15s or 10min [default: none]
     #[arg(long, global = true, value_name = "TIME", value_parser = duration, allow_hyphen_values = true, value_hint = ValueHint::Other)]
     pub time_limit: Option<Duration>,
+    /// Vector instructions at most [default: the widest of this machine]; results are the same but for the last digit
+    /// of doubles with a bound
+    #[arg(long, global = true, hide = true, value_name = "SET", value_parser = ["baseline", "avx2", "avx512"])]
+    pub instructions: Option<String>,
 }
 
 /// A duration with its unit.

@@ -9,6 +9,7 @@ mod dispersion;
 mod documents;
 mod enough;
 mod events;
+mod everywhere;
 mod extremes;
 mod find;
 mod first_contact;
