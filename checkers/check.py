@@ -441,14 +441,26 @@ def check(cert):
     kinds[cert["kind"]](cert)
 
 
-if __name__ == "__main__":
-    for name in sys.argv[1:]:
+def verdict(name):
+    """What is told of a file, and whether it is proven."""
+    try:
         with open(name, encoding="utf-8") as file:
             certificate = json.load(file)
-        try:
-            check(certificate)
-        except Wrong as error:
-            sys.exit(f"{name}: NOT proven: {error}")
-        except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as error:
-            sys.exit(f"{name}: NOT proven: it is not laid out as it should be: {error!r}")
-        print(f"{name}: proven ({certificate['kind']} of {certificate['title']})")
+    except (OSError, ValueError, RecursionError) as error:
+        return False, f"{name}: cannot be read: {error}"
+    try:
+        check(certificate)
+    except Wrong as error:
+        return False, f"{name}: NOT proven: {error}"
+    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError) as error:
+        return False, f"{name}: NOT proven: it is not laid out as it should be: {error!r}"
+    return True, f"{name}: proven ({certificate['kind']} of {certificate['title']})"
+
+
+if __name__ == "__main__":
+    if not sys.argv[1:] or sys.argv[1].startswith("-"):
+        print(f"usage: {sys.argv[0]} CERTIFICATE.json ...", file=sys.stderr)
+        sys.exit(2)
+    verdicts = [verdict(name) for name in sys.argv[1:]]
+    print("\n".join(told for _, told in verdicts))
+    sys.exit(not all(proven for proven, _ in verdicts))

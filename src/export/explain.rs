@@ -60,7 +60,6 @@ impl Derivation {
         let rates = recurrence.constants().iter().filter(|constant| !known.contains(constant));
         derivation.constants(&rates.cloned().collect::<Vec<_>>(), decimal);
         derivation.solved(&writer, network.waves().len());
-        derivation.drop_unused_constants();
         derivation
     }
 
@@ -185,7 +184,7 @@ impl Derivation {
     }
 
     /// Leaves out constants that stand nowhere but in their own definition.
-    fn drop_unused_constants(&mut self) {
+    pub fn drop_unused_constants(&mut self) {
         let text = self.to_text(usize::MAX);
         let words = || text.split(|c: char| !c.is_alphanumeric() && c != '_');
         let is_used =
@@ -418,6 +417,11 @@ fn flat(value: &Fraction, variable: &str) -> Vec<Term> {
 fn polynomial_in_x(coefficients: &[Fraction]) -> Vec<Term> {
     let x = Fraction::symbol(&Symbol::new("x").expect("a name"));
     flat(&coefficients.iter().fold(Fraction::zero(), |sum, c| &(&sum * &x) + c), "x")
+}
+
+/// The definition of a constant in one line: `2*k/(105*pi)`.
+pub fn definition_text(value: &Definition) -> String {
+    definition(value).written(Notation::Text).text().to_owned()
 }
 
 fn definition(value: &Definition) -> Right {

@@ -25,7 +25,7 @@ pub mod tree;
 mod writer;
 
 pub use c::{CHeading, to_c};
-pub use explain::{Block, Derivation};
+pub use explain::{Block, Derivation, definition_text};
 pub use forms::{form_text, solved_equations};
 pub use formula::{
     Formula, Head, LATEX_WIDTH, TEXT_WIDTH, expression_text, latex, latex_cases, text,

@@ -27,11 +27,7 @@ impl Engine {
         let own = &self.nodes[node];
         let start = Moment::at(Fraction::zero());
         if limit == Limit::Left && self.clock.compare(moment, &start)? == Ordering::Equal {
-            let (_, cell) = self.cells[node].get(0);
-            let value = |run: usize| {
-                let known = self.velocity_before(own, run);
-                known.unwrap_or_else(|| cell.velocities[run].coefficient(0))
-            };
+            let value = |run: usize| self.velocity_before(own, run);
             return Ok((Number::zero(), [value(run), value(run + 1)]));
         }
         let (start, cell) = self.cell(node, moment, limit)?;
@@ -100,29 +96,31 @@ impl Engine {
         self.cells[node].find(&self.clock, (moment, limit), self.now(node))
     }
 
-    /// The velocity beside a contact before the start: of a mass, a bar or a wall.
-    fn velocity_before(&self, node: &Node<Number>, run: usize) -> Option<Number> {
+    /// The velocity beside a contact before the start: of a mass, a bar or a wall; of a spring, that of what it rests on,
+    /// and zero between two contacts.
+    fn velocity_before(&self, node: &Node<Number>, run: usize) -> Number {
         if node.is_held(run) {
-            return Some(Number::zero());
+            return Number::zero();
         }
         if let Some(velocity) = self.starting_velocity(node, run) {
-            return Some(velocity);
+            return velocity;
         }
         let is_bar = |side: &Side| matches!(side, Side::Bar(_));
         if let Some(Side::Bar(bar)) = node.sides(run).find(is_bar) {
             let [right, left] = &self.waves[bar];
             let sum = right.before().add(left.before(), self.cut.bits);
-            return Some(sum.coefficient(0));
+            return sum.coefficient(0);
         }
-        // Beyond a spring without load is what it rests on.
         let mut springs = node.elements.iter().filter(|own| own.law.is_link());
         let next = springs.find_map(|own| match run {
             run if run == own.run => Some(own.run + 1),
             run if run == own.run + 1 => Some(own.run),
             _ => None,
-        })?;
-        let known = node.sides(next).any(|side| side != Side::Free)
-            || self.starting_velocity(node, next).is_some();
-        if known { self.velocity_before(node, next) } else { None }
+        });
+        let is_known = |next: &usize| {
+            node.sides(*next).any(|side| side != Side::Free)
+                || self.starting_velocity(node, *next).is_some()
+        };
+        next.filter(is_known).map_or_else(Number::zero, |next| self.velocity_before(node, next))
     }
 }

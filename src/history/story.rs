@@ -8,6 +8,7 @@ use crate::ball::{Number, Value};
 use crate::expression::{Expression, Fraction};
 use crate::history::body::parts;
 use crate::history::closed_form;
+use crate::history::contacts::Happening;
 use crate::history::energy::Integrand;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
@@ -259,13 +260,19 @@ impl Story<'_> {
     fn look(&mut self) {
         let start = Moment::at(Fraction::zero());
         for happening in &self.engine.happenings[self.seen..] {
-            let kind = match happening.closes {
-                true if happening.moment == start => EventKind::Impact,
+            let Happening { contact, closes, moment, forced, .. } = happening.clone();
+            let kind = match closes {
+                true if moment == start => EventKind::Impact,
                 true => EventKind::Closing,
                 false => EventKind::Opening,
             };
-            let (contact, moment) = (happening.contact, happening.moment.clone());
-            push(&mut self.waiting, Row { kind, contact, moment });
+            // Without force since earlier, the bodies touch until they move apart.
+            if kind == EventKind::Opening && moment != forced {
+                push(&mut self.waiting, Row { kind: EventKind::Release, contact, moment });
+                push(&mut self.waiting, Row { kind, contact, moment: forced });
+            } else {
+                push(&mut self.waiting, Row { kind, contact, moment });
+            }
         }
         self.seen = self.engine.happenings.len();
     }

@@ -3,6 +3,7 @@
 use super::{Kind, Problem, ProblemError};
 use crate::ball::Ball;
 use crate::enclosure::{Numbers, enclose_expression};
+use crate::export::definition_text;
 use crate::expression::{Constant, Definition, Fraction, Root};
 use crate::language;
 use crate::recurrence::{Coupled, Recurrence};
@@ -43,9 +44,9 @@ impl Problem {
             words.as_ref().is_none_or(|words| words.contains(constant.symbol.name()))
         };
         for constant in constants.iter().filter(occurs) {
-            if let Some(number) = decimal(constants, &constant.value) {
-                lines.push(format!("{} = {number}", constant.symbol));
-            }
+            let number = decimal(constants, &constant.value);
+            let value = number.unwrap_or_else(|| definition_text(&constant.value));
+            lines.push(format!("{} = {value}", constant.symbol));
         }
         Ok(lines)
     }

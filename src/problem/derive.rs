@@ -245,6 +245,7 @@ impl Problem {
             return Err(ProblemError::NoEchoesToExplain);
         }
         derivation.general_forms(solution, waves.len());
+        derivation.drop_unused_constants();
         if !exercise {
             return Ok(derivation);
         }

@@ -21,6 +21,9 @@ pub fn run(options: &Check) -> Result<String, Failure> {
         let _progress = progress::spinner("deriving in two ways");
         problem.check()?
     };
+    if problem.holds(1).is_some_and(|holds| holds.never()) {
+        eprintln!("note: a contact is in tension from the start: is the sign of a velocity wrong?");
+    }
     let mut report = format!("{}: {}\n", problem.title(), verdict(&checked, &problem));
     if !options.verbose {
         return Ok(report);

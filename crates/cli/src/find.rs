@@ -182,5 +182,12 @@ fn quantity(options: &Find) -> Result<(&str, &str), Failure> {
     }
     let zero = || options.zero.as_deref().map(str::trim);
     let name = options.extremum().map(|(_, name)| name).or_else(zero);
-    Ok((name.expect("one of them is required"), "0"))
+    let name = name.expect("one of them is required");
+    match name.contains(',') {
+        true => {
+            let message = format!("`{name}` are several quantities, and `find` takes one");
+            Err(Failure::usage(message, "ask for one after the other, or use `wavestep sweep`"))
+        }
+        false => Ok((name, "0")),
+    }
 }

@@ -46,8 +46,8 @@ pub fn problem(arguments: &Scene) -> Result<Asked, Failure> {
 
 /// Reads a built-in scene or a file, with these values put in.
 pub fn problem_with(scene: &str, values: &Values) -> Result<Asked, Failure> {
-    if let Some(scene) = scenes::find(scene) {
-        return Ok(Asked(Problem::of_text(scene.name, scene.text, values)?));
+    if let Some(built_in) = built_in_or_file(scene) {
+        return Ok(Asked(Problem::of_text(built_in.name, built_in.text, values)?));
     }
     let bytes = bytes(scene, MAX_SOURCE_BYTES).map_err(|error| unread(scene, &error))?;
     Ok(Asked(Problem::of_text(scene, bytes, values)?))
@@ -55,14 +55,24 @@ pub fn problem_with(scene: &str, values: &Values) -> Result<Asked, Failure> {
 
 /// What the text of a built-in scene or a file is called, and the text.
 pub fn text(scene: &str) -> Result<(String, String), Failure> {
-    if let Some(scene) = scenes::find(scene) {
-        return Ok((scene.name.to_owned(), scene.text.to_owned()));
+    if let Some(built_in) = built_in_or_file(scene) {
+        return Ok((built_in.name.to_owned(), built_in.text.to_owned()));
     }
     let bytes = bytes(scene, MAX_SOURCE_BYTES).map_err(|error| unread(scene, &error))?;
     let text = String::from_utf8(bytes).map_err(|_| {
         Failure::usage(format!("the scene `{scene}` is no text"), "save it as UTF-8")
     })?;
     Ok((scene.to_owned(), text))
+}
+
+/// The built-in scene of a name; says so where a file could be meant.
+fn built_in_or_file(name: &str) -> Option<&'static scenes::Scene> {
+    let scene = scenes::find(name)?;
+    let file = format!("{name}.wave");
+    if Path::new(&file).exists() {
+        eprintln!("note: `{name}` is the built-in scene; for the file here write `{file}`");
+    }
+    Some(scene)
 }
 
 /// Whether there is a built-in scene or a file of this name.

@@ -9,6 +9,10 @@ use super::progress;
 use wavestep_studies::report::{Request, page};
 
 pub fn run(options: &Report) -> Result<String, Failure> {
+    if options.output != "-" && !options.output.ends_with(".html") {
+        let message = format!("`{}` does not end in .html", options.output);
+        return Err(Failure::usage(message, "name an .html file; a browser prints it as PDF"));
+    }
     let problem = input::problem(&options.scene)?;
     let progress = progress::spinner("making the page");
     let page = page(

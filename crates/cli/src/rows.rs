@@ -80,6 +80,10 @@ pub fn times(problem: &Problem, name: &str, options: &Eval) -> Result<Vec<BigRat
         let remedy = "give --at T, or --from T --to T --points N, or --piece N --local S";
         return Err(Failure::usage("no times are given", remedy));
     }
+    if options.at.iter().any(|time| time.trim().is_empty()) {
+        let remedy = "write them with single commas between: --at 1,2";
+        return Err(Failure::usage("a time is missing in --at", remedy));
+    }
     options.at.iter().map(|time| Ok(problem.time("--at", time.as_str())?)).collect()
 }
 

@@ -17,7 +17,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{BufRead as _, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use wavestep_studies::sweep::{Axis, MOST_ROWS, Row, Sweep, ToSweep};
+use wavestep_studies::sweep::{Axis, MOST_ROWS, Row, Sweep, TEXTS, ToSweep};
 
 pub fn run(options: &Options) -> Result<String, Failure> {
     let (name, text) = input::text(&options.scene.scene)?;
@@ -173,10 +173,10 @@ fn rows_of(path: &Path, request: &str) -> Vec<Row> {
     lines.map_while(|line| serde_json::from_str(&line).ok()).collect()
 }
 
-/// The table as Parquet: doubles, and text in the column `error`.
+/// The table as Parquet: doubles, and text in the last columns.
 fn parquet(table: &Table) -> Result<Vec<u8>, ParquetError> {
     let field = |name: &String| {
-        let (physical, converted) = match name == "error" {
+        let (physical, converted) = match TEXTS.contains(&name.as_str()) {
             true => (Physical::BYTE_ARRAY, ConvertedType::UTF8),
             false => (Physical::DOUBLE, ConvertedType::NONE),
         };
@@ -196,7 +196,7 @@ fn parquet(table: &Table) -> Result<Vec<u8>, ParquetError> {
         let known: Vec<i16> = cells.clone().map(|cell| cell.is_some().into()).collect();
         let cells = cells.flatten();
         let mut column = group.next_column()?.expect("a column for each field");
-        if name == "error" {
+        if TEXTS.contains(&name.as_str()) {
             let texts: Vec<ByteArray> =
                 cells.filter_map(Json::as_str).map(ByteArray::from).collect();
             column.typed::<ByteArrayType>().write_batch(&texts, Some(&known), None)?;

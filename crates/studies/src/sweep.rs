@@ -4,6 +4,7 @@
 //! there are.
 
 use crate::picture::{PictureError, usual_end};
+use crate::validity;
 use serde_json::{Map, Value as Json, json};
 use std::collections::BTreeMap;
 use std::str::FromStr;
@@ -31,6 +32,12 @@ const WAITING: usize = 64;
 
 /// The name of the column with the reason why a row is not complete.
 const ERROR: &str = "error";
+
+/// The name of the column with what the answers of a row take for granted.
+const NOTE: &str = "note";
+
+/// The columns that hold text; the others hold numbers.
+pub const TEXTS: [&str; 2] = [NOTE, ERROR];
 
 /// A column each: values by name.
 pub type Row = Map<String, Json>;
@@ -178,16 +185,24 @@ impl Sweep<'_> {
         let mut row: Row = place
             .map(|(symbol, value)| (symbol.to_owned(), json!(crate::nearest(value))))
             .collect();
-        if let Err(error) = self.answer(index, &mut row) {
+        let mut notes = Vec::new();
+        if let Err(error) = self.answer(index, (&mut row, &mut notes)) {
             let error = error.to_string();
             row.insert(ERROR.to_owned(), json!(error.lines().next()));
+        }
+        if !notes.is_empty() {
+            row.insert(NOTE.to_owned(), json!(notes.join("; ")));
         }
         row
     }
 
-    fn answer(&self, index: usize, row: &mut Row) -> Result<(), PictureError> {
+    fn answer(
+        &self,
+        index: usize,
+        (row, notes): (&mut Row, &mut Vec<String>),
+    ) -> Result<(), PictureError> {
         let problem = self.problem(index)?;
-        let asked = self.asked;
+        let (asked, mut last) = (self.asked, Rational::default());
         let names = match &asked.quantities[..] {
             [] if !asked.at.is_empty() => problem.observables(),
             names => names.iter().map(String::as_str).collect(),
@@ -203,6 +218,7 @@ impl Sweep<'_> {
             limit: Limit::Right,
             count_echoes: false,
         };
+        last = times.iter().max().cloned().unwrap_or(last);
         for name in names.iter().filter(|_| !times.is_empty()) {
             let found = problem.proven(&problem.wanted(name)?, &times, digits, &|| ())?;
             for (at, value) in asked.at.iter().zip(&found.values) {
@@ -211,6 +227,7 @@ impl Sweep<'_> {
         }
         if !asked.extrema.is_empty() {
             let window = self.window(&problem)?;
+            last = last.max(window[1].clone());
             for (goal, name) in &asked.extrema {
                 let wanted = problem.wanted(name)?;
                 let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?;
@@ -226,6 +243,8 @@ impl Sweep<'_> {
             let history = problem.history(until.as_ref(), DIGITS)?;
             history.contacts.iter().for_each(|contact| put_contact(row, contact));
         }
+        notes.extend(problem.assumptions().into_iter().map(|one| format!("assuming that {one}")));
+        notes.extend(validity::pulling(&problem, &last));
         Ok(())
     }
 

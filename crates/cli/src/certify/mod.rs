@@ -67,16 +67,19 @@ fn goal(options: &Certify) -> Option<(Option<Goal>, &str)> {
 fn stated(problem: &Problem, writer: &mut Writer) -> Result<Map<String, Json>, Failure> {
     let recurrence = problem.recurrence()?;
     let statement = recurrence.statement();
-    // A square root with a name may be any number: formulas hold it as a symbol.
-    let is_rate = |constant: &&Constant| !matches!(constant.value, Definition::Root(_));
+    // A number of the scene may be any other: formulas hold it as a symbol. A rate depends on these numbers.
+    let numbers = problem.network().map_or(&[][..], |network| &network.model().constants);
+    let is_rate = |constant: &&Constant| {
+        !matches!(constant.value, Definition::Root(_)) || !numbers.contains(constant)
+    };
     if let Some(constant) = recurrence.constants().iter().find(is_rate) {
         let message = format!(
-            "formulas of this scene hold the rate `{}`, which has no formula",
+            "formulas of this scene hold the rate `{}`, a root that depends on other numbers",
             constant.symbol
         );
         return Err(Failure::usage(
             message,
-            "certificates are written where all rates have formulas",
+            "certificates are written where all rates are rational in the numbers of the scene",
         ));
     }
     let mut document = Map::new();

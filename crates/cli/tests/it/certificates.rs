@@ -269,8 +269,13 @@ fn what_has_no_certificate_is_told() {
                  mass anvil { mass = 3 }\nbar rod { impedance = 1, travel = 1 }\n\
                  line free - hammer - pad - anvil - rod - fixed\n";
     std::fs::write(folder.join("rates.wave"), rates).unwrap();
+    // A rate that is the root of other numbers, which their names leave open.
+    let rings = "scene \"Rings\"\nmass ram { mass = 5/(3*pi), velocity = 1 }\nspring pad { stiffness = 32/(3*pi) }\n\
+                 bar rod { impedance = 1, travel = 1 }\nline free - ram | pad - rod - fixed\n";
+    std::fs::write(folder.join("rings.wave"), rings).unwrap();
     for (line, message) in [
-        ("certify rates.wave", "which has no formula"),
+        ("certify rates.wave", "a root that depends on other numbers"),
+        ("certify rings.wave", "a root that depends on other numbers"),
         ("certify incommensurate", "incommensurable"),
         ("certify hertz-striker", "local contact"),
         ("certify mass-on-fixed-bar --set mu=1 --quantity energy --at 1", "not linear"),

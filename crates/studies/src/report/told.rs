@@ -41,7 +41,12 @@ pub fn events(problem: &Problem, kept_closed: bool) -> String {
         }
         false => "",
     };
-    paragraph(&format!("No event is missed; this is proven.{about}"))
+    let proven = match &history.assumptions[..] {
+        [] => "this is proven",
+        [_] => "this is proven under the assumption listed below",
+        _ => "this is proven under the assumptions listed below",
+    };
+    paragraph(&format!("No event is missed; {proven}.{about}"))
         + &format!(
             "<ol class=\"events\">\n{}</ol>\n",
             told.into_iter().map(item).collect::<String>()
