@@ -26,6 +26,14 @@ pub enum Holds {
     AsLongAs(Vec<Pressed>),
 }
 
+impl Holds {
+    /// Whether it holds at no time at all.
+    pub fn never(&self) -> bool {
+        let zero = Value::Exact(Rational::default());
+        matches!(self, Holds::UntilTheyPart(time, _) | Holds::UntilItPulls(time, _) if *time == zero)
+    }
+}
+
 /// Whether a contact that stays closed would pull.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Pulls {
