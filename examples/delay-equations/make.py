@@ -45,7 +45,8 @@ def fill():
     for i, b in enumerate(["-1", "-1/4", "-3/2", "-2", "1/2"], 1):
         add(f"pure-delay-{i}", f"{b} 0 1", history="1")
     for i, (a, b, delay) in enumerate(
-        [("-1", "-1", "1"), ("-2", "1", "1/2"), ("-1", "-3/2", "2"), ("1/2", "-1", "1"), ("-5", "4", "1/3")], 1
+        [("-1", "-1", "1"), ("-2", "1", "1/2"), ("-1", "-3/2", "2"),
+         ("1/2", "-1", "1"), ("-5", "4", "1/3")], 1
     ):
         add(f"hayes-{i}", f"{a} 0 0, {b} 0 1", delay, "1")
     for i, (a, b, delay) in enumerate(
@@ -76,8 +77,8 @@ def fill():
          ("-1 0 0, 1/3 1 1, 1/4 1 2", "exp(t)")], 1
     ):
         add(f"neutral-smooth-{i}", terms, "1", history)
-    # Delayed feedback, chatter of a tool, delayed damping, a forced oscillator, and neutral ones: a mass on a spring and
-    # a bar, and two with a delayed acceleration.
+    # Delayed feedback, chatter of a tool, delayed damping, a forced oscillator, and neutral ones: a mass on a spring
+    # and a bar, and two with a delayed acceleration.
     for i, (terms, delay, history, forcing, start) in enumerate(
         [("-1 0 0, -1/4 0 1", "1", "1", "0", None), ("-5/4 0 0, 1/4 0 1, -1/10 1 0", "2", "0", "0", "0 1"),
          ("-1 0 0, -1/2 1 1", "1", "cos(t)", "0", None), ("-4 0 0, -1/5 1 0, 1 0 1", "1", "0", "cos(2*t)", None),

@@ -60,7 +60,7 @@ class Steps:
 
     def march(self, solve):
         """`solve(u, places)` gives U at these local times and at the end of the delay."""
-        u, found = np.zeros(self.order * self.count), {}
+        u, end, found = np.zeros(self.order * self.count), None, {}
         for n in range(self.count):
             for j in range(self.order):
                 u[j * self.count + n] = self.start[j] if n == 0 else end[j * self.count + n - 1]

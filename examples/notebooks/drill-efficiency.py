@@ -32,9 +32,9 @@ print(f"pulse {T * 1e6:.1f} µs, Z/T = {Z / T * 1e-6:.1f} kN/mm, energy of the b
 
 # %% [markdown]
 # Where piston and rod have the same impedance and there is no bit, the incident pulse is a rectangle of length T. The
-# spring at the end of the rod then answers with an exponential, and the energy in it is largest at the end of the pulse.
-# With κ = kT/Z the efficiency is 2/κ (1 − exp(−κ))². Its maximum is 81.5 % at κ = 1.256: a rectangular pulse never
-# gives more to a rock that is a spring. A bit shapes the pulse, so the bound does not hold with one.
+# spring at the end of the rod answers with an exponential, and its energy is largest at the end of the pulse. With
+# κ = kT/Z the efficiency is 2/κ (1 − exp(−κ))². Its maximum is 81.5 % at κ = 1.256: a rectangular pulse never gives
+# more to a rock that is a spring. A bit shapes the pulse, so the bound does not hold with one.
 #
 # The maxima of the scenes are proven ones of the first 650 µs, before the wave is back for a second time.
 
@@ -62,7 +62,7 @@ for name, found in [("without", without), ("with", with_bit)]:
     print(f"{name} bit: {100 * found[best]:.1f} % at {stiffness[best]:.0f} kN/mm")
 
 # %% [markdown]
-# Without a bit the scene gives the formula, and stays below its bound. The bit is better in hard rock and worse in soft:
+# Without a bit the scene gives the formula, and stays below its bound. A bit is better in hard rock, worse in soft:
 
 # %%
 assert abs(without - formula).max() < 1e-12

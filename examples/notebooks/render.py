@@ -1,4 +1,4 @@
-"""Runs the notebooks and writes them as pages: see README.md."""
+"""Runs the notebooks and writes them as pages: see README.md beside it."""
 
 import pathlib
 import re
@@ -20,8 +20,8 @@ plt.rcParams.update({"svg.hashsalt": "", "svg.fonttype": "none", "font.sans-seri
 
 
 def smaller(svg: str) -> str:
-    """Without blanks at the ends of lines, and without digits that nobody sees."""
-    svg = re.sub(r"[ \t]+$", "", svg, flags=re.MULTILINE)
+    """A path in a line, and no digits that nobody sees."""
+    svg = re.sub(r" *\n(?=[MLQCz\"])", " ", svg)
     return re.sub(r"(\d+\.\d\d)\d+", r"\1", svg)
 
 

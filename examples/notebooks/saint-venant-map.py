@@ -2,7 +2,7 @@
 # # Saint-Venant's problem: a map of contact times
 #
 # A rigid mass strikes a bar whose far end is fixed, leaves it, and may be struck again by the vibrating end. When is it
-# in contact, for every ratio of the masses? Times are in passages L/c; mu is the mass of the bar over that of the striker.
+# in contact, for 201 ratios of the masses? Times are in passages L/c; mu is the mass of the bar over the striker's.
 
 # %%
 import numpy as np
@@ -29,8 +29,8 @@ figure.tight_layout()
 assert again.max() == 1  # two contacts at most
 
 # %% [markdown]
-# The front that the mass sent off returns at t = 2, 4, 6 … and raises the force by 2 each time. Where the
-# force just fails to vanish before such an arrival, the contact lasts on, and the release jumps. At smaller ratios near by, a
+# The front that the mass sent off returns at t = 2, 4, 6 … and raises the force by 2 each time. Where the force just
+# fails to vanish before such an arrival, the contact lasts on, and the release jumps. At smaller ratios near by, a
 # second contact fills the gap. Bisection finds where the release leaves the window from 2 to 4:
 
 # %%
