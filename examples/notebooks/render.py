@@ -39,6 +39,8 @@ def page(source: pathlib.Path) -> tuple[str, dict[str, str]]:
             continue
         parts.append(f"```python\n{cell.source}\n```")
         for output in cell.outputs:
+            if output.get("name") == "stderr":
+                continue
             data = output.get("data", {})
             if "image/svg+xml" in data:
                 name = f"{source.stem}-{len(pictures) + 1}.svg"
