@@ -11,12 +11,17 @@ use std::path::{Path, PathBuf};
 use wavestep::language::{self, Diagnostic, Source};
 use wavestep_cli::diagnostic::{Style, render};
 
-/// The README and all pages of `docs/`.
+/// The README and all pages of `docs/`, with those of its notebooks.
 fn documents() -> Vec<String> {
-    let pages = fs::read_dir(path("docs")).expect("the documents exist");
-    let names = pages.map(|page| page.expect("a page").file_name().into_string().expect("a name"));
-    let mut pages: Vec<String> =
-        names.filter(|name| name.ends_with(".md")).map(|name| format!("docs/{name}")).collect();
+    let mut pages = Vec::new();
+    for folder in ["docs", "docs/notebooks"] {
+        let files = fs::read_dir(path(folder)).expect("the documents exist");
+        let names =
+            files.map(|page| page.expect("a page").file_name().into_string().expect("a name"));
+        pages.extend(
+            names.filter(|name| name.ends_with(".md")).map(|name| format!("{folder}/{name}")),
+        );
+    }
     pages.sort();
     pages.insert(0, "README.md".to_owned());
     pages
