@@ -254,12 +254,14 @@ fn a_scene_may_come_from_standard_input() {
 fn what_is_read_is_not_replaced() {
     let folder = folder("read-and-written");
     fs::write(folder.join("s.wave"), SCENE).unwrap();
-    fs::write(folder.join("t.wave"), SCENE).unwrap();
+    for name in ["t.wave", "s.html"] {
+        fs::write(folder.join(name), SCENE).unwrap();
+    }
     let other = format!("{}/../read-and-written/s.wave", folder.display());
     for line in [
         "derive s.wave -o s.wave".to_owned(),
         format!("derive s.wave -o {other}"),
-        "report s.wave -o s.wave".to_owned(),
+        "report s.html -o s.html".to_owned(),
         "find s.wave --distance force --minus t.wave --to 1ms -o t.wave".to_owned(),
     ] {
         let (code, out, errors) = run(&folder, &words(&line));
@@ -268,7 +270,7 @@ fn what_is_read_is_not_replaced() {
             "{line}: {errors}"
         );
     }
-    for file in ["s.wave", "t.wave"] {
+    for file in ["s.wave", "t.wave", "s.html"] {
         assert_eq!(fs::read_to_string(folder.join(file)).unwrap(), SCENE);
     }
 }
