@@ -14,6 +14,8 @@ try:
     import flint
     from flint import arb, arb_series, fmpq, fmpq_mat, fmpq_mpoly_ctx
 except ImportError:
+    if __name__ != "__main__":
+        raise
     sys.exit("python-flint is missing: pip install python-flint")
 
 

@@ -343,7 +343,7 @@ fn errors_leave_no_file() {
     .unwrap();
     for (arguments, message) in [
         (&["report", "rigid-mass", "-o", "nowhere/page.html"][..], "cannot be written"),
-        (&["report", "rigid-mass", "-o", "."], "cannot be written"),
+        (&["report", "rigid-mass", "-o", "."], "does not end in .html"),
         (&["report", "wrong.wave", "-o", "page.html"], "wrong.wave"),
         (&["report", "rest.wave", "-o", "page.html"], "rest.wave"),
         (&["report", "rigid-mass"], "--output"),
