@@ -17,7 +17,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{BufRead as _, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use wavestep_studies::sweep::{Axis, MOST_ROWS, Row, Sweep, TEXTS, ToSweep};
+use wavestep_studies::sweep::{Axis, MOST_ROWS, Row, Sweep, TEXTS, Time, ToSweep};
 
 pub fn run(options: &Options) -> Result<String, Failure> {
     let (name, text) = input::text(&options.scene.scene)?;
@@ -26,19 +26,19 @@ pub fn run(options: &Options) -> Result<String, Failure> {
     let axes = axes.map_err(|error| {
         Failure::usage(error.to_string(), "write --over mu=1,2,5 or --over mu=1/10..10:25:log")
     })?;
-    if let Some(twice) = twice(&axes, &set) {
-        return Err(input::two_values(twice));
-    }
     let trimmed = |names: &[String]| names.iter().map(|name| name.trim().to_owned()).collect();
     let asked = ToSweep {
         quantities: trimmed(&options.quantity),
-        at: trimmed(&options.at),
+        at: options.at.iter().map(|at| time("--at", at)).collect(),
         extrema: options.extrema(),
-        from: options.from.clone(),
-        to: options.to.clone(),
+        from: time("--from", &options.from),
+        to: options.to.as_ref().map(|to| time("--to", to)),
         contacts: options.contacts,
     };
     let sweep = Sweep { text: &text, name: &name, set: &set, axes: &axes, asked: &asked };
+    if let Some(twice) = sweep.twice() {
+        return Err(input::two_values(twice));
+    }
     let Some(count) = sweep.count() else {
         let message = format!("there are more than {MOST_ROWS} combinations of values");
         return Err(Failure::usage(message, "give fewer values, or sweep in parts"));
@@ -48,7 +48,7 @@ pub fn run(options: &Options) -> Result<String, Failure> {
     if let Some(file) = file {
         is_table(file)?;
     }
-    let mut kept = Kept::open(file, &request(&sweep, &text))?;
+    let mut kept = Kept::open(file, &sweep, count)?;
     let threads = options.threads.map_or_else(cores, usize::from);
     let begun = kept.rows.len();
     if begun > 0 {
@@ -68,6 +68,7 @@ pub fn run(options: &Options) -> Result<String, Failure> {
     }
     let mut table = Table::default();
     kept.rows.drain(..).for_each(|row| table.push(row));
+    table.move_last(&TEXTS);
     let told = match file {
         Some(file) if file.ends_with(".parquet") => {
             let bytes = parquet(&table).map_err(|error| {
@@ -86,12 +87,9 @@ fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// A symbol that is given two values.
-fn twice<'a>(axes: &'a [Axis], set: &wavestep::problem::Values) -> Option<&'a str> {
-    let names: Vec<String> =
-        axes.iter().map(|axis| wavestep::language::normalise_name(&axis.symbol)).collect();
-    let is_twice = |i: &usize| set.contains_key(&names[*i]) || names[..*i].contains(&names[*i]);
-    (0..axes.len()).find(is_twice).map(|i| axes[i].symbol.as_str())
+fn time(option: &'static str, text: &str) -> Time {
+    let label = text.trim().to_owned();
+    Time { given: label.clone().into(), label, option }
 }
 
 fn is_table(file: &str) -> Result<(), Failure> {
@@ -104,22 +102,6 @@ fn is_table(file: &str) -> Result<(), Failure> {
     }
 }
 
-/// All that the rows depend on.
-fn request(sweep: &Sweep<'_>, text: &str) -> Json {
-    let axes = sweep.axes.iter().map(|axis| {
-        let values: Vec<String> = axis.values.iter().map(ToString::to_string).collect();
-        json!([axis.symbol, values])
-    });
-    let set = sweep.set.iter().map(|(name, value)| json!([name, value.to_string()]));
-    json!({
-        "wavestep": env!("CARGO_PKG_VERSION"),
-        "text": text,
-        "set": set.collect::<Vec<_>>(),
-        "over": axes.collect::<Vec<_>>(),
-        "asked": format!("{:?}", sweep.asked),
-    })
-}
-
 /// Rows that are done, in memory and, where the table goes to a file, beside that file until it is there: the request in
 /// the first line, then a row each.
 struct Kept {
@@ -128,12 +110,14 @@ struct Kept {
 }
 
 impl Kept {
-    /// With the rows that the same request has left there.
-    fn open(file: Option<&str>, request: &Json) -> Result<Kept, Failure> {
+    /// With the first rows that the same request has left there.
+    fn open(file: Option<&str>, sweep: &Sweep<'_>, count: usize) -> Result<Kept, Failure> {
         let Some(file) = file else { return Ok(Kept { rows: Vec::new(), beside: None }) };
         let path = PathBuf::from(format!("{file}.rows"));
-        let request = request.to_string();
-        let rows = rows_of(&path, &request);
+        let request = sweep.request().to_string();
+        let rows = rows_of(&path, &request).into_iter().take(count).enumerate();
+        let rows = rows.map_while(|(i, row)| sweep.is_row(i, &row).then_some(row));
+        let rows: Vec<Row> = rows.collect();
         let whole: String = rows.iter().map(|row| json!(row).to_string() + "\n").collect();
         // A line that was cut off is done again.
         write_whole(&path, format!("{request}\n{whole}").as_bytes())?;

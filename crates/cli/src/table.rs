@@ -53,6 +53,11 @@ impl Table {
         self.rows.push(row);
     }
 
+    /// Puts these columns last, where there are some.
+    pub fn move_last(&mut self, names: &[&str]) {
+        self.columns.sort_by_key(|column| names.iter().position(|name| name == column));
+    }
+
     pub fn columns(&self) -> &[String] {
         &self.columns
     }

@@ -25,7 +25,8 @@ impl<'py> FromPyObject<'_, 'py> for Number {
     }
 }
 
-fn given(value: &Bound<'_, PyAny>) -> PyResult<Given> {
+/// The number that a value of Python's is.
+pub fn given(value: &Bound<'_, PyAny>) -> PyResult<Given> {
     if let Ok(text) = value.cast::<PyString>() {
         return Ok(text.to_str()?.into());
     }

@@ -9,6 +9,7 @@ mod given;
 mod problem;
 mod results;
 mod signal;
+mod sweep;
 mod value;
 mod work;
 
@@ -23,6 +24,8 @@ mod _native {
     use super::problem::Problem;
     #[pymodule_export]
     use super::signal::{Curve, Signal};
+    #[pymodule_export]
+    use super::sweep::Sweep;
     #[pymodule_export]
     use super::value::Value;
     #[pymodule_export]

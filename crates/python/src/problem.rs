@@ -9,6 +9,7 @@ use crate::work::released;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use std::sync::{Arc, Mutex, PoisonError};
+use wavestep::problem::Values;
 use wavestep::{Error, Given, Problem as Read, Quantity};
 use wavestep_draw::{Caption, Chart as _};
 use wavestep_studies::picture::{against_time, courses, lagrange, usual_end};
@@ -144,6 +145,15 @@ impl Problem {
         Ok(match problem {
             Some(problem) => Problem(Arc::new(Shared(Mutex::new(problem)))),
             None => Problem(Arc::clone(&self.0)),
+        })
+    }
+
+    /// What errors call the text, the text, and the values in place of symbols.
+    fn _source(&self, py: Python<'_>) -> PyResult<([String; 2], Values)> {
+        self.0.ask(py, |problem| {
+            let source = problem.source();
+            let text = [source.name(), source.text()].map(str::to_owned);
+            Ok((text, problem.values().clone()))
         })
     }
 

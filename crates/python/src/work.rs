@@ -5,11 +5,15 @@ use crate::failure::Failure;
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use std::any::Any;
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
-use wavestep::limits::{memory, set_memory as allow};
+use wavestep::limits::{count_nothing_here, memory, set_memory as allow};
 
 /// How often signals and memory are looked at.
 const TICK: Duration = Duration::from_millis(50);
@@ -27,6 +31,9 @@ struct Watch {
 
 thread_local! {
     static WATCH: Cell<Option<Watch>> = const { Cell::new(None) };
+
+    /// Of a thread that helps another: whether all of them are to stop.
+    static HELPS: RefCell<Option<Arc<AtomicBool>>> = const { RefCell::new(None) };
 }
 
 /// Why work was stopped.
@@ -59,13 +66,76 @@ fn unwound(py: Python<'_>, reason: Box<dyn Any + Send>) -> PyErr {
     Failure::Internal(told).raised(py)
 }
 
+/// Stops work with an exception.
+pub fn stop(error: PyErr) -> ! {
+    resume_unwind(Box::new(Stopped(error)))
+}
+
+/// Tells helping threads to stop where this one unwinds.
+struct StopTogether(Arc<AtomicBool>);
+
+impl Drop for StopTogether {
+    fn drop(&mut self) {
+        if thread::panicking() {
+            self.0.store(true, Ordering::Relaxed);
+        }
+    }
+}
+
+/// Works on so many helping threads, and hands what they find to `each` on this one, in the order in which it is found.
+/// They stop where this thread does, or where one of them panics.
+pub fn on_threads<T: Send>(
+    indices: impl Iterator<Item = usize> + Send,
+    threads: usize,
+    work: impl Fn(usize) -> T + Sync,
+    mut each: impl FnMut(usize, T),
+) {
+    let indices = &Mutex::new(indices);
+    let work = &work;
+    let ending = Arc::new(AtomicBool::new(false));
+    let (to, found) = channel();
+    thread::scope(|scope| {
+        let help = |_| {
+            let (to, ending) = (to.clone(), StopTogether(Arc::clone(&ending)));
+            scope.spawn(move || {
+                count_nothing_here();
+                HELPS.set(Some(Arc::clone(&ending.0)));
+                let next = || indices.lock().unwrap_or_else(PoisonError::into_inner).next();
+                while let Some(index) = next().filter(|_| !ending.0.load(Ordering::Relaxed)) {
+                    let _ = to.send((index, work(index)));
+                }
+            })
+        };
+        let helpers: Vec<_> = (0..threads.max(1)).map(help).collect();
+        drop(to);
+        let _ending = StopTogether(ending);
+        loop {
+            match found.recv_timeout(TICK) {
+                Ok((index, found)) => each(index, found),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => break,
+            }
+            pause();
+        }
+        for helper in helpers {
+            helper.join().unwrap_or_else(|reason| resume_unwind(reason));
+        }
+    });
+}
+
 /// Looks at signals and memory between two steps of work, now and then.
 pub fn pause() {
+    let ending = |helps: &RefCell<Option<Arc<AtomicBool>>>| {
+        helps.borrow().as_ref().is_some_and(|ending| ending.load(Ordering::Relaxed))
+    };
+    if HELPS.with(ending) {
+        resume_unwind(Box::new("stopped"));
+    }
     let Some(mut watch) = WATCH.get().filter(|watch| watch.looked.elapsed() >= TICK) else {
         return;
     };
     if let Err(stopped) = Python::attach(|py| py.check_signals()) {
-        resume_unwind(Box::new(Stopped(stopped)));
+        stop(stopped);
     }
     let now = resident();
     watch.held = watch.held.or(now);
@@ -78,7 +148,7 @@ pub fn pause() {
              or allow more with wavestep.set_memory",
             memory() / 1_000_000
         );
-        resume_unwind(Box::new(Stopped(PyMemoryError::new_err(told))));
+        stop(PyMemoryError::new_err(told));
     }
 }
 

@@ -98,6 +98,7 @@ def in_another_process(code: str) -> "subprocess.Popen[str]":
         'ws.scene("rigid-mass", mu="1/3").signal("f").digits(1200, 10_000)',
         'ws.scene("rigid-mass", mu=1).signal("f").compiled(0, 3900)',
         'ws.scene("hopkinson-with-release").diagram(end="300 ms")',
+        'ws.sweep("rigid-mass", {"mu": ["1/3", "1/7"]}, max="velocity", end=300)',
     ],
 )
 def test_interruption_stops_work_and_leaves_the_problem_as_it_was(work: str) -> None:

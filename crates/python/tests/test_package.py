@@ -12,17 +12,19 @@ import numpy as np
 import pytest
 
 import wavestep as ws
-from wavestep import _convert, _errors, _results
+from wavestep import _convert, _errors, _results, _sweep
 
-PAGE = pathlib.Path(__file__).parents[3] / "docs/python.md"
+ROOT = pathlib.Path(__file__).parents[3]
+PAGES = [ROOT / "docs/python.md", ROOT / "docs/sweeps.md"]
 
 
 def examples() -> list[doctest.DocTest]:
     finder = doctest.DocTestFinder(exclude_empty=True)
-    found = [test for module in (ws, _convert, _errors, _results) for test in finder.find(module)]
+    found = [test for module in (ws, _convert, _errors, _results, _sweep) for test in finder.find(module)]
     found += finder.find(ws.set_memory, "set_memory", globs={})
-    page = PAGE.read_text(encoding="utf-8").replace("```", "\n```")
-    found.append(doctest.DocTestParser().get_doctest(page, {}, PAGE.name, str(PAGE), 0))
+    for file in PAGES:
+        page = file.read_text(encoding="utf-8").replace("```", "\n```")
+        found.append(doctest.DocTestParser().get_doctest(page, {}, file.name, str(file), 0))
     return [test for test in found if test.examples]
 
 
@@ -62,7 +64,7 @@ def test_the_package_is_imported_quickly_and_without_others() -> None:
 
 
 def test_the_python_of_the_readme(capsys: pytest.CaptureFixture[str]) -> None:
-    readme = (PAGE.parents[1] / "README.md").read_text(encoding="utf-8")
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
     (block,) = re.findall(r"^```python\n(.*?)^```$", readme, re.MULTILINE | re.DOTALL)
     exec(block, {})
     printed = block.splitlines()[-1].split("# ")[1]

@@ -12,9 +12,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::sync_channel;
 use std::thread;
 use wavestep::history::ContactSummary;
+use wavestep::language;
 use wavestep::limits::{SEARCH_BITS, VALUE_BITS, count_nothing_here};
 use wavestep::planner::Purpose;
-use wavestep::problem::{Digits, Problem, Values, geometrically_spaced, number};
+use wavestep::problem::{Digits, Given, Problem, Values, geometrically_spaced, number};
 use wavestep::signal::{Extremum, Goal, Limit, Place, Search, Value};
 use wavestep_polynomial::Rational;
 
@@ -22,7 +23,7 @@ use wavestep_polynomial::Rational;
 const DIGITS: usize = 17;
 
 /// Significant digits of values in equal ratios.
-const AXIS_DIGITS: usize = 6;
+const AXIS_DIGITS: usize = 15;
 
 /// The most rows.
 pub const MOST_ROWS: usize = 1_000_000;
@@ -31,7 +32,7 @@ pub const MOST_ROWS: usize = 1_000_000;
 const WAITING: usize = 64;
 
 /// The name of the column with the reason why a row is not complete.
-const ERROR: &str = "error";
+pub const ERROR: &str = "error";
 
 /// The name of the column with what the answers of a row take for granted.
 const NOTE: &str = "note";
@@ -55,6 +56,12 @@ pub enum AxisError {
     Form(String),
     #[error("`{0}` has no values: the range is empty, or N is below 2")]
     Empty(String),
+    #[error("`{0}` has more than {MOST_ROWS} values")]
+    TooMany(String),
+    #[error("a symbol named `{0}` cannot be told from the column of that name")]
+    Reserved(String),
+    #[error("a value in `{0}` is beyond the range of doubles")]
+    NotADouble(String),
     #[error("equal ratios in `{0}` need two positive ends")]
     NotPositive(String),
 }
@@ -77,6 +84,9 @@ impl FromStr for Axis {
                 if count < 2 || from >= to {
                     return Err(AxisError::Empty(text.to_owned()));
                 }
+                if count > MOST_ROWS {
+                    return Err(AxisError::TooMany(text.to_owned()));
+                }
                 match (spacing, next()) {
                     (None, None) => evenly_spaced(&from, &to, count),
                     (Some("log"), None) if from > Rational::default() => {
@@ -87,8 +97,19 @@ impl FromStr for Axis {
                 }
             }
         };
-        let symbol = symbol.trim().to_owned();
-        if symbol.is_empty() { Err(form()) } else { Ok(Axis { symbol, values }) }
+        let values: Vec<Rational> = values;
+        let is_double = |value: &Rational| {
+            let double = crate::nearest(value);
+            double.is_finite() && (double == 0.0) == (*value == Rational::default())
+        };
+        if !values.iter().all(is_double) {
+            return Err(AxisError::NotADouble(text.to_owned()));
+        }
+        match symbol.trim() {
+            "" => Err(form()),
+            symbol if TEXTS.contains(&symbol) => Err(AxisError::Reserved(symbol.to_owned())),
+            symbol => Ok(Axis { symbol: symbol.to_owned(), values }),
+        }
     }
 }
 
@@ -98,17 +119,31 @@ fn evenly_spaced(from: &Rational, to: &Rational, count: usize) -> Vec<Rational> 
 }
 
 /// What is asked of the scene at each value.
-#[derive(Clone, PartialEq, Debug, Default)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct ToSweep {
     /// Values of these quantities, of all observables where none is named, at these times.
     pub quantities: Vec<String>,
-    pub at: Vec<String>,
+    pub at: Vec<Time>,
     /// The largest or smallest values of these quantities between two times, to the usual end where none is given.
     pub extrema: Vec<(Goal, String)>,
-    pub from: String,
-    pub to: Option<String>,
+    pub from: Time,
+    pub to: Option<Time>,
     /// How long each contact is closed at first, its impulse in that time, and its coefficient of restitution.
     pub contacts: bool,
+}
+
+/// A time as it was given, what columns call it, and what errors call it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Time {
+    pub given: Given,
+    pub label: String,
+    pub option: &'static str,
+}
+
+impl Time {
+    fn of(&self, problem: &Problem) -> Result<Rational, PictureError> {
+        Ok(problem.time(self.option, self.given.clone())?)
+    }
 }
 
 /// A scene, the values that its symbols take, and what is asked.
@@ -140,11 +175,11 @@ impl Sweep<'_> {
         place
     }
 
-    /// Finds mistakes in what is asked, at the first row that can be read, or the last.
+    /// Finds mistakes in what is asked: the scene of the first row, or of the last if only that can be read.
     ///
     /// # Errors
     /// A scene that cannot be read, or a quantity or time that it does not have.
-    pub fn check(&self) -> Result<(), PictureError> {
+    pub fn check(&self) -> Result<Problem, PictureError> {
         let last = self.count().unwrap_or(1).saturating_sub(1);
         let problem = self.problem(0).or_else(|_| self.problem(last))?;
         let extrema = self.asked.extrema.iter().map(|(_, name)| name);
@@ -152,16 +187,70 @@ impl Sweep<'_> {
             problem.wanted(name)?;
         }
         for at in &self.asked.at {
-            problem.time("--at", at.as_str())?;
+            at.of(&problem)?;
         }
-        self.window(&problem)?;
-        Ok(())
+        if !self.asked.extrema.is_empty() {
+            self.window(&problem)?;
+        }
+        Ok(problem)
+    }
+
+    /// The columns of a row that is complete.
+    ///
+    /// # Errors
+    /// As [`Sweep::check`]; or contacts that cannot be told.
+    pub fn columns(&self) -> Result<Vec<String>, PictureError> {
+        let problem = self.check()?;
+        let asked = self.asked;
+        let mut columns: Vec<String> = self.axes.iter().map(|axis| axis.symbol.clone()).collect();
+        for name in self.names(&problem) {
+            columns.extend(asked.at.iter().map(|at| value_column(name, at)));
+        }
+        columns.extend(asked.extrema.iter().flat_map(extremum_columns));
+        if asked.contacts {
+            let start = problem.history(Some(&Rational::default()), DIGITS)?;
+            columns.extend(start.contacts.iter().flat_map(contact_columns));
+        }
+        Ok(columns)
+    }
+
+    /// The quantities whose values are asked for.
+    fn names<'a>(&'a self, problem: &'a Problem) -> Vec<&'a str> {
+        match &self.asked.quantities[..] {
+            [] => problem.observables(),
+            names => names.iter().map(String::as_str).collect(),
+        }
+    }
+
+    /// A symbol that is given two values.
+    pub fn twice(&self) -> Option<&str> {
+        let names: Vec<String> =
+            self.axes.iter().map(|axis| language::normalise_name(&axis.symbol)).collect();
+        let is_twice =
+            |i: &usize| self.set.contains_key(&names[*i]) || names[..*i].contains(&names[*i]);
+        (0..self.axes.len()).find(is_twice).map(|i| self.axes[i].symbol.as_str())
+    }
+
+    /// All that the rows depend on.
+    pub fn request(&self) -> Json {
+        let axes = self.axes.iter().map(|axis| {
+            let values: Vec<String> = axis.values.iter().map(ToString::to_string).collect();
+            json!([axis.symbol, values])
+        });
+        let set = self.set.iter().map(|(name, value)| json!([name, value.to_string()]));
+        json!({
+            "wavestep": env!("CARGO_PKG_VERSION"),
+            "text": self.text,
+            "set": set.collect::<Vec<_>>(),
+            "over": axes.collect::<Vec<_>>(),
+            "asked": format!("{:?}", self.asked),
+        })
     }
 
     fn window(&self, problem: &Problem) -> Result<[Rational; 2], PictureError> {
-        let from = problem.time("--from", self.asked.from.as_str())?;
+        let from = self.asked.from.of(problem)?;
         let to = match &self.asked.to {
-            Some(to) => problem.time("--to", to.as_str())?,
+            Some(to) => to.of(problem)?,
             None => usual_end(problem, &from)?,
         };
         Ok(problem.between(from, to)?)
@@ -170,13 +259,26 @@ impl Sweep<'_> {
     fn values(&self, index: usize) -> Values {
         let mut values = self.set.clone();
         for (symbol, value) in self.place(index) {
-            values.insert(wavestep::language::normalise_name(symbol), value.clone());
+            values.insert(language::normalise_name(symbol), value.clone());
         }
         values
     }
 
     fn problem(&self, index: usize) -> Result<Problem, PictureError> {
         Ok(Problem::of_text(self.name, self.text, &self.values(index))?)
+    }
+
+    /// Whether a row that was kept can be the one of this index: its symbols have these values, and the rest numbers
+    /// or, in the columns for it, text.
+    pub fn is_row(&self, index: usize, row: &Row) -> bool {
+        let is_here = |(symbol, value): (&str, &Rational)| {
+            row.get(symbol) == Some(&json!(crate::nearest(value)))
+        };
+        let is_cell = |(name, value): (&String, &Json)| match TEXTS.contains(&name.as_str()) {
+            true => value.is_string(),
+            false => value.is_number() || value.is_null(),
+        };
+        self.place(index).into_iter().all(is_here) && row.iter().all(is_cell)
     }
 
     /// A row. What cannot be answered at its values is left out, and the first reason is told.
@@ -187,8 +289,8 @@ impl Sweep<'_> {
             .collect();
         let mut notes = Vec::new();
         if let Err(error) = self.answer(index, (&mut row, &mut notes)) {
-            let error = error.to_string();
-            row.insert(ERROR.to_owned(), json!(error.lines().next()));
+            let error = error.to_string().replace('\n', " ");
+            row.insert(ERROR.to_owned(), json!(error));
         }
         if !notes.is_empty() {
             row.insert(NOTE.to_owned(), json!(notes.join("; ")));
@@ -202,44 +304,36 @@ impl Sweep<'_> {
         (row, notes): (&mut Row, &mut Vec<String>),
     ) -> Result<(), PictureError> {
         let problem = self.problem(index)?;
-        let (asked, mut last) = (self.asked, Rational::default());
-        let names = match &asked.quantities[..] {
-            [] if !asked.at.is_empty() => problem.observables(),
-            names => names.iter().map(String::as_str).collect(),
-        };
-        let times: Vec<Rational> = asked
-            .at
-            .iter()
-            .map(|at| problem.time("--at", at.as_str()))
-            .collect::<Result<_, _>>()?;
+        let asked = self.asked;
+        let times = asked.at.iter().map(|at| at.of(&problem)).collect::<Result<Vec<_>, _>>()?;
+        let mut last = times.iter().max().cloned().unwrap_or_default();
         let digits = Digits {
             count: DIGITS,
             max_bits: VALUE_BITS,
             limit: Limit::Right,
             count_echoes: false,
         };
-        last = times.iter().max().cloned().unwrap_or(last);
-        for name in names.iter().filter(|_| !times.is_empty()) {
+        for name in self.names(&problem).into_iter().filter(|_| !times.is_empty()) {
             let found = problem.proven(&problem.wanted(name)?, &times, digits, &|| ())?;
             for (at, value) in asked.at.iter().zip(&found.values) {
-                put(row, format!("{name}({at})"), Some(value));
+                put(row, value_column(name, at), Some(value));
             }
         }
         if !asked.extrema.is_empty() {
             let window = self.window(&problem)?;
             last = last.max(window[1].clone());
-            for (goal, name) in &asked.extrema {
+            for extremum in &asked.extrema {
+                let (goal, name) = extremum;
                 let wanted = problem.wanted(name)?;
                 let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?;
                 let found = Search::new(&*signal)?.extremum(*goal, DIGITS, SEARCH_BITS)?;
-                let which = if *goal == Goal::Largest { "max" } else { "min" };
-                put(row, format!("{which}({name})"), Some(&found.value));
-                put(row, format!("time of {which}({name})"), first(&found));
+                let [value, time] = extremum_columns(extremum);
+                put(row, value, Some(&found.value));
+                put(row, time, first(&found));
             }
         }
         if asked.contacts {
-            let until =
-                asked.to.as_ref().map(|to| problem.time("--to", to.as_str())).transpose()?;
+            let until = asked.to.as_ref().map(|to| to.of(&problem)).transpose()?;
             let history = problem.history(until.as_ref(), DIGITS)?;
             history.contacts.iter().for_each(|contact| put_contact(row, contact));
         }
@@ -302,8 +396,22 @@ fn first(found: &Extremum) -> Option<&Value> {
 }
 
 fn put_contact(row: &mut Row, contact: &ContactSummary) {
+    let [duration, impulse, restitution] = contact_columns(contact);
+    put(row, duration, contact.durations.first().and_then(Option::as_ref));
+    put(row, impulse, contact.impulses.first());
+    put(row, restitution, contact.restitution.as_ref());
+}
+
+fn value_column(name: &str, at: &Time) -> String {
+    format!("{name}({})", at.label)
+}
+
+fn extremum_columns((goal, name): &(Goal, String)) -> [String; 2] {
+    let which = if *goal == Goal::Largest { "max" } else { "min" };
+    [format!("{which}({name})"), format!("time of {which}({name})")]
+}
+
+fn contact_columns(contact: &ContactSummary) -> [String; 3] {
     let name = contact.between.join("-");
-    put(row, format!("contact time {name}"), contact.durations.first().and_then(Option::as_ref));
-    put(row, format!("impulse {name}"), contact.impulses.first());
-    put(row, format!("restitution {name}"), contact.restitution.as_ref());
+    ["contact time", "impulse", "restitution"].map(|what| format!("{what} {name}"))
 }

@@ -78,6 +78,7 @@ fn an_interrupted_sweep_goes_on() {
     assert_eq!(kept.lines().count(), 6);
     let lines: Vec<&str> = kept.lines().collect();
     let marked = lines[2].replacen("\"velocity(1)\":", "\"velocity(1)\":42.0,\"old\":", 1);
+    assert_ne!(marked, lines[2]);
     let half = &lines[3][..lines[3].len() / 2];
     fs::write(folder.join("t.csv.rows"), format!("{}\n{}\n{marked}\n{half}", lines[0], lines[1]))
         .unwrap();
@@ -93,6 +94,18 @@ fn an_interrupted_sweep_goes_on() {
             .to_vec()
     };
     assert_eq!(others(&resumed), others(&whole));
+    // Rows of other values are worked out again.
+    let strange = lines[1].replacen("\"mu\":", "\"mu\":77.0,\"old\":", 1);
+    fs::write(folder.join("t.csv.rows"), format!("{}\n{strange}\n{}\n", lines[0], lines[2]))
+        .unwrap();
+    let (code, _, told) = run(&folder, &words(&line));
+    assert!(code == 0 && !told.contains("already"), "{told}");
+    assert_eq!(fs::read_to_string(folder.join("t.csv")).unwrap(), whole);
+    // All rows are there: what is read back are the doubles that were written.
+    fs::write(folder.join("t.csv.rows"), &kept).unwrap();
+    let (code, _, told) = run(&folder, &words(&line));
+    assert!(code == 0 && told.contains("5 rows of 5"), "{told}");
+    assert_eq!(fs::read_to_string(folder.join("t.csv")).unwrap(), whole);
     // Another request does not take these rows.
     fs::write(folder.join("t.csv.rows"), &kept).unwrap();
     let other = line.replace("--at 1,3", "--at 1,2");
@@ -142,6 +155,9 @@ fn mistakes_are_told_before_any_work() {
         ("--over mu=1 --at x", "x", ""),
         ("--over mu=1 --max energy --from 3 --to 2", "is empty", ""),
         ("--over mu=1", "required", "--help"),
+        ("--over mu=1..2:99999999999 --at 1", "more than 1000000 values", "write --over"),
+        ("--over mu=1e400,1 --at 1", "beyond the range of doubles", "write --over"),
+        ("--over error=1 --at 1", "cannot be told from the column", "write --over"),
         ("--over mu=1 --at 1 -o table.txt", "which kind of table", ".parquet"),
         ("--over mu=1..2:2000 --over k=1..2:2000 --at 1", "more than 1000000", "in parts"),
     ] {

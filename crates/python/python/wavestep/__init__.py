@@ -25,6 +25,7 @@ from ._errors import (
     WorkError,
 )
 from ._native import SCENES, Curve, Formula, Problem, Signal, Value, __version__, set_memory
+from ._sweep import sweep
 
 if TYPE_CHECKING:
     from ._native import _Number
@@ -47,6 +48,7 @@ __all__ = [
     "read",
     "scene",
     "set_memory",
+    "sweep",
 ]
 
 
@@ -69,7 +71,12 @@ def read(text: str | os.PathLike[str], /, **values: _Number) -> Problem:
     >>> p.signal("push")(1)
     1.0
     """
+    return Problem._read(*_text(text), values)
+
+
+def _text(text: str | os.PathLike[str]) -> tuple[str, str]:
+    """What errors call a text, and the text."""
     if isinstance(text, str) and "\n" in text:
-        return Problem._read("text", text, values)
+        return "text", text
     with open(text, encoding="utf-8") as file:
-        return Problem._read(os.fspath(text), file.read(), values)
+        return os.fspath(text), file.read()

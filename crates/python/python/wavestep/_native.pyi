@@ -1,4 +1,4 @@
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any, Protocol, TypeAlias, final, overload
@@ -16,6 +16,7 @@ class _Quantity(Protocol):
 
 _Number: TypeAlias = str | numpy.integer[Any] | _Ratio | _Quantity
 _Array: TypeAlias = numpy.typing.NDArray[numpy.float64]
+_Columns: TypeAlias = dict[str, Any]
 _Times: TypeAlias = numpy.typing.NDArray[Any] | Sequence[float]
 
 __all__ = [
@@ -25,6 +26,7 @@ __all__ = [
     "Problem",
     "Signal",
     "Value",
+    "_Sweep",
     "__version__",
     "_fail",
     "set_memory",
@@ -102,6 +104,7 @@ class Problem:
     def _builtin(name: str, given: dict[str, _Number]) -> Problem: ...
     @staticmethod
     def _read(name: str, text: str, given: dict[str, _Number]) -> Problem: ...
+    def _source(self) -> tuple[tuple[str, str], dict[str, Fraction]]: ...
     @property
     def title(self) -> str: ...
     @property
@@ -131,3 +134,32 @@ class Problem:
         end: _Number | None = None,
     ) -> Picture: ...
     def _repr_html_(self) -> str: ...
+
+@final
+class _Sweep:
+    def __new__(
+        cls,
+        source: tuple[str, str],
+        set: dict[str, Fraction],
+        over: list[tuple[str, str | Iterable[_Number]]],
+        at: list[tuple[str, _Number]],
+        quantities: list[str],
+        extrema: tuple[list[str], list[str]],
+        begin: tuple[str, _Number],
+        end: tuple[str, _Number] | None,
+        contacts: bool,
+    ) -> _Sweep: ...
+    def __getnewargs__(self) -> tuple[Any, ...]: ...
+    def __len__(self) -> int: ...
+    @property
+    def request(self) -> str: ...
+    @property
+    def columns(self) -> list[str]: ...
+    @property
+    def axes(self) -> list[tuple[str, list[float]]]: ...
+    def run(
+        self,
+        ranges: list[tuple[int, int]],
+        threads: int | None,
+        each: Callable[[tuple[int, int], _Columns], object],
+    ) -> None: ...
