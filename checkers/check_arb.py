@@ -485,7 +485,7 @@ class Claim:
     def __init__(self, cert):
         self.cert, self.ring = cert, Ring(cert)
         self.local, self.time, self.period = cert["local"], cert["time"], self.ring.quotient(cert["period"])
-        need(type(self.local) is type(self.time) is str and self.local != self.time, "names of times")
+        need(all(type(time) is str and time for time in self.ring.times) and self.local != self.time, "names of times")
         self.has_positive_period()
         self.set_pieces({wave: list(map(self.ring.sum, all_)) for wave, all_ in cert.get("pieces", {}).items()})
         need(not any(piece.has(self.time) for all_ in self.pieces.values() for piece in all_), "a piece depends on scene time")
@@ -543,14 +543,14 @@ class Claim:
             need(fmpq_mat(matrix or [[0]]).rank() == len(waves), "the laws leave something open")
 
     def at_random(self, total, values):
-        """With random numbers for symbols and exponentials."""
+        """With random numbers for symbols."""
         at = lambda key: values.setdefault(key, fmpq(random.randrange(1, 1 << 60)))
         numbers, result = [at(name) for name in self.ring.names], fmpq(0)
-        for key, (exponent, quotient) in total.parts.items():
+        for exponent, quotient in total.parts.values():
             sides = (quotient.top.degrees(), quotient.below.degrees())
             need(not any(side[root] > 0 for side in sides for root in self.ring.roots), "a root in an equation")
-            below = quotient.below(*numbers)
-            result += quotient.top(*numbers) / below * (at(key) if exponent.top != 0 else 1)
+            need(exponent.top == 0 or quotient.top == 0, "an exponential in an equation")
+            result += quotient.top(*numbers) / quotient.below(*numbers)
         return result
 
     # Values between arrivals.

@@ -185,16 +185,17 @@ def read(rows):
 
 
 def number_at(expression, values):
-    """The value for pseudo-random numbers in place of symbols and of exponentials."""
+    """The value for pseudo-random numbers in place of symbols."""
     at = lambda key: values.setdefault(key, Fraction(random.randrange(1, 1 << 60)))
     of = lambda top: sum(c * math.prod(at(s) ** p for s, p in m) for m, c in top.items())
     total = Fraction(0)
     for exponent, function in expression.items():
+        need(not exponent or is_zero({(): function}), "an exponential in an equation")  # they depend on each other
         for below, top in function.items():
             tops = [top] + [dict(factor) for factor, _ in below]
             need(not any(s in ROOTS for top_ in tops for m in top_ for s, _ in m), "a root in an equation")
             divisor = math.prod(of(dict(factor)) ** power for factor, power in below)
-            total += of(top) / divisor * (at(exponent) if exponent else 1)
+            total += of(top) / divisor if top else 0
     return total
 
 
