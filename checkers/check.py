@@ -6,11 +6,12 @@ exact.py, beside this file, adds, multiplies and compares; what is proven here, 
 
 import json
 import math
+import re
 import sys
 from fractions import Fraction
 
-from exact import MINUS, ONE, ROOTS, Wrong, accumulate, add, frozen, is_zero, key_of, less, need, number, number_at, on_period
-from exact import plus, power, put, rational, read, read_form, read_function, sign, sign_on, slope, times, whole
+from exact import LATEST, MINUS, ONE, PLACES, ROOTS, Wrong, accumulate, add, frozen, is_count, is_zero, key_of, less, need, number
+from exact import number_at, on_period, plus, power, put, rational, read, read_form, read_function, sign, sign_on, slope, times, whole
 
 # From the drawing of a line to its laws.
 
@@ -22,6 +23,7 @@ def periods(rows, cert):
     values, time, period = {}, read_function(rows), read_function(cert["period"])
     count = number_at({(): time}, values) / number_at({(): period}, values)
     need(is_zero({(): add(add({}, time), period, {(): {(): -count}})}), "a time is no multiple of the period")
+    need(abs(count) <= LATEST, "a time is too late")
     return count
 
 
@@ -57,6 +59,8 @@ def laws(cert):
     def load(element, run):
         """The course of a load from its beginning to its end."""
         total, course = {}, read(element["course"])
+        is_late = element["until"] is None or periods(element["from"], cert) < periods(element["until"], cert)
+        need(is_late, "a load ends before it begins")
         for key, factor in (("from", {(): ONE}), ("until", MINUS)):
             if element[key] is not None:
                 later = put(course, t, add({(): {((t, 1),): 1}}, read_function(element[key])))
@@ -70,6 +74,7 @@ def laws(cert):
         for way, end in (("right", link), ("left", link + 1)):
             need((element[way] is None) == bool(own(end, "endless")), "a bar lacks a wave, or has one from nowhere")
         travel = periods(element["travel"], cert)
+        need(travel is None or travel > 0, "a bar without length")
         late = lambda way: wave(element[way], travel + here - there) if element[way] else {}
         now = lambda way: wave(element[way]) if element[way] else {}
         f, g = (now("right"), late("left")) if run == link else (late("right"), now("left"))
@@ -121,8 +126,8 @@ def laws(cert):
         gained = lambda mass: times(of(mass, "mass"), less(first, acting(of(mass, "velocity"), clocks[run])))
         starts += [plus(*map(gained, own(run, "mass")))] if own(run, "mass") else []  # masses that start together share it
     for element, rate in stored:  # what springs are shortened by, and supports displaced
-        need(element["wave"] or is_zero(of(element, "stiffness")), "a spring has no compression")
-        if element["wave"]:
+        need(element["wave"] is not None or is_zero(of(element, "stiffness")), "a spring has no compression")
+        if element["wave"] is not None:
             equations.append(less(slope_of(wave(element["wave"])), rate))
             starts.append(wave(element["wave"]))
     return [whole(form) for form in equations], [(whole(form), {}) for form in starts]
@@ -169,10 +174,44 @@ def statement(cert):
     return list(map(read_form, cert["equations"])), [(read_form(law), read(law["start"])) for law in cert["continuity"]]
 
 
+def holds(rows, *symbols):
+    """Whether a symbol stands anywhere in what is written of polynomials."""
+    if isinstance(rows, dict):
+        return any(symbol in rows for symbol in symbols)
+    return isinstance(rows, list) and any(holds(row, *symbols) for row in rows)
+
+
+def check_symbols(cert):
+    """Times, waves and roots have names apart, periods are positive, and nothing depends on a time where it must not."""
+    local, time, waves = cert["local"], cert["time"], cert["waves"]
+    need(all(type(name) is str and name for name in [local, time, *waves]) and local != time, "names of times or waves")
+    need(not ROOTS.keys() & {local, time, *waves}, "a time or a wave is no root")
+    # Claims hold where the period is positive; a number is, and any other period for some positive numbers if not all is less.
+    period = read_function(cert["period"])
+    tops = [c for top in period.values() for c in top.values()]
+    factors = [c for below in period for factor, _ in below for _, c in factor]
+    is_number = all(not m for top in period.values() for m in top) and all(not m for below in period for f, _ in below for m, _ in f)
+    is_positive = number_at({(): period}, {}) > 0 if is_number else any(c > 0 for c in tops) or any(c < 0 for c in factors)
+    need(is_positive and not holds(cert["period"], *ROOTS), "a period is not positive")
+    forms = [] if "line" in cert else cert["equations"] + cert["continuity"]
+    elements = cert.get("line", [])
+    fixed = [cert["period"]] + [element[key] for element in elements for key in element if key != "course"]
+    fixed += [c for form in forms for *_, c in form["waves"]] + [form["start"] for form in forms if "start" in form]
+    of_time = [element["course"] for element in elements if "course" in element] + [function for form in forms for _, function in form["forcing"]]
+    if "observed" in cert:
+        fixed += [c for *_, c in cert["observed"]["waves"]]
+        of_time.append(cert["observed"]["forcing"])
+    general = list(cert.get("general", {}).values())
+    fixed += [own[key] for own in general for key in own if key != "first"]
+    of_local = list(cert.get("pieces", {}).values()) + [own["first"] for own in general]
+    need(not holds(fixed, local, time), "a number depends on time")
+    need(not holds(of_time, local) and not holds(of_local, time), "a function depends on another time")
+
+
 def check_statement(cert):
     """The laws, which are as many as waves and have one solution."""
     equations, continuity = statement(cert)
-    need(not is_zero({(): read_function(cert["period"])}) and cert["local"] != cert["time"], "the period, or names of times")
+    check_symbols(cert)
     need(len(equations) == len(cert["waves"]) == len(set(cert["waves"])), "waves and equations")
     check_determined(equations, continuity, cert["waves"])
     return equations, continuity
@@ -195,6 +234,7 @@ def check_pieces(cert):
     """The pieces satisfy the laws, and nothing else does so."""
     pieces = {wave: [read(piece) for piece in all_] for wave, all_ in cert["pieces"].items()}
     need(set(pieces) == set(cert["waves"]), "waves and pieces")
+    need(is_count(cert["through"], LATEST), "a period is no number, or too late")
     need(all(len(all_) == cert["through"] + 1 for all_ in pieces.values()), "pieces are missing")
     check_periods(cert, *check_statement(cert), pieces)
     return pieces
@@ -210,6 +250,8 @@ def check_general(cert):
     keys = [key for form in laws_ for key in form]
     need(set(forms) == set(cert["waves"]) and '"#' not in json.dumps(cert), "waves, formulas, or names of symbols")
     need(all(is_free(c, cert) for form in laws_ for (_, kind, _), c in form.items() if kind != "forcing"), "a coefficient")
+    kinds = {kind for form, _ in continuity for _, kind, _ in form}
+    need(kinds <= {"value", "forcing"}, "a sum or a slope that is continuous")
     latest = max(lag for _, _, lag in keys)
     if all("rate" in own for own in forms.values()):
         check_echoes(cert, equations, continuity, latest)
@@ -247,6 +289,7 @@ def check_sequences(cert, equations, continuity, latest):
         return total
 
     need(all(is_free(part, cert) for own in forms.values() for c, _, ratio in own for part in (c, ratio)), "a sequence")
+    need(all(is_count(j) for own in forms.values() for _, j, _ in own), "a power is no integer, or too large")
     pieces = {wave: [value(wave, n) for n in range(begins)] for wave in forms}
     check_periods(cert, equations, continuity, pieces)
     for i, equation in enumerate(equations):
@@ -268,12 +311,14 @@ def check_echoes(cert, equations, continuity, latest):
     polynomials L_k(c x) or x^k/k!,  e_k(x) = r^k exp(-b x) (sum of c_i T_(k-i)(x)).  Laplace's transform of exp(-b x) T_k(x) is
     v^k/u^(k+1) with u = p + b, and v = u - c or 1; that of a slope is p times that of the function, less its value at 0."""
     s, forms, functions = cert["local"], cert["general"], {(): ONE}
+    need(all(is_count(i) for own in forms.values() for i, _ in own["terms"]), "an echo is no number, or too late")
     begins = 2 + latest + max(max([len(own["first"])] + [i for i, _ in own["terms"]]) for own in forms.values())
     some = next(iter(forms.values()))
     same = ("rate", "ratio", "laguerre")
     need(all([own[key] for key in same] == [some[key] for key in same] for own in forms.values()), "different echoes")
     b, r = ({(): read_function(some[key])} for key in ("rate", "ratio"))
-    c = some["laguerre"] and {(): read_function(some["laguerre"])}
+    c = None if some["laguerre"] is None else {(): read_function(some["laguerre"])}
+    need(c is None or not is_zero(c), "Laguerre's polynomials of nothing")
     symbol = lambda name: {(): {(): {((name, 1),): 1}}}
     terms = {wave: [(i, {(): read_function(own_c)}) for i, own_c in own["terms"]] for wave, own in forms.items()}
     need(all(is_free(part, cert) for part in [b, r, c or b] + [c_ for own in terms.values() for _, c_ in own]), "an echo")
@@ -354,6 +399,7 @@ def cells(cert, pieces, level):
     derivative that has one sign there. That of order 0 is the quantity itself; with that of order 1, or of order k where
     those of orders 1 ... k - 1 are zero at one end, the quantity is strictly monotone; without one it is the level."""
     t, time = cert["time"], rational(cert["from"])
+    need(time < rational(cert["to"]), "the window is empty")
     for begin, end, order in cert["cells"]:
         begin, end = rational(begin), rational(end)
         need(begin == time and begin < end, "the intervals have gaps")
@@ -377,6 +423,7 @@ def cells(cert, pieces, level):
 
 def decimal(cert):
     """A decimal, and half a unit of its last place."""
+    need(type(cert["last_place"]) is int and abs(cert["last_place"]) <= PLACES, "a place is no number, or too large")
     value, unit = rational(cert["value"]), Fraction(10) ** cert["last_place"]
     need((value / unit).denominator == 1, "the decimal has more digits than it says")
     return value, unit / 2
@@ -432,35 +479,76 @@ def check_extremum(cert):
     need(is_taken, "the extremum is not taken where it is said")
 
 
+def read_square(text):
+    """What is below a root: -1 or a prime. Roots of different ones are independent."""
+    need(re.fullmatch("-1|[1-9][0-9]{0,11}", text), "what is below a root is neither -1 nor a prime")
+    square = int(text)
+    is_prime = square == -1 or square > 1 and all(square % divisor for divisor in range(2, math.isqrt(square) + 1))
+    need(is_prime, "what is below a root is neither -1 nor a prime")
+    return Fraction(square)
+
+
 def check(cert):
-    need(cert["wavestep_certificate"] == 1, "a certificate of another version")
+    need(type(cert["wavestep_certificate"]) is int and cert["wavestep_certificate"] == 1, "a certificate of another version")
     ROOTS.clear()
-    ROOTS.update({symbol: rational(square) for symbol, square in cert["roots"].items()})
+    ROOTS.update({symbol: read_square(square) for symbol, square in cert["roots"].items()})
+    need(len(set(ROOTS.values())) == len(ROOTS), "two roots of one number")
     kinds = {"pieces": check_pieces, "general": check_general, "value": check_value, "roots": check_roots, "extremum": check_extremum}
-    need(cert["kind"] in kinds, f"unknown kind {cert['kind']}")
+    need(type(cert["title"]) is str and cert["title"].encode(), "a title is missing")
+    need(cert["kind"] in kinds, f"unknown kind {json.dumps(cert['kind'])}")
     kinds[cert["kind"]](cert)
 
 
+def one_each(pairs):
+    """An object, no key of which stands twice."""
+    if len(dict(pairs)) < len(pairs):
+        raise ValueError("a key stands twice")
+    return dict(pairs)
+
+
+def short(text):
+    if len(text) > 12:
+        raise ValueError("a number is too long")
+    return int(text)
+
+
+def no_number(text):
+    raise ValueError(f"{text[:40]} is neither a text nor an integer")
+
+
+def printable(text):
+    """On one line, without what a terminal would obey."""
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+
+
 def verdict(name):
-    """What is told of a file, and whether it is proven."""
+    """What is told of a file, on one line, and whether it is proven."""
+    proven, told = judged(name)
+    return proven, printable(f"{name}: {told}")
+
+
+def judged(name):
     try:
         with open(name, encoding="utf-8") as file:
-            certificate = json.load(file)
+            ways = {"object_pairs_hook": one_each, "parse_int": short, "parse_float": no_number, "parse_constant": no_number}
+            certificate = json.load(file, **ways)
     except (OSError, ValueError, RecursionError) as error:
-        return False, f"{name}: cannot be read: {error}"
+        return False, f"cannot be read: {error}"
     try:
         check(certificate)
     except Wrong as error:
-        return False, f"{name}: NOT proven: {error}"
-    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError) as error:
-        return False, f"{name}: NOT proven: it is not laid out as it should be: {error!r}"
-    return True, f"{name}: proven ({certificate['kind']} of {certificate['title']})"
+        return False, f"NOT proven: {error}"
+    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError, MemoryError) as error:
+        return False, f"NOT proven: it is not laid out as it should be: {error!r}"
+    return True, f"proven ({certificate['kind']} of {json.dumps(certificate['title'], ensure_ascii=False)})"
 
 
 if __name__ == "__main__":
     if not sys.argv[1:] or sys.argv[1].startswith("-"):
         print(f"usage: {sys.argv[0]} CERTIFICATE.json ...", file=sys.stderr)
         sys.exit(2)
+    sys.set_int_max_str_digits(0)  # numbers have bounds of their own
+    sys.stdout.reconfigure(errors="backslashreplace")
     verdicts = [verdict(name) for name in sys.argv[1:]]
     print("\n".join(told for _, told in verdicts))
     sys.exit(not all(proven for proven, _ in verdicts))

@@ -5,6 +5,7 @@ signs between arrivals are shown by Taylor series in balls with Lagrange's remai
 """
 
 import json
+import math
 import random
 import re
 import sys
@@ -28,8 +29,14 @@ def need(claim, told):
         raise Wrong(told)
 
 
+def is_index(value, most=10**4):
+    """An integer that is neither negative nor of a size that would fill the memory."""
+    return type(value) is int and 0 <= value <= most
+
+
 def rational(text):
-    """A fraction or a decimal, without an exponent that would fill the memory."""
+    """A fraction or a decimal, without digits or an exponent that would fill the memory."""
+    need(len(text) <= 20000, "a number is too long")
     need(re.fullmatch(r"-?[0-9]+(/[0-9]+|(\.[0-9]+)?(e-?[0-9]{1,4})?)", text), f"{text[:40]} is no number")
     value = Fraction(text)
     return fmpq(value.numerator, value.denominator)
@@ -43,7 +50,9 @@ class Ring:
 
     def __init__(self, cert):
         need('"#' not in json.dumps(cert), "a name of ours")
-        names = {cert["local"], cert["time"], *cert["roots"], "#n", "#p", "#r"}
+        self.times = [cert["local"], cert["time"]]
+        need(not {*self.times, *cert["waves"]} & set(cert["roots"]), "a time or a wave is no root")
+        names = {*self.times, *cert["roots"], "#n", "#p", "#r"}
 
         def collect(node):
             if isinstance(node, dict):
@@ -55,9 +64,20 @@ class Ring:
         self.names = sorted(names)
         self.context = fmpq_mpoly_ctx.get(self.names, "lex")
         self.symbols = dict(zip(self.names, self.context.gens()))
+        below = [self.prime(text) for text in cert["roots"].values()]
+        need(len(set(below)) == len(below), "two roots of one number")
         self.squares = [self.symbols[root] ** 2 - rational(square) for root, square in cert["roots"].items()]
         self.roots = [self.names.index(root) for root in cert["roots"]]
         self.zero, self.one = self.context.constant(0), self.context.constant(1)
+
+    @staticmethod
+    def prime(text):
+        """Roots of -1 and of different primes are independent: no product of what is not zero is zero."""
+        need(re.fullmatch("-1|[0-9]{1,12}", text), "what is below a root is no integer")
+        value = int(text)
+        proper = value > 1 and not any(value % d == 0 for d in range(2, math.isqrt(value) + 1))
+        need(value == -1 or proper, "what is below a root is no prime")
+        return value
 
     def reduced(self, polynomial):
         for square in self.squares:
@@ -67,7 +87,7 @@ class Ring:
     def polynomial(self, terms):
         total = {}
         for coefficient, powers in terms:
-            need(all(type(power) is int and power > 0 for power in powers.values()), "a power is no positive integer")
+            need(all(is_index(power) and power > 0 for power in powers.values()), "a power is no positive integer")
             key = tuple(powers.get(name, 0) for name in self.names)
             need(key not in total and rational(coefficient) != 0, "a term stands twice, or is zero")
             total[key] = rational(coefficient)
@@ -78,7 +98,7 @@ class Ring:
         for top, factors in rows:
             below = self.one
             for factor, power in factors:
-                need(type(power) is int and power > 0, "a power is no positive integer")
+                need(is_index(power) and power > 0, "a power is no positive integer")
                 below = below * self.reduced(self.polynomial(factor)) ** power
             need(self.reduced(below) != 0, "a divisor is zero")
             total = total + Quotient(self, self.polynomial(top), self.reduced(below))
@@ -170,6 +190,11 @@ class Sum:
         for exponent, quotient in self.parts.values():
             total = total + Sum.of(exponent.put(symbol, value), quotient.put(symbol, value))
         return total
+
+    def has(self, *symbols):
+        """Whether one of these symbols stands in it."""
+        polynomials = [p for pair in self.parts.values() for quotient in pair for p in (quotient.top, quotient.below)]
+        return any(p.degrees()[p.context().variable_to_index(symbol)] > 0 for p in polynomials for symbol in symbols if p != 0)
 
     def is_zero(self):
         return all(quotient.top == 0 for _, quotient in self.parts.values())
@@ -270,12 +295,15 @@ class Stated:
         self.ring = ring
         self.equations = [self.read(rows) for rows in cert["equations"]]
         self.continuity = [(self.read(rows), ring.sum(rows["start"])) for rows in cert["continuity"]]
+        need(not any(start.has(*ring.times) for _, start in self.continuity), "a start depends on time")
 
     def read(self, rows):
         waves = [(wave, kind, lag, self.ring.sum(c)) for wave, kind, lag, c in rows["waves"]]
-        lags = [lag for *_, lag, _ in waves] + [lag for lag, _ in rows["forcing"]]
-        need(all(type(lag) is int and lag >= 0 for lag in lags), "a lag is no number of periods")
-        return waves, [(lag, self.ring.sum(function)) for lag, function in rows["forcing"]]
+        forcing = [(lag, self.ring.sum(function)) for lag, function in rows["forcing"]]
+        need(all(is_index(lag, 10**6) for lag in [lag for *_, lag, _ in waves] + [lag for lag, _ in forcing]), "a lag is no number of periods")
+        need(not any(c.has(*self.ring.times) for *_, c in waves), "a coefficient depends on time")
+        need(not any(function.has(self.ring.times[0]) for _, function in forcing), "a load depends on local time")
+        return waves, forcing
 
     def value(self, form, world):
         total, (waves, forcing) = Sum({}), form
@@ -329,21 +357,27 @@ class Line:
         top, below = time.top * period.below, time.below * period.top
         count = top.leading_coefficient() / below.leading_coefficient() if top != 0 else fmpq(0)
         need(top == count * below, "a time is no multiple of the period")
+        need(-(10**6) <= count <= 10**6, "a time is too late")
         return count
 
     def of(self, element, key):
-        return Sum.of(self.ring.number(0), self.ring.quotient(element[key]))
+        number = Sum.of(self.ring.number(0), self.ring.quotient(element[key]))
+        need(not number.has(*self.ring.times), f"{key} depends on time")
+        return number
 
     def is_at(self, run, *kinds):
         return [element for element in self.runs[run] if element["is"] in kinds]
 
     def load(self, element, run, world):
         total, time = Sum({}), self.claim.time
+        first, last = self.count(element["from"]), self.count(element["until"])
+        need(last is None or first < last, "a load ends before it begins")
         for key in ("from", "until"):
             if element[key] is not None:
                 moment = self.ring.quotient(element[key])
                 later = Quotient(self.ring, self.ring.symbols[time], self.ring.one) + moment
                 course = self.ring.sum(element["course"]).put(time, later)
+                need(not course.has(self.claim.local), "a load depends on local time")
                 part = world.forcing(course, self.clocks[run] + self.count(element[key]))
                 total = total + part if key == "from" else total - part
         return total
@@ -354,6 +388,7 @@ class Line:
         for way, end in (("right", link), ("left", link + 1)):
             need((bar[way] is None) == bool(self.is_at(end, "endless")), "a bar lacks a wave, or has one from nowhere")
         travel = self.count(bar["travel"])
+        need(travel is None or travel > 0, "a bar without length")
         lag = lambda: travel + here - there
         right = world.wave(bar["right"], lag() if run > link else 0) if bar["right"] else Sum({})
         left = world.wave(bar["left"], 0 if run > link else lag()) if bar["left"] else Sum({})
@@ -416,7 +451,7 @@ class Line:
                     yield element["wave"], lambda world, run=run: self.velocities(run, world)[0]
 
     def need_wave(self, element):
-        need(element["wave"] or self.of(element, "stiffness").is_zero(), "a compression is missing")
+        need(element["wave"] is not None or self.of(element, "stiffness").is_zero(), "a compression is missing")
 
     def zeros(self, world):
         found = []
@@ -452,13 +487,26 @@ class Claim:
     def __init__(self, cert):
         self.cert, self.ring = cert, Ring(cert)
         self.local, self.time, self.period = cert["local"], cert["time"], self.ring.quotient(cert["period"])
-        need(self.local != self.time and self.period.top != 0, "names of times, or the period")
+        need(all(type(time) is str and time for time in self.ring.times) and self.local != self.time, "names of times")
+        self.has_positive_period()
         self.set_pieces({wave: list(map(self.ring.sum, all_)) for wave, all_ in cert.get("pieces", {}).items()})
+        need(not any(piece.has(self.time) for all_ in self.pieces.values() for piece in all_), "a piece depends on scene time")
         self.laws = Line(cert, self) if "line" in cert else Stated(cert, self.ring)
+        need("pieces" not in cert or is_index(cert["through"], 10**6), "a period is no number")
         self.count = cert["through"] + 1 if "pieces" in cert else 0
         claimed = cert["pieces" if "pieces" in cert else "general"]
+        need(all(type(wave) is str and wave for wave in cert["waves"]), "names of waves")
         need(set(claimed) == set(cert["waves"]) and len(cert["waves"]) == len(claimed), "names of waves")
         need(all(len(all_) == self.count for all_ in self.pieces.values()), "pieces are missing")
+
+    def has_positive_period(self):
+        period = Sum.of(self.ring.number(0), self.period)
+        need(not period.has(*self.ring.times, *self.cert["roots"]), "a period depends on time, or is no rational function")
+        top, below = self.period.top, self.period.below
+        if top.is_constant() and below.is_constant():
+            return need(number_of(self.period) > 0, "a period is not positive")
+        mixed = any(c > 0 for c in top.to_dict().values()) or any(c < 0 for c in below.to_dict().values())
+        need(top != 0 and mixed, "a period is not positive")  # claims hold where it is
 
     def set_pieces(self, pieces):
         self.pieces = pieces
@@ -497,13 +545,14 @@ class Claim:
             need(fmpq_mat(matrix or [[0]]).rank() == len(waves), "the laws leave something open")
 
     def at_random(self, total, values):
-        """With random numbers for symbols and exponentials."""
+        """With random numbers for symbols."""
         at = lambda key: values.setdefault(key, fmpq(random.randrange(1, 1 << 60)))
         numbers, result = [at(name) for name in self.ring.names], fmpq(0)
-        for key, (exponent, quotient) in total.parts.items():
-            need(not any(quotient.top.degrees()[root] > 0 for root in self.ring.roots), "a root in an equation")
-            below = quotient.below(*numbers)
-            result += quotient.top(*numbers) / below * (at(key) if exponent.top != 0 else 1)
+        for exponent, quotient in total.parts.values():
+            sides = (quotient.top.degrees(), quotient.below.degrees())
+            need(not any(side[root] > 0 for side in sides for root in self.ring.roots), "a root in an equation")
+            need(exponent.top == 0 or quotient.top == 0, "an exponential in an equation")
+            result += quotient.top(*numbers) / quotient.below(*numbers)
         return result
 
     # Values between arrivals.
@@ -524,6 +573,11 @@ class Claim:
                 local = time + self.ring.number(-delay - n * period)
                 total = total + self.ring.sum(coefficient) * piece.put(self.local, local)
         return total, min(ends, default=None)
+
+    def check_observed(self):
+        observed, times = self.cert["observed"], self.ring.times
+        need(not any(self.ring.sum(c).has(*times) for *_, c in observed["waves"]), "a coefficient depends on time")
+        need(not self.ring.sum(observed["forcing"]).has(self.local), "what is observed depends on local time")
 
 
 def number_of(quotient):
@@ -675,9 +729,12 @@ class Echoes:
         for key in ("rate", "ratio", "laguerre"):
             need(all(own[key] == some[key] for own in forms.values()), "different echoes")
         self.b, self.r = self.ring.quotient(some["rate"]), self.ring.quotient(some["ratio"])
-        self.c = self.ring.quotient(some["laguerre"]) if some["laguerre"] else None
+        self.c = None if some["laguerre"] is None else self.ring.quotient(some["laguerre"])
+        need(self.c is None or self.c.top != 0, "Laguerre's polynomials of nothing")
         self.first = {wave: list(map(self.ring.sum, own["first"])) for wave, own in forms.items()}
         self.terms = {wave: [(i, self.ring.quotient(c)) for i, c in own["terms"]] for wave, own in forms.items()}
+        need(all(is_index(i) for own in self.terms.values() for i, _ in own), "an echo is no number")
+        need(not any(echo.has(claim.time) for first in self.first.values() for echo in first), "an echo depends on scene time")
         numbers = [c for own in self.terms.values() for _, c in own] + [self.b, self.r] + [self.c] * (self.c is not None)
         need(all(is_free(Sum.of(self.ring.number(0), number), claim) for number in numbers), "a number depends on time")
         self.minus = self.ring.number(-1)
@@ -773,6 +830,8 @@ def check_general(cert, claim):
     if isinstance(claim.laws, Stated):
         for waves, _ in claim.laws.equations + [form for form, _ in claim.laws.continuity]:
             need(all(is_free(c, claim) for *_, c in waves), "a coefficient depends on time")
+        for (waves, _), _ in claim.laws.continuity:
+            need(all(kind == "value" for _, kind, _, _ in waves), "a sum or a slope that is continuous")
     begins = latest_of(claim.laws) + 2 + max(len(own["first"]) for own in forms.values())
     if not all("rate" in own for own in forms.values()):
         return check_sequences(claim, forms, begins)
@@ -800,7 +859,8 @@ class Sequence:
         self.first = {wave: list(map(read, own["first"])) for wave, own in forms.items()}
         self.terms = {wave: [(read(c), j, read(r)) for c, j, r in own["terms"]] for wave, own in forms.items()}
         need(all(is_free(part, claim) for own in self.terms.values() for c, _, r in own for part in (c, r)), "a sequence")
-        need(all(type(j) is int and j >= 0 for own in self.terms.values() for _, j, _ in own), "a power")
+        need(all(is_index(j) for own in self.terms.values() for _, j, _ in own), "a power")
+        need(not any(value.has(claim.time) for first in self.first.values() for value in first), "a value depends on scene time")
         self.latest = latest_of(claim.laws) + 1
 
     def at(self, wave, n):
@@ -848,6 +908,7 @@ def check_sequences(claim, forms, begins):
 def cells(cert, claim, level):
     """The intervals of the window: the quantity less a level there, what order has one sign, and which."""
     time = rational(cert["from"])
+    need(time < rational(cert["to"]), "the window is empty")
     for begin, end, order in cert["cells"]:
         begin, end = rational(begin), rational(end)
         need(begin == time and begin < end, "the intervals have gaps")
@@ -871,7 +932,7 @@ def cells(cert, claim, level):
 
 def decimal(cert):
     """A decimal, and half a unit of its last place."""
-    need(type(cert["last_place"]) is int, "a place is no number")
+    need(type(cert["last_place"]) is int and -20000 <= cert["last_place"] <= 20000, "a place is no number")
     value, unit = rational(cert["value"]), fmpq(10) ** cert["last_place"]
     need((value / unit).q == 1, "the decimal has more digits than it says")
     return value, unit / 2
@@ -925,34 +986,65 @@ def check_extremum(cert, claim):
 
 
 def check(cert):
-    need(cert.get("wavestep_certificate") == 1, "a certificate of another version")
+    version = cert.get("wavestep_certificate")
+    need(type(version) is int and version == 1, "a certificate of another version")
+    need(isinstance(cert["title"], str) and cert["title"].encode(), "a title is missing")
     kinds = {"pieces": lambda *_: None, "general": check_general, "value": check_value, "roots": check_roots, "extremum": check_extremum}
-    need(cert["kind"] in kinds, f"unknown kind {cert['kind']}")
+    need(cert["kind"] in kinds, f"unknown kind {json.dumps(cert['kind'])}")
     claim = Claim(cert)
+    if "observed" in cert:
+        claim.check_observed()
     claim.check()
     kinds[cert["kind"]](cert, claim)
 
 
+def distinct(pairs):
+    keys = [key for key, _ in pairs]
+    if len(set(keys)) != len(keys):
+        raise ValueError("a key stands twice in an object")
+    return dict(pairs)
+
+
+def integer(digits):
+    if len(digits) > 12:
+        raise ValueError("an integer is too long")
+    return int(digits)
+
+
+def refused(text):
+    raise ValueError(f"{text[:40]} is neither a text nor an integer")
+
+
 def verdict(name):
-    """What is told of a file, and whether it is proven."""
+    """What is told of a file, on one line that no title can break, and whether it is proven."""
+    proven, told = judge(name)
+    line = f"{name}: {told}"
+    return proven, "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
+
+
+def judge(name):
     try:
         with open(name, encoding="utf-8") as file:
-            certificate = json.load(file)
+            certificate = json.load(
+                file, object_pairs_hook=distinct, parse_int=integer, parse_float=refused, parse_constant=refused
+            )
     except (OSError, ValueError, RecursionError) as error:
-        return False, f"{name}: cannot be read: {error}"
+        return False, f"cannot be read: {error}"
     try:
         check(certificate)
     except Wrong as error:
-        return False, f"{name}: NOT proven: {error}"
-    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError) as error:
-        return False, f"{name}: NOT proven: it is not laid out as it should be: {error!r}"
-    return True, f"{name}: proven ({certificate['kind']} of {certificate['title']})"
+        return False, f"NOT proven: {error}"
+    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError, MemoryError) as error:
+        return False, f"NOT proven: it is not laid out as it should be: {error!r}"
+    return True, f"proven ({certificate['kind']} of {json.dumps(certificate['title'], ensure_ascii=False)})"
 
 
 if __name__ == "__main__":
     if not sys.argv[1:] or sys.argv[1].startswith("-"):
         print(f"usage: {sys.argv[0]} CERTIFICATE.json ...", file=sys.stderr)
         sys.exit(2)
+    sys.set_int_max_str_digits(0)  # texts have a bound of their own
+    sys.stdout.reconfigure(errors="backslashreplace")
     verdicts = [verdict(name) for name in sys.argv[1:]]
     print("\n".join(told for _, told in verdicts))
     sys.exit(not all(proven for proven, _ in verdicts))

@@ -13,6 +13,7 @@ from fractions import Fraction
 ROOTS = {}  # symbols that stand for square roots, with what is below these
 ONE = {(): {(): 1}}
 MINUS = {(): {(): {(): -1}}}  # the expression -1
+LONGEST, HIGHEST, LATEST, PLACES = 20000, 10**4, 10**6, 20000  # characters of a number; powers; delays in periods; decimals
 
 
 class Wrong(Exception):
@@ -132,19 +133,34 @@ def put(expression, s, value):
 
 
 def rational(text):
-    """A fraction or a decimal, without an exponent that would fill the memory."""
+    """A fraction or a decimal, without digits or an exponent that would fill the memory."""
+    need(len(text) <= LONGEST, "a number is too long")
     need(re.fullmatch(r"-?[0-9]+(/[0-9]+|(\.[0-9]+)?(e-?[0-9]{1,4})?)", text), f"{text[:40]} is no number")
     return Fraction(text)
+
+
+def is_count(power, most=HIGHEST):
+    return type(power) is int and 0 <= power <= most
 
 
 def read_polynomial(terms):
     polynomial = {}
     for coefficient, powers in terms:
-        need(all(type(p) is int and p > 0 for p in powers.values()), "a power is no positive integer")
+        need(all(is_count(p) and p > 0 for p in powers.values()), "a power is no positive integer, or too large")
         monomial = tuple(sorted(powers.items()))
         need(monomial not in polynomial and rational(coefficient), "a term stands twice, or is zero")
         polynomial[monomial] = rational(coefficient)
     return polynomial
+
+
+def reduced(polynomial):
+    """With numbers in place of squares of roots."""
+    total = {}
+    for monomial, c in polynomial.items():
+        rest = tuple((s, p % 2 if s in ROOTS else p) for s, p in monomial)
+        key = tuple(pair for pair in rest if pair[1])
+        total[key] = total.get(key, 0) + c * math.prod(ROOTS[s] ** (p // 2) for s, p in monomial if s in ROOTS)
+    return {key: c for key, c in total.items() if c}
 
 
 def read_function(rows):
@@ -152,8 +168,11 @@ def read_function(rows):
     for top, below in rows:
         key = ()
         for factor, power in below:
-            need(factor and type(power) is int and power > 0, "a divisor is zero")
-            key, _ = product(key, ((tuple(sorted(read_polynomial(factor).items())), power),))
+            need(is_count(power) and power > 0, "a power is no positive integer, or too large")
+            divisor = read_polynomial(factor)
+            # Roots of -1 and of primes are independent: nothing but zero divides zero.
+            need(reduced(divisor), "a divisor is zero")
+            key, _ = product(key, ((tuple(sorted(divisor.items())), power),))
         add(function, {key: read_polynomial(top)})
     return function
 
@@ -166,15 +185,17 @@ def read(rows):
 
 
 def number_at(expression, values):
-    """The value for pseudo-random numbers in place of symbols and of exponentials."""
+    """The value for pseudo-random numbers in place of symbols."""
     at = lambda key: values.setdefault(key, Fraction(random.randrange(1, 1 << 60)))
     of = lambda top: sum(c * math.prod(at(s) ** p for s, p in m) for m, c in top.items())
     total = Fraction(0)
     for exponent, function in expression.items():
+        need(not exponent or is_zero({(): function}), "an exponential in an equation")  # they depend on each other
         for below, top in function.items():
-            need(not any(s in ROOTS for m in top for s, _ in m), "a root in an equation")
+            tops = [top] + [dict(factor) for factor, _ in below]
+            need(not any(s in ROOTS for top_ in tops for m in top_ for s, _ in m), "a root in an equation")
             divisor = math.prod(of(dict(factor)) ** power for factor, power in below)
-            total += of(top) / divisor * (at(exponent) if exponent else 1)
+            total += of(top) / divisor if top else 0
     return total
 
 
@@ -199,7 +220,7 @@ def read_form(rows):
     total = {}
     for key, rows_ in parts + [((None, "forcing", lag), function) for lag, function in rows["forcing"]]:
         need(key[0] is None or key[1] in ("value", "slope", "sum"), f"unknown operator {key[1]}")
-        need(type(key[2]) is int and key[2] >= 0, "a lag is no number of periods")
+        need(is_count(key[2], LATEST), "a lag is no number of periods, or too large")
         accumulate(total.setdefault(key, {}), read(rows_))
     return total
 
@@ -237,7 +258,7 @@ def on_period(form, pieces, n, cert):
 def whole(form):
     """Without what cancels; what is left is later by whole periods."""
     left = {key: c for key, c in form.items() if not is_zero(c)}
-    need(all(lag == int(lag) and lag >= 0 for _, _, lag in left), "a delay is no multiple of the period")
+    need(all(lag == int(lag) and 0 <= lag <= LATEST for _, _, lag in left), "a delay is no multiple of the period")
     return {(name, kind, int(lag)): c for (name, kind, lag), c in left.items()}
 
 

@@ -2,6 +2,7 @@
 //! not. Left out where there is no Python; the second checker, where `.ci/run` could not install python-flint.
 
 use super::{ROOT, folder, run};
+use serde_json::json;
 use std::path::Path;
 use std::process::Command;
 use wavestep::scenes::SCENES;
@@ -199,6 +200,11 @@ fn altered_certificates_are_not() {
     assert!(passed && told.contains("1000 alterations") && told.contains(" 0 missed"), "{told}");
 }
 
+/// The function c x of a symbol x.
+fn of(coefficient: &str, symbol: &str) -> serde_json::Value {
+    json!([[[[coefficient, { symbol: 1 }]], []]])
+}
+
 /// Each part of the checkers finds what it is there for.
 #[test]
 fn wrong_claims_are_told_by_what_is_wrong() {
@@ -213,20 +219,21 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let value = ask(VALUES[0]);
     let general = ask("saint-venant --general");
     let sequences = ask("two-bars --general");
+    let stated = ask("rigid-mass --general");
     let velocity = ask(WINDOWS[1]);
     let (roots, largest) = (ask(WINDOWS[0]), ask(WINDOWS[4]));
     type Change = fn(&mut serde_json::Value);
-    let cases: [(&serde_json::Value, Change, &str); 26] = [
+    let cases: [(&serde_json::Value, Change, &str); 50] = [
         (&pieces, |own| own["pieces"]["f"][2][0][1][0][0][0][0] = "7".into(), "period 2"),
-        (&pieces, |own| own["continuity"][0]["start"] = serde_json::json!([]), "continuity 0"),
-        (&pieces, |own| own["continuity"] = serde_json::json!([]), "leaves values open"),
+        (&pieces, |own| own["continuity"][0]["start"] = json!([]), "continuity 0"),
+        (&pieces, |own| own["continuity"] = json!([]), "leaves values open"),
         (&pieces, |own| own["equations"][0] = own["equations"][1].clone(), "derivatives open"),
-        (&pieces, |own| own["pieces"]["g"][1] = serde_json::json!([]), "equation"),
+        (&pieces, |own| own["pieces"]["g"][1] = json!([]), "equation"),
         (&line, |own| own["line"][1]["impedance"] = own["period"].clone(), "equation"),
-        (&line, |own| own["line"][1]["velocity"] = serde_json::json!([]), "equation"),
+        (&line, |own| own["line"][1]["velocity"] = json!([]), "equation"),
         (&line, |own| own["line"][2]["travel"] = own["period"].clone(), "no multiple"),
         (&line, |own| own["line"][0]["is"] = "fixed".into(), "no multiple"),
-        (&line, |own| own["line"][1]["right"] = serde_json::json!(null), "lacks a wave"),
+        (&line, |own| own["line"][1]["right"] = json!(null), "lacks a wave"),
         (&general, |own| own["general"]["f"]["rate"] = own["period"].clone(), "different echoes"),
         (
             &general,
@@ -238,15 +245,68 @@ fn wrong_claims_are_told_by_what_is_wrong() {
         (&value, |own| own["value"] = "0.3".into(), "another one"),
         (&value, |own| own["at"] = "34/10".into(), "another one"),
         (&value, |own| own["last_place"] = (-3).into(), "more digits than it says"),
-        (&roots, |own| own["zeros"] = serde_json::json!([]), "1 zeros instead of 0"),
-        (&roots, |own| own["zeros"][0] = serde_json::json!(["3", "306/100"]), "is not told"),
+        (&roots, |own| own["zeros"] = json!([]), "1 zeros instead of 0"),
+        (&roots, |own| own["zeros"][0] = json!(["3", "306/100"]), "is not told"),
         (&roots, |own| drop(own["cells"].as_array_mut().unwrap().remove(1)), "gaps"),
-        (&roots, |own| own["cells"] = serde_json::json!([["2", "4", 0]]), "no sign is seen"),
+        (&roots, |own| own["cells"] = json!([["2", "4", 0]]), "no sign is seen"),
         (&roots, |own| own["cells"][0][2] = 2.into(), "do not vanish"),
         (&roots, |own| own["to"] = "5".into(), "end early"),
-        (&velocity, |own| own["cells"] = serde_json::json!([["0", "6", 0]]), "a wave arrives"),
+        (&velocity, |own| own["cells"] = json!([["0", "6", 0]]), "a wave arrives"),
         (&largest, |own| own["value"] = "-0.1".into(), "beyond the extremum"),
         (&largest, |own| own["attained"][1] = "0".into(), "not taken"),
+        (&pieces, |own| own["roots"] = json!({ "r": "4" }), "nor a prime"),
+        (&pieces, |own| own["roots"] = json!({ "r": "3", "q": "3" }), "two roots of one"),
+        (
+            &pieces,
+            |own| {
+                own["roots"] = json!({ "r": "3" });
+                let zero = json!([[], [[[], [[[["1", { "r": 2 }], ["-3", {}]], 1]]]]]);
+                own["pieces"]["f"][1].as_array_mut().unwrap().push(zero);
+            },
+            "a divisor is zero",
+        ),
+        (&pieces, |own| own["roots"] = json!({ "s": "-1" }), "is no root"),
+        (&pieces, |own| own["roots"] = json!({ "t": "3" }), "is no root"),
+        (&pieces, |own| own["roots"] = json!({ "g": "3" }), "is no root"),
+        (&line, |own| own["line"][1]["impedance"] = of("1", "s"), "depends on time"),
+        (&line, |own| own["line"][1]["force"] = of("1", "t"), "depends on time"),
+        (&pieces, |own| own["equations"][0]["waves"][0][3] = json!([[[], of("1", "s")]]), "time"),
+        (&pieces, |own| own["pieces"]["f"][1][0][1] = of("1", "t"), "depends on another time"),
+        (&value, |own| own["observed"]["waves"][0][3] = json!([[[], of("1", "t")]]), "on time"),
+        (&value, |own| own["period"] = json!([[[["-1", {}]], []]]), "not positive"),
+        (&pieces, |own| own["period"] = of("-2", "mu"), "not positive"),
+        (&pieces, |own| own["period"] = json!([]), "not positive"),
+        (&line, |own| own["line"][2]["travel"] = json!([[[["-2", {}]], []]]), "without length"),
+        (
+            &stated,
+            |own| {
+                let sum = json!(["f", "sum", 0, [[[], [[[["1", {}]], []]]]]]);
+                own["continuity"][0]["waves"].as_array_mut().unwrap().push(sum);
+            },
+            "a sum or a slope",
+        ),
+        (
+            &general,
+            |own| {
+                let all = own["general"].as_object_mut().unwrap();
+                all.values_mut().for_each(|form| form["laguerre"] = json!([]));
+            },
+            "of nothing",
+        ),
+        (
+            &roots,
+            |own| {
+                own["to"] = own["from"].clone();
+                (own["cells"], own["zeros"]) = (json!([]), json!([]));
+            },
+            "the window is empty",
+        ),
+        (&pieces, |own| own["kind"] = "pieces\n".into(), "unknown kind \"pieces\\n\""),
+        (&pieces, |own| own["equations"][0]["waves"][0][2] = 1_000_000_000.into(), "too large"),
+        (&pieces, |own| own["period"][0][0][0][1]["mu"] = 1_000_000_000.into(), "too large"),
+        (&value, |own| own["last_place"] = (-1_000_000_000).into(), "too large"),
+        (&sequences, |own| own["general"]["f"]["terms"][0][1] = 1_000_000_000.into(), "too large"),
+        (&general, |own| own["general"]["f"]["terms"][0][0] = 1_000_000_000.into(), "too late"),
     ];
     for (certificate, change, wrong) in cases {
         let mut altered = certificate.clone();
@@ -258,6 +318,43 @@ fn wrong_claims_are_told_by_what_is_wrong() {
         assert!(!proven && told.contains("NOT proven") && told.contains(wrong), "{wrong}: {told}");
         if let Some((proven, told)) = with_flint(&folder, "check_arb.py", &file) {
             assert!(!proven && told.contains("NOT proven"), "{wrong}: {told}");
+        }
+    }
+}
+
+/// One line for each file, whatever it holds.
+#[test]
+fn no_file_forges_or_breaks_what_is_told() {
+    let folder = folder("forged-certificates");
+    certify(&folder, "pushed-bar --through 1", "asked.json");
+    let text = std::fs::read_to_string(folder.join("asked.json")).unwrap();
+    let mut titled: serde_json::Value = serde_json::from_str(&text).unwrap();
+    titled["title"] = "A)\nother.json: proven (value of B\u{1b}[2J\u{202e}".into();
+    let rest = text.trim_start().strip_prefix('{').unwrap();
+    let key = "\"wavestep_certificate\":1";
+    let deep = format!("{}{}", "[".repeat(100_000), "]".repeat(100_000));
+    let files: [(Vec<u8>, &str); 7] = [
+        (
+            titled.to_string().into(),
+            "proven (pieces of \"A)\\nother.json: proven (value of B\\u001b[2J",
+        ),
+        (format!("{{{key},{rest}").into(), "cannot be read: a key stands twice"),
+        (deep.into(), "cannot be read"),
+        (b"\xff\xfe{}".to_vec(), "cannot be read"),
+        (b"{\"through\": 1.5}".to_vec(), "cannot be read"),
+        (b"[]".to_vec(), "NOT proven"),
+        (text.replace("\"title\":\"", "\"title\":\"\\ud800").into(), "NOT proven"),
+    ];
+    for (bytes, wrong) in files {
+        std::fs::write(folder.join("file.json"), bytes).unwrap();
+        let file = ["file.json".to_owned()];
+        let both = [checked(&folder, &file), with_flint(&folder, "check_arb.py", &file)];
+        for (_, told) in both.into_iter().flatten() {
+            let is_told = told.starts_with(&format!("file.json: {wrong}"));
+            assert!(
+                is_told && told.lines().count() == 1 && !told.contains('\u{1b}'),
+                "{wrong}: {told}"
+            );
         }
     }
 }
