@@ -210,8 +210,8 @@ def check_symbols(cert):
 
 def check_statement(cert):
     """The laws, which are as many as waves and have one solution."""
-    equations, continuity = statement(cert)
     check_symbols(cert)
+    equations, continuity = statement(cert)
     need(len(equations) == len(cert["waves"]) == len(set(cert["waves"])), "waves and equations")
     check_determined(equations, continuity, cert["waves"])
     return equations, continuity

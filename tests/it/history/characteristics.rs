@@ -171,21 +171,9 @@ fn characteristics_agree_on_every_shipped_scene() {
         let limit = (until * unit * 1e9) as i64;
         let limit = crate::history::rational(limit, 1_000_000_000);
         let history = History::of(&network, Some(&limit), 9).unwrap();
-        // The march tells when the force has gone; a contact that then touches for a while separates later.
-        let separates = |i: usize| {
-            let [first, rest @ ..] = &history.events[i..] else { return false };
-            let same = rest.iter().find(|event| event.contact == first.contact);
-            first.kind == EventKind::Release
-                && same.is_some_and(|event| event.kind == EventKind::Opening)
-        };
-        let (mut told, mut touching): (Vec<(EventKind, f64)>, _) = (Vec::new(), false);
-        for (i, event) in history.events.iter().enumerate() {
-            let kind = if separates(i) { EventKind::Opening } else { event.kind };
-            if !(touching && event.kind == EventKind::Opening) {
-                told.push((kind, ball(&event.time).rounded().unwrap_or(f64::NAN) / unit));
-            }
-            touching = separates(i);
-        }
+        let told: Vec<(EventKind, f64)> = (super::by_force(&history).into_iter())
+            .map(|(kind, event)| (kind, ball(&event.time).rounded().unwrap_or(f64::NAN) / unit))
+            .collect();
         let mut seen = simulate(&scene(name, value), until);
         if told.last().is_some_and(|(kind, _)| *kind == EventKind::Release) {
             // A force that stays zero has a rounding for its sign.

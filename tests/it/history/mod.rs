@@ -341,3 +341,25 @@ fn bodies_that_move_alike_do_not_press() {
     let history = History::of(&network_of(text, &[]), Some(&rational(10, 1)), 12).unwrap();
     assert!(history.events.is_empty() && history.assumptions.is_empty(), "{:?}", history.events);
 }
+
+/// Events by the force alone, as solvers in doubles see them: a contact that touches without force before it separates has
+/// opened when the force went.
+fn by_force(history: &History) -> Vec<(EventKind, &Event)> {
+    let events = &history.events;
+    let beside = |event: &Event, mut others: Box<dyn Iterator<Item = &Event> + '_>| {
+        others.find(|other| other.contact == event.contact).map(|other| other.kind)
+    };
+    let mut told = Vec::new();
+    for (i, event) in events.iter().enumerate() {
+        let next = beside(event, Box::new(events[i + 1..].iter()));
+        let before = beside(event, Box::new(events[..i].iter().rev()));
+        match event.kind {
+            EventKind::Release if next == Some(EventKind::Opening) => {
+                told.push((EventKind::Opening, event));
+            }
+            EventKind::Opening if before == Some(EventKind::Release) => {}
+            kind => told.push((kind, event)),
+        }
+    }
+    told
+}

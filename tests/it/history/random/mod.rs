@@ -225,13 +225,10 @@ fn difference(one: &[Happening], other: &[Happening], until: f64, close: f64) ->
 }
 
 fn told(history: &History) -> Vec<Happening> {
-    let told = history.events.iter().filter(|event| event.kind != EventKind::Release);
-    told.map(|event| Happening {
-        kind: event.kind,
-        contact: event.contact,
-        time: event.time.to_f64(),
-    })
-    .collect()
+    let told = super::by_force(history).into_iter();
+    told.filter(|(kind, _)| *kind != EventKind::Release)
+        .map(|(kind, event)| Happening { kind, contact: event.contact, time: event.time.to_f64() })
+        .collect()
 }
 
 /// Follows a scene until its thirtieth period or so many events, with both.
