@@ -4,9 +4,11 @@ use super::arguments::{Eval, Format};
 use super::failure::Failure;
 use super::json::SCHEMA_VERSION;
 use num_rational::BigRational;
+use num_traits::{Signed as _, ToPrimitive as _};
 use serde_json::{Value as Json, json};
 use wavestep::ball::{Decimal, Exactness, in_decimals};
 use wavestep::problem::{self, Problem, Wanted, evenly_spaced};
+use wavestep::scene::Dimension;
 use wavestep::signal::{Limit, Value};
 
 /// The most times that are evaluated at once.
@@ -63,21 +65,29 @@ pub fn times(problem: &Problem, name: &str, options: &Eval) -> Result<Vec<BigRat
         let local = problem::number("--local", local)?;
         return Ok(vec![problem.time_on_period(&wanted, n, &local, options.side)?]);
     }
-    if let (Some(from), Some(to), Some(points)) = (&options.from, &options.to, options.points) {
+    if let (Some(from), Some(to)) = (&options.from, &options.to) {
         let from = problem.time("--from", from.as_str())?;
         let to = problem.time("--to", to.as_str())?;
         // One instant will do.
         if from != to {
             problem.between(from.clone(), to.clone())?;
         }
+        let quantity = |step: &String| problem.quantity("--step", step.as_str(), Dimension::TIME);
+        let step = options.step.as_ref().map(quantity).transpose()?;
+        let points = match &step {
+            Some(step) => steps(&(&to - &from), step)? + 1,
+            None => options.points.unwrap_or(0),
+        };
         if points == 0 || points > MAX_POINTS {
             let message = format!("{points} points cannot be evaluated at once");
             return Err(Failure::usage(message, format!("give 1 to {MAX_POINTS} points")));
         }
-        return Ok(evenly_spaced(&from, &to, points));
+        let last = step.map(|step| &from + step * BigRational::from_integer((points - 1).into()));
+        return Ok(evenly_spaced(&from, last.as_ref().unwrap_or(&to), points));
     }
     if options.at.is_empty() {
-        let remedy = "give --at T, or --from T --to T --points N, or --piece N --local S";
+        let remedy =
+            "give --at T, or --from T --to T with --points N or --step DT, or --piece N --local S";
         return Err(Failure::usage("no times are given", remedy));
     }
     if options.at.iter().any(|time| time.trim().is_empty()) {
@@ -85,6 +95,14 @@ pub fn times(problem: &Problem, name: &str, options: &Eval) -> Result<Vec<BigRat
         return Err(Failure::usage("a time is missing in --at", remedy));
     }
     options.at.iter().map(|time| Ok(problem.time("--at", time.as_str())?)).collect()
+}
+
+/// How many steps fit into a window; as many as are refused, where they are more.
+fn steps(length: &BigRational, step: &BigRational) -> Result<usize, Failure> {
+    if !step.is_positive() {
+        return Err(Failure::usage("the step is not positive", "write --step 1/10"));
+    }
+    Ok((length / step).to_integer().to_usize().unwrap_or(MAX_POINTS))
 }
 
 pub fn written(

@@ -24,19 +24,23 @@ pub struct Eval {
     pub quantity: Vec<String>,
     /// Scene times, separated by commas
     #[arg(long, value_name = "T", value_delimiter = ',', allow_hyphen_values = true,
-          conflicts_with_all = ["from", "to", "points", "piece", "local"])]
+          conflicts_with_all = ["from", "to", "points", "step", "piece", "local"])]
     pub at: Vec<String>,
     /// First of evenly spaced times
-    #[arg(long, value_name = "T", allow_hyphen_values = true, requires_all = ["to", "points"])]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, requires_all = ["to", "spacing"])]
     pub from: Option<String>,
     /// Last of evenly spaced times
-    #[arg(long, value_name = "T", allow_hyphen_values = true, requires_all = ["from", "points"])]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, requires_all = ["from", "spacing"])]
     pub to: Option<String>,
     /// Number of evenly spaced times
-    #[arg(long, value_name = "N", requires_all = ["from", "to"])]
+    #[arg(long, value_name = "N", requires_all = ["from", "to"], group = "spacing")]
     pub points: Option<usize>,
+    /// The time from each of evenly spaced times to the next
+    #[arg(long, value_name = "DT", requires_all = ["from", "to"], group = "spacing",
+          allow_hyphen_values = true)]
+    pub step: Option<String>,
     /// In this period of the quantity, at the local time given by --local
-    #[arg(long, value_name = "N", requires = "local", conflicts_with_all = ["from", "to", "points"])]
+    #[arg(long, value_name = "N", requires = "local", conflicts_with_all = ["from", "to", "points", "step"])]
     pub piece: Option<usize>,
     /// Local time in the period given by --piece
     #[arg(long, value_name = "S", allow_hyphen_values = true, requires = "piece")]

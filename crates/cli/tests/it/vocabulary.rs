@@ -157,6 +157,7 @@ fn the_page_of_options_is_what_the_command_has() {
     let (code, table, _) = run(&folder("options"), &["generate", "options"]);
     assert_eq!(code, 0);
     let (introduction, _) = page.split_once("| Option").expect("a table");
+    assert!(introduction.starts_with("# Options\n"));
     let real = introduction.to_owned() + &table;
     if std::env::var_os("UPDATE_DOCUMENTS").is_some() {
         fs::write(&file, &real).unwrap();
@@ -286,4 +287,30 @@ fn the_text_of_an_exercise_stays_verbatim() {
     assert_eq!(code, 0, "{errors}");
     assert_eq!(latex.matches("\\end{verbatim}").count(), 1);
     assert!(latex.contains("\\ end{verbatim} mu") && latex.contains("spring sigma_1 {"), "{latex}");
+}
+
+/// A step gives the same times as as many points, and the last one lies within the window.
+#[test]
+fn evenly_spaced_times_by_step() {
+    let told = |rest: &str| {
+        let line = format!("eval rigid-mass --set mu=1 --quantity f --digits 5 {rest}");
+        run(&folder("steps"), &words(&line))
+    };
+    let (code, by_points, _) = told("--from 1/2 --to 2 --points 4");
+    assert_eq!((code, by_points.lines().count()), (0, 4));
+    for to in ["2", "9/4"] {
+        assert_eq!(told(&format!("--from 1/2 --to {to} --step 1/2")).1, by_points);
+    }
+    for (rest, message) in [
+        ("--from 0 --to 1 --step 0", "the step is not positive"),
+        ("--from 0 --to 1 --step -1", "the step is not positive"),
+        ("--from 0 --to 1 --step 1e-9", "1000000"),
+        ("--from 0 --to 1 --step 1e-99", "1000000"),
+        ("--from 0 --to 1 --step 1/2 --points 3", "cannot be used with"),
+        ("--from 0 --to 1", "--points"),
+    ] {
+        let (code, out, errors) = told(rest);
+        assert_eq!((code, out.as_str()), (2, ""), "{rest}");
+        assert!(errors.contains(message), "{rest}: {errors}");
+    }
 }
