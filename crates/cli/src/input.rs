@@ -12,7 +12,7 @@ use wavestep::language;
 use wavestep::limits::{MAX_DIGITS, MAX_SOURCE_BYTES};
 use wavestep::problem::{Problem, ProblemError, Values, number};
 use wavestep::scenes;
-use wavestep_studies::picture::{PictureError, usual_end};
+use wavestep_studies::picture::{self, PictureError};
 
 /// A problem that says on standard error, when all is answered, what answers took for granted.
 pub struct Asked(Problem);
@@ -46,27 +46,29 @@ pub fn problem(arguments: &Scene) -> Result<Asked, Failure> {
 
 /// Reads a built-in scene or a file, with these values put in.
 pub fn problem_with(scene: &str, values: &Values) -> Result<Asked, Failure> {
-    if let Some(built_in) = built_in_or_file(scene) {
-        return Ok(Asked(Problem::of_text(built_in.name, built_in.text, values)?));
-    }
-    let bytes = bytes(scene, MAX_SOURCE_BYTES).map_err(|error| unread(scene, &error))?;
-    Ok(Asked(Problem::of_text(scene, bytes, values)?))
+    let (name, bytes) = source(scene)?;
+    Ok(Asked(Problem::of_text(&name, bytes, values)?))
 }
 
 /// What the text of a built-in scene or a file is called, and the text.
 pub fn text(scene: &str) -> Result<(String, String), Failure> {
-    if let Some(built_in) = built_in_or_file(scene) {
-        return Ok((built_in.name.to_owned(), built_in.text.to_owned()));
-    }
-    let bytes = bytes(scene, MAX_SOURCE_BYTES).map_err(|error| unread(scene, &error))?;
+    let (name, bytes) = source(scene)?;
     let text = String::from_utf8(bytes).map_err(|_| {
         Failure::usage(format!("the scene `{scene}` is no text"), "save it as UTF-8")
     })?;
-    Ok((scene.to_owned(), text))
+    Ok((name, text))
+}
+
+fn source(scene: &str) -> Result<(String, Vec<u8>), Failure> {
+    if let Some(built_in) = told_built_in(scene) {
+        return Ok((built_in.name.to_owned(), built_in.text.into()));
+    }
+    let bytes = bytes(scene, MAX_SOURCE_BYTES).map_err(|error| unread(scene, &error))?;
+    Ok((scene.to_owned(), bytes))
 }
 
 /// The built-in scene of a name; says so where a file could be meant.
-fn built_in_or_file(name: &str) -> Option<&'static scenes::Scene> {
+fn told_built_in(name: &str) -> Option<&'static scenes::Scene> {
     let scene = scenes::find(name)?;
     let file = format!("{name}.wave");
     if Path::new(&file).exists() {
@@ -146,14 +148,11 @@ pub fn window(
     to: Option<&str>,
 ) -> Result<[BigRational; 2], ProblemError> {
     let from = problem.time("--from", from)?;
-    let to = match to {
-        Some(to) => problem.time("--to", to)?,
-        None => usual_end(problem, &from).map_err(|error| match error {
-            PictureError::Problem(error) => *error,
-            _ => ProblemError::NoEnd,
-        })?,
-    };
-    problem.between(from, to)
+    let to = to.map(|to| problem.time("--to", to)).transpose()?;
+    picture::window(problem, from, to).map_err(|error| match error {
+        PictureError::Problem(error) => *error,
+        _ => ProblemError::NoEnd,
+    })
 }
 
 /// A number of significant digits that can be certified.

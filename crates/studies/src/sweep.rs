@@ -3,7 +3,7 @@
 //! Rows are worked out on several threads and handed on in their order, so what is written does not depend on how many
 //! there are.
 
-use crate::picture::{PictureError, usual_end};
+use crate::picture::{self, PictureError};
 use crate::validity;
 use serde_json::{Map, Value as Json, json};
 use std::collections::BTreeMap;
@@ -248,12 +248,8 @@ impl Sweep<'_> {
     }
 
     fn window(&self, problem: &Problem) -> Result<[Rational; 2], PictureError> {
-        let from = self.asked.from.of(problem)?;
-        let to = match &self.asked.to {
-            Some(to) => to.of(problem)?,
-            None => usual_end(problem, &from)?,
-        };
-        Ok(problem.between(from, to)?)
+        let to = self.asked.to.as_ref().map(|to| to.of(problem)).transpose()?;
+        picture::window(problem, self.asked.from.of(problem)?, to)
     }
 
     fn values(&self, index: usize) -> Values {

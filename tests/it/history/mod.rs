@@ -346,13 +346,11 @@ fn bodies_that_move_alike_do_not_press() {
 /// opened when the force went.
 fn by_force(history: &History) -> Vec<(EventKind, &Event)> {
     let events = &history.events;
-    let beside = |event: &Event, mut others: Box<dyn Iterator<Item = &Event> + '_>| {
-        others.find(|other| other.contact == event.contact).map(|other| other.kind)
-    };
     let mut told = Vec::new();
     for (i, event) in events.iter().enumerate() {
-        let next = beside(event, Box::new(events[i + 1..].iter()));
-        let before = beside(event, Box::new(events[..i].iter().rev()));
+        let same = |other: &&Event| other.contact == event.contact;
+        let next = events[i + 1..].iter().find(same).map(|other| other.kind);
+        let before = events[..i].iter().rfind(same).map(|other| other.kind);
         match event.kind {
             EventKind::Release if next == Some(EventKind::Opening) => {
                 told.push((EventKind::Opening, event));

@@ -30,6 +30,16 @@ pub fn usual_end(problem: &Problem, from: &Rational) -> Result<Rational, Picture
     Ok(from + length)
 }
 
+/// The window from a time to another, to the usual end where none is given.
+pub fn window(
+    problem: &Problem,
+    from: Rational,
+    to: Option<Rational>,
+) -> Result<[Rational; 2], PictureError> {
+    let to = to.map_or_else(|| usual_end(problem, &from), Ok)?;
+    Ok(problem.between(from, to)?)
+}
+
 /// The waves and observables of these names on a window, or all observables.
 pub fn courses(
     problem: &Problem,

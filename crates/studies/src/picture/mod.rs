@@ -13,7 +13,7 @@ mod sampled;
 
 pub use against_time::{Course, against_time};
 pub use along::along_the_line;
-pub use courses::{course, courses, usual_end};
+pub use courses::{course, courses, usual_end, window};
 pub use error::PictureError;
 pub(crate) use lagrange::Places;
 pub use lagrange::lagrange;
