@@ -15,7 +15,9 @@ use wavestep::history::ContactSummary;
 use wavestep::language;
 use wavestep::limits::{SEARCH_BITS, VALUE_BITS, count_nothing_here};
 use wavestep::planner::Purpose;
-use wavestep::problem::{Digits, Given, Problem, Values, geometrically_spaced, number};
+use wavestep::problem::{
+    Digits, Given, Problem, Values, evenly_spaced, geometrically_spaced, number,
+};
 use wavestep::signal::{Extremum, Goal, Limit, Place, Search, Value};
 use wavestep_polynomial::Rational;
 
@@ -111,11 +113,6 @@ impl FromStr for Axis {
             symbol => Ok(Axis { symbol: symbol.to_owned(), values }),
         }
     }
-}
-
-fn evenly_spaced(from: &Rational, to: &Rational, count: usize) -> Vec<Rational> {
-    let parts = Rational::from_integer((count - 1).into());
-    (0..count).map(|i| from + (to - from) * Rational::from_integer(i.into()) / &parts).collect()
 }
 
 /// What is asked of the scene at each value.
