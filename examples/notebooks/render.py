@@ -30,7 +30,7 @@ def page(source: pathlib.Path) -> tuple[str, dict[str, str]]:
     notebook = jupytext.read(source)
     notebook.cells.insert(0, nbformat.v4.new_code_cell(SETUP))
     nbclient.NotebookClient(
-        notebook, timeout=120, kernel_name="python3", resources={"metadata": {"path": str(HERE)}}
+        notebook, timeout=600, kernel_name="python3", resources={"metadata": {"path": str(HERE)}}
     ).execute()
     parts, pictures = [], {}
     for cell in notebook.cells[1:]:

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::thread::available_parallelism;
 use wavestep::problem::Values;
 use wavestep::{Given, Goal, Rational, Value};
-use wavestep_studies::sweep::{Axis, ERROR, MOST_ROWS, Row, Sweep as Rows, Time, ToSweep};
+use wavestep_studies::sweep::{Axis, MOST_ROWS, Row, Sweep as Rows, TEXTS, Time, ToSweep};
 
 /// A time with what columns call it.
 type Called<T> = (String, T);
@@ -103,31 +103,35 @@ struct Part {
     end: usize,
     missing: usize,
     columns: Vec<Vec<f64>>,
-    errors: Vec<Option<String>>,
+    texts: [Vec<Option<String>>; TEXTS.len()],
 }
 
 impl Part {
     fn new(begin: usize, end: usize, columns: usize) -> Part {
         let count = end - begin;
         let columns = vec![vec![f64::NAN; count]; columns];
-        Part { end, missing: count, columns, errors: vec![None; count] }
+        Part { end, missing: count, columns, texts: TEXTS.map(|_| vec![None; count]) }
     }
 
-    fn put(&mut self, row: usize, names: &[String], mut found: Row) {
+    fn put(&mut self, row: usize, names: &[String], found: &Row) {
         for (column, name) in self.columns.iter_mut().zip(names) {
             column[row] = found.get(name).and_then(|cell| cell.as_f64()).unwrap_or(f64::NAN);
         }
-        self.errors[row] = found.remove(ERROR).and_then(|error| Some(error.as_str()?.to_owned()));
+        for (column, name) in self.texts.iter_mut().zip(TEXTS) {
+            column[row] = found.get(name).and_then(|text| Some(text.as_str()?.to_owned()));
+        }
         self.missing -= 1;
     }
 
-    /// Arrays by the names of columns, and the list of errors.
+    /// Arrays by the names of columns, and lists of texts.
     fn table<'py>(self, py: Python<'py>, names: &[String]) -> PyResult<Bound<'py, PyDict>> {
         let table = PyDict::new(py);
         for (name, column) in names.iter().zip(self.columns) {
             table.set_item(name, PyArray1::from_vec(py, column))?;
         }
-        table.set_item(ERROR, self.errors)?;
+        for (name, texts) in TEXTS.into_iter().zip(self.texts) {
+            table.set_item(name, texts)?;
+        }
         Ok(table)
     }
 }
@@ -240,7 +244,7 @@ impl Sweep {
                 |index, row| {
                     let mut entries = parts.range_mut(..=index);
                     let (&begin, part) = entries.next_back().expect("a range with this index");
-                    part.put(index - begin, columns, row);
+                    part.put(index - begin, columns, &row);
                     if part.missing == 0 {
                         let part = parts.remove(&begin).expect("the part above");
                         tell(begin, part);

@@ -56,6 +56,18 @@ impl Value {
         py.import("wavestep._convert")?.call_method1("mpf", (text,))
     }
 
+    /// So that functions of mpmath take the value as a number.
+    fn _mpmath_<'py>(
+        &self,
+        py: Python<'py>,
+        bits: usize,
+        rounding: &str,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (numerator, denominator) = self.as_integer_ratio();
+        let given = (numerator, denominator, bits, rounding);
+        py.import("wavestep._convert")?.call_method1("rounded", given)
+    }
+
     fn __float__(&self) -> f64 {
         self.0.to_f64()
     }

@@ -35,7 +35,7 @@ ASKED: dict[str, Any] = {"at": ["1", 3], "quantities": "velocity", "max": "strai
 def same_bytes(one: pandas.DataFrame, other: pandas.DataFrame) -> bool:
     """Whether two tables are the same to the last bit."""
     return pickle.dumps(one.to_dict("list")) == pickle.dumps(other.to_dict("list")) and all(
-        one[name].to_numpy().tobytes() == other[name].to_numpy().tobytes() for name in one.columns[:-1]
+        one[name].to_numpy().tobytes() == other[name].to_numpy().tobytes() for name in one.columns[:-2]
     )
 
 
@@ -65,7 +65,7 @@ def test_rows_are_those_of_single_calls() -> None:
     values: list[Any] = [1, 0.3, "1/3", Fraction(7, 5), np.float64(2.5)]
     frame = ws.sweep(MASS, {"mu": values}, **ASKED)
     assert list(frame.columns) == [
-        "mu", "velocity(1)", "velocity(3)", "max(strain_fixed)", "time of max(strain_fixed)", "error"
+        "mu", "velocity(1)", "velocity(3)", "max(strain_fixed)", "time of max(strain_fixed)", "note", "error"
     ]  # fmt: skip
     for (_, row), mu in zip(frame.iterrows(), values, strict=True):
         problem = ws.scene(MASS, mu=mu)
@@ -90,7 +90,18 @@ def test_datasets_have_the_symbols_as_axes() -> None:
     data = ws.sweep(ROD, {"z": [1, 2], "v": "1..3:3"}, at=1, dataset=True)
     assert data.sizes == {"z": 2, "v": 3}
     assert data["push(1)"].sel(z=2).values.tolist() == [2, 4, 6]
-    assert (data["error"] == "").all()
+    assert (data["error"] == "").all() and (data["note"] == "").all()
+
+
+def test_rows_say_what_they_take_for_granted(client: Any, tmp_path: pathlib.Path) -> None:
+    parted = ROD.replace("v }", "v, strain = 1 }")
+    tables = [
+        ws.sweep(parted, {"z": [1], "v": ["1/2", 2]}, at="1/2", folder=folder, engine=engine, client=client)
+        for engine, folder in (("threads", None), ("dask", tmp_path), ("threads", tmp_path))
+    ]
+    for frame in tables:
+        assert frame["note"].isna().tolist() == [False, True], frame["note"].tolist()
+        assert "between rod and wall is in tension" in frame["note"][0]
 
 
 def test_rows_without_an_answer_say_why() -> None:

@@ -33,6 +33,7 @@ def test_digits_are_those_of_the_closed_form(t: Fraction) -> None:
     with mpmath.workdps(60):
         value = MASS.signal("f").digits(t, 40)
         assert abs(value.mpf(40) - closed_form(t)) < mpmath.mpf(10) ** -39
+        assert abs(mpmath.sqrt(value) ** 2 - closed_form(t)) < mpmath.mpf(10) ** -39
         lower, upper = (mpmath.mpf(end.numerator) / end.denominator for end in value.bounds)
         assert lower - mpmath.mpf(10) ** -55 <= closed_form(t) <= upper + mpmath.mpf(10) ** -55
 

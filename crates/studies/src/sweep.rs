@@ -125,7 +125,8 @@ pub struct ToSweep {
     pub extrema: Vec<(Goal, String)>,
     pub from: Time,
     pub to: Option<Time>,
-    /// How long each contact is closed at first, its impulse in that time, and its coefficient of restitution.
+    /// How often each contact closes, how long it is closed at first, its impulse in that time, and its coefficient of
+    /// restitution.
     pub contacts: bool,
 }
 
@@ -389,7 +390,8 @@ fn first(found: &Extremum) -> Option<&Value> {
 }
 
 fn put_contact(row: &mut Row, contact: &ContactSummary) {
-    let [duration, impulse, restitution] = contact_columns(contact);
+    let [count, duration, impulse, restitution] = contact_columns(contact);
+    row.insert(count, json!(contact.durations.len() as f64));
     put(row, duration, contact.durations.first().and_then(Option::as_ref));
     put(row, impulse, contact.impulses.first());
     put(row, restitution, contact.restitution.as_ref());
@@ -404,7 +406,7 @@ fn extremum_columns((goal, name): &(Goal, String)) -> [String; 2] {
     [format!("{which}({name})"), format!("time of {which}({name})")]
 }
 
-fn contact_columns(contact: &ContactSummary) -> [String; 3] {
+fn contact_columns(contact: &ContactSummary) -> [String; 4] {
     let name = contact.between.join("-");
-    ["contact time", "impulse", "restitution"].map(|what| format!("{what} {name}"))
+    ["contacts", "contact time", "impulse", "restitution"].map(|what| format!("{what} {name}"))
 }

@@ -33,7 +33,7 @@ pub struct Sweep {
     /// The smallest values
     #[arg(long, value_name = "QUANTITY", value_delimiter = ',')]
     pub min: Vec<String>,
-    /// How long each contact is closed at first, its impulse in that time, its coefficient of restitution
+    /// How often each contact closes, how long it is closed at first, its impulse in that time, its coefficient of restitution
     #[arg(long)]
     pub contacts: bool,
     /// The first time of the window

@@ -23,6 +23,13 @@ def mpf(text: str) -> Any:
         return mpmath.mpf(text)
 
 
+def rounded(numerator: int, denominator: int, bits: int, rounding: str) -> Any:
+    """A quotient as a number of mpmath."""
+    import mpmath
+
+    return mpmath.mp.make_mpf(mpmath.libmp.from_rational(numerator, denominator, bits, rounding))
+
+
 def sympy_of(formula: str) -> Any:
     """The right side of a formula, whose lines may be broken and end in remarks."""
     import sympy

@@ -6,6 +6,7 @@ import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from itertools import chain
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from ._errors import InputError
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
     _Scene: TypeAlias = Problem | str | os.PathLike[str]
     _Over: TypeAlias = Mapping[str, str | Iterable[_Number]]
     _Range: TypeAlias = tuple[int, int]
+
+# The columns that hold text, at the end of the table.
+_TEXTS = ("note", "error")
 
 # Seconds that a chunk should take, and into how many a short sweep is cut.
 _LEAST, _MOST, _CHUNKS = 0.1, 2.0, 64
@@ -223,8 +227,9 @@ def _kept(folder: Path | None, part: _Range) -> _Columns | None:
     from pyarrow import parquet
 
     table = parquet.read_table(_file(folder, part))
-    columns: _Columns = {name: table[name].to_numpy() for name in table.column_names[:-1]}
-    return {**columns, "error": table["error"].to_pylist()}
+    return {
+        name: table[name].to_pylist() if name in _TEXTS else table[name].to_numpy() for name in table.column_names
+    }
 
 
 def _keep(folder: Path | None, part: _Range, found: _Columns) -> None:
@@ -234,8 +239,8 @@ def _keep(folder: Path | None, part: _Range, found: _Columns) -> None:
     import pyarrow
     from pyarrow import parquet
 
-    columns = {**found, "error": pyarrow.array(found["error"], pyarrow.string())}
-    table = pyarrow.table(columns)
+    texts = {name: pyarrow.array(found[name], pyarrow.string()) for name in _TEXTS}
+    table = pyarrow.table({**found, **texts})
     _write(_file(folder, part), lambda path: parquet.write_table(table, path))
 
 
@@ -317,7 +322,7 @@ def _lazy(asked: _Sweep, ranges: list[_Range], folder: Path | None) -> Any:
     divisions = [*(start for start, _ in ranges), len(asked) - 1]
     empty: _Columns = dict.fromkeys(asked.columns, numpy.empty(0))
     return dask.dataframe.from_delayed(
-        frames, meta=_frame({**empty, "error": []}), divisions=tuple(divisions)
+        frames, meta=_frame({**empty, "note": [], "error": []}), divisions=tuple(divisions)
     )
 
 
@@ -327,27 +332,29 @@ def _lazy(asked: _Sweep, ranges: list[_Range], folder: Path | None) -> Any:
 def _joined(parts: list[_Columns]) -> _Columns:
     import numpy
 
-    names = [name for name in parts[0] if name != "error"]
-    table: _Columns = {name: numpy.concatenate([part[name] for part in parts]) for name in names}
-    return {**table, "error": [error for part in parts for error in part["error"]]}
+    def joined(name: str) -> Any:
+        columns = [part[name] for part in parts]
+        return list(chain.from_iterable(columns)) if name in _TEXTS else numpy.concatenate(columns)
+
+    return {name: joined(name) for name in parts[0]}
 
 
 def _frame(table: _Columns, start: int = 0) -> _DataFrame:
     import pandas
 
-    errors = pandas.array(table["error"], dtype="string")
-    index = pandas.RangeIndex(start, start + len(errors))
-    return pandas.DataFrame({**table, "error": errors}, index=index)
+    texts = {name: pandas.array(table[name], dtype="string") for name in _TEXTS}
+    index = pandas.RangeIndex(start, start + len(table["error"]))
+    return pandas.DataFrame({**table, **texts}, index=index)
 
 
 def _dataset(asked: _Sweep, table: _Columns) -> _Dataset:
-    """The table as arrays over the axes; an empty text where there is no error."""
+    """The table as arrays over the axes; an empty text where there is no note or error."""
     import numpy
     import xarray
 
     axes = dict(asked.axes)
     shape = [len(values) for values in axes.values()]
-    columns = {**table, "error": numpy.array([error or "" for error in table["error"]])}
+    columns = {**table, **{name: numpy.array([text or "" for text in table[name]]) for name in _TEXTS}}
     arrays = {
         name: (list(axes), numpy.reshape(column, shape))
         for name, column in columns.items()
