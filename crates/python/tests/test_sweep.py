@@ -95,9 +95,10 @@ def test_datasets_have_the_symbols_as_axes() -> None:
 
 def test_rows_say_what_they_take_for_granted(client: Any, tmp_path: pathlib.Path) -> None:
     parted = ROD.replace("v }", "v, strain = 1 }")
+    places: list[tuple[Any, Any]] = [("threads", None), ("dask", tmp_path), ("threads", tmp_path)]
     tables = [
         ws.sweep(parted, {"z": [1], "v": ["1/2", 2]}, at="1/2", folder=folder, engine=engine, client=client)
-        for engine, folder in (("threads", None), ("dask", tmp_path), ("threads", tmp_path))
+        for engine, folder in places
     ]
     for frame in tables:
         assert frame["note"].isna().tolist() == [False, True], frame["note"].tolist()
