@@ -2,8 +2,8 @@
 
 use crate::snapshot;
 use crate::support::corpus::corpus;
-use crate::support::print;
 use std::collections::BTreeMap;
+use wavestep_trials::print;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;

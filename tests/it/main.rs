@@ -41,6 +41,7 @@ mod simpler;
 mod source;
 mod source_form;
 mod support;
+mod trials;
 
 use support::snapshot::snapshot;
 

@@ -8,6 +8,7 @@
 //! too: `m_j' = λ m_j + m_{j−1}` is solved by `e^{λx} x^j/j!`.
 
 use super::MethodError;
+use super::clock::Clock;
 use crate::ball::{Ball, ComplexBall};
 use crate::enclosure::{EnclosureError, Numbers};
 use crate::expression::{Field as _, Fraction, Transform};
@@ -36,13 +37,14 @@ pub(super) struct SystemBuilder<'a> {
 }
 
 impl<'a> SystemBuilder<'a> {
-    /// The steps of a recurrence without symbols.
+    /// The steps of a recurrence without symbols, in the periods of a clock.
     pub fn new(
         recurrence: &Recurrence,
-        numbers: &'a Numbers,
+        clock: &'a Clock,
     ) -> Result<SystemBuilder<'a>, MethodError> {
+        let numbers = &clock.numbers;
         let field = numbers.field(BITS);
-        let period = field.embed(&recurrence.statement().period.clone().into())?;
+        let period = field.embed(&clock.period.clone().into())?;
         let mut builder = SystemBuilder {
             numbers,
             period,

@@ -15,6 +15,7 @@ use crate::signal::error::EvaluateError;
 use crate::signal::signal::{Limit, Signal};
 use crate::signal::taps::{Extra, NoTaps, Taps};
 use crate::signal::transforms::value_at;
+use num_traits::Signed as _;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// Bits of the sum of the waves and what is added, whatever their sizes.
@@ -92,8 +93,15 @@ impl Marched {
 
     /// By all waves.
     fn of_waves(form: &ClosedForm, window: [&Rational; 2]) -> Result<Marched, MethodError> {
-        let clock = Clock::of(form);
-        let (waves, seen) = Waves::new(form, &clock.numbers)?;
+        let mut clock = Clock::of(form);
+        let (mut waves, mut seen) = Waves::new(form, &clock)?;
+        let end = clock.slowness.scale(window[1]);
+        let is_shorter =
+            (&clock.period - &end).as_constant().is_some_and(|rest| rest.is_positive());
+        if !waves.returns() && window[1].is_positive() && is_shorter {
+            clock.period = end;
+            (waves, seen) = Waves::new(form, &clock)?;
+        }
         clock.last_period(&seen, window[1])?;
         Ok(Marched::made(form, window, clock, (March::Waves(waves), seen), Vec::new()))
     }
@@ -162,9 +170,7 @@ impl Evaluator for Marched {
         match (&self.march, self.bound()) {
             (_, Some(bound)) => format!("at most {bound:.1e} everywhere on the window, proven"),
             (March::Response(_), None) => "no bound; about 1e-15 √n, measured".to_owned(),
-            (March::Waves(_), None) => {
-                "no bound; measured below 1e-13 of the largest value through 400 periods".to_owned()
-            }
+            (March::Waves(waves), None) => waves.law(),
         }
     }
 

@@ -1,10 +1,9 @@
 //! Several poles and lags: all waves of a recurrence, marched through in doubles without a bound.
 
 use super::MethodError;
-use super::clock::{Delayed, Place};
+use super::clock::{Clock, Delayed, Place};
 use super::march_system::{BITS, SystemBuilder, nearest};
 use crate::ball::ComplexBall;
-use crate::enclosure::Numbers;
 use crate::expression::{Field as _, Fraction, Transform};
 use crate::recurrence::WaveIndex;
 use crate::signal::closed::ClosedForm;
@@ -15,6 +14,9 @@ use wavestep_kernels::march::{Complex, Scalar, WaveMarch, WaveSystem};
 /// An imaginary part of this size, relative to the largest of the waves that are seen, is more than
 /// rounding.
 const NOT_REAL: f64 = 1e-6;
+
+/// The error that was measured, in parts of the largest wave.
+const MEASURED: f64 = 1e-12;
 
 /// All waves of a recurrence, and those that are seen.
 pub(super) struct Waves {
@@ -37,15 +39,13 @@ struct Seen {
 
 impl Waves {
     /// The waves of a signal on a grid, and when they are seen.
-    pub fn new(
-        signal: &ClosedForm,
-        numbers: &Numbers,
-    ) -> Result<(Waves, Vec<Delayed>), MethodError> {
+    pub fn new(signal: &ClosedForm, clock: &Clock) -> Result<(Waves, Vec<Delayed>), MethodError> {
+        let numbers = &clock.numbers;
         let (recurrence, field) = (signal.recurrence(), numbers.field(BITS));
         let statement = recurrence.statement();
         let unit = ComplexBall::from(numbers.enclose_root(signal.unit(), BITS)?);
-        let by_period = field.embed(&statement.period.clone().into())?.reciprocal(BITS)?;
-        let mut builder = SystemBuilder::new(recurrence, numbers)?;
+        let by_period = field.embed(&clock.period.clone().into())?.reciprocal(BITS)?;
+        let mut builder = SystemBuilder::new(recurrence, clock)?;
         let observation = signal.observation();
         let (mut seen, mut delays) = (Vec::new(), Vec::new());
         for wave in &observation.waves {
@@ -105,6 +105,33 @@ impl Waves {
             return Err(EvaluateError::NotReal.into());
         }
         Ok(sums.into_iter().map(|(sum, _)| sum.re).collect())
+    }
+
+    /// Whether anything returns, so that the length of periods matters.
+    pub fn returns(&self) -> bool {
+        let largest_lag = match &self.system {
+            System::Real(system) => system.largest_lag(),
+            System::Complex(system) => system.largest_lag(),
+        };
+        largest_lag > 0
+    }
+
+    /// How far values may be off, in words: what was measured, or else what the rounding of a place on the period changes
+    /// of the fastest wave.
+    pub fn law(&self) -> String {
+        let rate = match &self.system {
+            System::Real(system) => system.fastest_rate(),
+            System::Complex(system) => system.fastest_rate(),
+        };
+        let rounding = rate * f64::EPSILON;
+        match rounding <= MEASURED {
+            true => format!(
+                "no bound; measured below {MEASURED:.0e} of the largest wave through 400 periods"
+            ),
+            false => format!(
+                "no bound; expected below {rounding:.0e} of the largest wave, since the fastest rate is {rate:.1e} a period"
+            ),
+        }
     }
 
     /// The weighted sums at all places, for so many values.

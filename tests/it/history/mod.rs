@@ -15,7 +15,6 @@ mod passivity;
 mod phases;
 mod positive;
 mod pressing;
-mod random;
 mod refusals;
 mod series;
 mod springs;
@@ -33,6 +32,7 @@ use wavestep::network::Network;
 use wavestep::planner::{Purpose, SignalError, of_scene};
 use wavestep::signal::{Limit, Signal, Value, value};
 use wavestep_polynomial::Rational;
+use wavestep_trials::events::by_force;
 
 type Values<'a> = &'a [(&'a str, &'a str)];
 
@@ -340,24 +340,4 @@ fn bodies_that_move_alike_do_not_press() {
         line free - a | m - b - free\ncontacts open\nobserve v = velocity(m)";
     let history = History::of(&network_of(text, &[]), Some(&rational(10, 1)), 12).unwrap();
     assert!(history.events.is_empty() && history.assumptions.is_empty(), "{:?}", history.events);
-}
-
-/// Events by the force alone, as solvers in doubles see them: a contact that touches without force before it separates has
-/// opened when the force went.
-fn by_force(history: &History) -> Vec<(EventKind, &Event)> {
-    let events = &history.events;
-    let mut told = Vec::new();
-    for (i, event) in events.iter().enumerate() {
-        let same = |other: &&Event| other.contact == event.contact;
-        let next = events[i + 1..].iter().find(same).map(|other| other.kind);
-        let before = events[..i].iter().rfind(same).map(|other| other.kind);
-        match event.kind {
-            EventKind::Release if next == Some(EventKind::Opening) => {
-                told.push((EventKind::Opening, event));
-            }
-            EventKind::Opening if before == Some(EventKind::Release) => {}
-            kind => told.push((kind, event)),
-        }
-    }
-    told
 }

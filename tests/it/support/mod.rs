@@ -2,7 +2,6 @@
 
 pub mod corpus;
 pub mod mirror;
-pub mod print;
 pub mod snapshot;
 
 use wavestep::expression::{Expression, Fraction};

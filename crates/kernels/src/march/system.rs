@@ -104,6 +104,12 @@ impl<T: Scalar> WaveSystem<T> {
     pub fn largest_lag(&self) -> usize {
         self.steps.iter().flat_map(WaveStep::terms).map(|term| term.lag).max().unwrap_or(0)
     }
+
+    /// The size of the largest pole, a period.
+    pub fn fastest_rate(&self) -> f64 {
+        let states = self.steps.iter().filter_map(|step| step.state.as_ref());
+        states.map(|state| state.rate.size()).fold(0.0, f64::max)
+    }
 }
 
 impl<T: Scalar> WaveStep<T> {

@@ -1,6 +1,6 @@
 //! What moves between two bars, as a linear system in doubles: points in a row, joined by springs and contacts.
 
-use super::scene::{Element, End, Load, Scene};
+use crate::scene::{Element, End, Load, Scene};
 
 /// A place with one velocity.
 #[derive(Default)]
@@ -68,7 +68,7 @@ pub fn nodes(scene: &Scene) -> (Vec<Node>, Vec<Place>) {
         }
     };
     for (number, (element, is_contact)) in scene.elements.iter().zip(&scene.joints).enumerate() {
-        join(&mut node, *is_contact);
+        join(&mut node, *is_contact && scene.opens);
         let last = node.points.len() - 1;
         let point = &mut node.points[last];
         let here = Place::Point { node: nodes.len(), point: last };
@@ -105,7 +105,7 @@ pub fn nodes(scene: &Scene) -> (Vec<Node>, Vec<Place>) {
         }
         places.push(here);
     }
-    join(&mut node, *scene.joints.last().unwrap());
+    join(&mut node, *scene.joints.last().unwrap() && scene.opens);
     if scene.ends[1] != End::Endless {
         node.points.last_mut().unwrap().is_wall = scene.ends[1] == End::Fixed;
         nodes.push(node);
@@ -181,6 +181,32 @@ impl Node {
         forces
     }
 
+    /// The force from outside, of loads, supports and what is fixed, and the power of loads less that of dampers.
+    pub fn flow(&self, closed: &[bool], speeds: &[f64], state: &[f64], input: &[f64]) -> [f64; 2] {
+        let groups = self.groups(closed);
+        let is_held = |point: usize| {
+            (self.points.iter().zip(&groups))
+                .any(|(own, group)| own.is_wall && *group == groups[point])
+        };
+        let forces = self.forces(speeds, state, input, false);
+        let (mut push, mut power) = (0.0, 0.0);
+        for (point, speed) in speeds.iter().enumerate() {
+            push += input[2 + point] - if is_held(point) { forces[point] } else { 0.0 };
+            power += input[2 + point] * speed;
+        }
+        for (own, (point, [stiffness, damping])) in self.supports().enumerate() {
+            let moved = state[self.points.len() + self.links.len() + own];
+            push -= stiffness * moved + damping * speeds[point];
+            power -= damping * speeds[point].powi(2);
+        }
+        for (link, own) in self.links.iter().enumerate() {
+            if let Link::Spring { damping, .. } = own {
+                power -= damping * (speeds[link] - speeds[link + 1]).powi(2);
+            }
+        }
+        [push, power]
+    }
+
     /// The points that move together where these contacts are closed.
     pub fn groups(&self, closed: &[bool]) -> Vec<usize> {
         let mut groups = vec![0];
@@ -227,9 +253,13 @@ impl Node {
         };
         let (mut matrix, mut right) = (Vec::new(), Vec::new());
         for group in &light {
-            // Where nothing resists a velocity the balance is one of springs, and so is its derivative.
+            // Where nothing resists a velocity the balance is one of springs, and so is its derivative; the derivatives of
+            // loads are not worked out here.
             let damped = row(*group, false);
             let rates = damped.iter().all(|entry| *entry == 0.0);
+            if rates && has(*group, &|point| !point.loads.is_empty()) {
+                return None;
+            }
             matrix.push(if rates { row(*group, true) } else { damped });
             right.push(sum(&self.forces(&known, state, input, rates), *group));
         }

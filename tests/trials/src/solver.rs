@@ -1,10 +1,10 @@
 //! The method of steps in plain doubles: each node is integrated from break to break by Picard's iteration at
 //! Chebyshev points, with what left its neighbours a travel time before. Contacts open where their force falls
-//! below zero and close where their gap does.
+//! below zero and close where their gap does; the others stay closed.
 
-use super::curve::{Curve, POINTS, integrals, points};
-use super::node::{Law, Node, Place, nodes};
-use super::scene::{Element, Quotient, Scene};
+use crate::curve::{Curve, POINTS, integral, integrals, points};
+use crate::node::{Law, Node, Place, nodes};
+use crate::scene::{Element, Scene, Size};
 use wavestep::history::EventKind;
 
 /// Forces and gaps below this are zero.
@@ -33,7 +33,8 @@ pub struct Happening {
     pub time: f64,
 }
 
-/// A node on a stretch of time: the velocities of its points, then the forces in its links.
+/// A node on a stretch of time: the velocities of its points, the forces in its links, the force and the power from
+/// outside, and the waves that leave to the left and to the right.
 struct Cell {
     start: f64,
     length: f64,
@@ -104,13 +105,14 @@ impl Solver {
             (Element::Bar { impedance, travel, velocity, strain }, Place::Bar(ends)) => {
                 let (velocity, stretched) = (velocity.value(), strain.value());
                 let before = [(velocity - stretched) / 2.0, (velocity + stretched) / 2.0];
-                let (travel, impedance) = (travel.map(Quotient::value), impedance.value());
+                let (travel, impedance) = (travel.map(Size::value), impedance.value());
                 Some(Bar { travel, impedance, before, ends: *ends })
             }
             _ => None,
         };
         let bars = scene.elements.iter().zip(&places).map(bar).collect();
-        let count = scene.joints.iter().filter(|is_contact| **is_contact).count();
+        let joints = scene.joints.iter().filter(|is_contact| **is_contact && scene.opens);
+        let count = joints.count();
         let contact = || Contact { is_closed: true, was_clear: false, idle: None, since: 0.0 };
         let mut traces = Vec::new();
         for node in &nodes {
@@ -164,10 +166,7 @@ impl Solver {
             let cells = &self.traces[source].cells;
             cells[..cells.partition_point(|cell| cell.start <= time)].last()
         });
-        cell.map_or(bar.before[direction], |cell| {
-            // The last two curves are the waves that leave to the left and to the right.
-            cell.at(cell.curves.len() - 1 - direction, time)
-        })
+        cell.map_or(bar.before[direction], |cell| cell.at(cell.curves.len() - 1 - direction, time))
     }
 
     /// The wave that arrives at a side of a node.
@@ -220,6 +219,15 @@ impl Solver {
         let curve = |value: &dyn Fn(usize) -> f64| Curve::through(&std::array::from_fn(value));
         let mut curves: Vec<Curve> =
             law.output.iter().map(|own| curve(&|i| row(own, &states[i], &input[i]))).collect();
+        let closed = self.closed();
+        let flows: Vec<[f64; 2]> = (states.iter().zip(&input))
+            .map(|(state, input)| {
+                let speeds = law.output[..own.points.len()].iter();
+                let speeds: Vec<f64> = speeds.map(|own| row(own, state, input)).collect();
+                own.flow(&closed, &speeds, state, input)
+            })
+            .collect();
+        curves.extend([0, 1].map(|k| curve(&|i| flows[i][k])));
         for (side, point) in [(0, 0), (1, own.points.len() - 1)] {
             let outward =
                 |i: usize| row(&law.output[point], &states[i], &input[i]) - input[i][side];
@@ -449,15 +457,19 @@ impl Solver {
 
     /// The velocity of an element of a point, of a bar at its left or right end.
     pub fn velocity(&self, element: usize, side: usize, time: f64) -> f64 {
-        let (node, point) = match self.places[element] {
+        let (node, point) = self.point(element, side);
+        self.seen(node, point, time)
+    }
+
+    fn point(&self, element: usize, side: usize) -> (usize, usize) {
+        match self.places[element] {
             Place::Point { node, point } => (node, point),
             Place::Bar(nodes) => {
                 let node = nodes[side].expect("an end");
                 (node, if side == 0 { self.nodes[node].points.len() - 1 } else { 0 })
             }
             Place::Link { .. } => unreachable!("springs have no velocity"),
-        };
-        self.seen(node, point, time)
+        }
     }
 
     /// The force in a spring, in a bar at its left or right end.
@@ -476,6 +488,64 @@ impl Solver {
             }
             Place::Point { .. } => unreachable!("what has one place has no force of its own"),
         }
+    }
+
+    /// The velocity and the force in a bar at a share of its length.
+    pub fn within(&self, element: usize, share: f64, time: f64) -> [f64; 2] {
+        let bar = self.bars[element].as_ref().unwrap();
+        let passed = [share, 1.0 - share].map(|share| share * bar.travel.expect("a length"));
+        let [right, left] = [0, 1].map(|side| self.leaving(bar, side, time - passed[side]));
+        [right + left, bar.impedance * (right - left)]
+    }
+
+    /// How far a section of a bar has moved.
+    pub fn moved_within(&self, element: usize, share: f64, time: f64) -> f64 {
+        let bar = self.bars[element].as_ref().unwrap();
+        let passed = [share, 1.0 - share].map(|share| share * bar.travel.expect("a length"));
+        let moved = |side: usize| {
+            let since = time - passed[side];
+            let sent = bar.ends[side].filter(|_| since > 0.0).map_or(0.0, |node| {
+                let leaving = self.traces[node].cells[0].curves.len() - 1 - side;
+                self.sum(node, leaving, since)
+            });
+            bar.before[side] * time.min(passed[side]) + sent
+        };
+        moved(0) + moved(1)
+    }
+
+    /// How far an element of a point, or an end of a bar, has moved.
+    pub fn moved(&self, element: usize, side: usize, time: f64) -> f64 {
+        let (node, point) = self.point(element, side);
+        self.sum(node, point, time)
+    }
+
+    /// How far a spring is compressed.
+    pub fn compression(&self, element: usize, time: f64) -> f64 {
+        let Place::Link { node, link } = self.places[element] else { unreachable!("a spring") };
+        self.sum(node, link, time) - self.sum(node, link + 1, time)
+    }
+
+    /// The impulse and the work that came from outside.
+    pub fn given(&self, time: f64) -> [f64; 2] {
+        let own = |node: usize| self.nodes[node].points.len() + self.nodes[node].links.len();
+        let nodes = 0..self.nodes.len();
+        [0, 1].map(|k| nodes.clone().map(|node| self.sum(node, own(node) + k, time)).sum())
+    }
+
+    /// The integral of a curve since the start.
+    fn sum(&self, node: usize, curve: usize, time: f64) -> f64 {
+        let begun = self.traces[node].cells.iter().take_while(|cell| cell.start < time);
+        let part = |cell: &Cell| {
+            let x = (2.0 * (time - cell.start) / cell.length - 1.0).min(1.0);
+            let own = &cell.curves[curve];
+            (integral(own, x) - integral(own, -1.0)) * cell.length / 2.0
+        };
+        begun.map(part).sum()
+    }
+
+    /// How fast the fastest node changes.
+    pub fn rate(&self) -> f64 {
+        self.traces.iter().map(|trace| trace.law.rate()).fold(0.0, f64::max)
     }
 
     fn seen(&self, node: usize, curve: usize, time: f64) -> f64 {
