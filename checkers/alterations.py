@@ -78,12 +78,25 @@ def same_functions(one, other):
     return len(one) == len(other) and all(map(equal, one, other))
 
 
+def normal(node):
+    """A node whose numbers are written in one way."""
+    if isinstance(node, list):
+        return [normal(child) for child in node]
+    if isinstance(node, dict):
+        return {key: normal(child) for key, child in node.items()}
+    try:
+        return str(Fraction(node))
+    except (TypeError, ValueError):
+        return node
+
+
 def same_formula(one, other):
     """Whether two formulas for every n are equal, number by number, in whatever order their terms stand."""
     if one.keys() != other.keys() or not same_functions(one["first"], other["first"]):
         return False
     is_sequence = "rate" not in one
-    terms = [sorted(own["terms"], key=lambda term: json.dumps(term[:: -1 if is_sequence else 1])) for own in (one, other)]
+    key = lambda term: json.dumps(normal(term[:: -1 if is_sequence else 1]))
+    terms = [sorted(own["terms"], key=key) for own in (one, other)]
     orders = [[term[1 if is_sequence else 0] for term in own] for own in terms]
     numbers = [[own[key] or [] for key in ("rate", "ratio", "laguerre") if key in own] for own in (one, other)]
     parts = [[part for term in own for part in (term[::2] if is_sequence else [[[[], term[1]]]])] for own in terms]

@@ -160,10 +160,18 @@ impl Lock {
                 }
             }
         }
-        if let Contents::Pieces(pieces) = &mut lock.contents {
-            pieces.read(lines[0], listing)?;
+        match &mut lock.contents {
+            Contents::Pieces(pieces) => pieces.read(lines[0], listing)?,
+            Contents::Events(events) if events.ending.is_empty() => {
+                let message = "this file does not say how the events end";
+                let label = "no line `ending = …` follows";
+                return Err(incomplete(lines[0], message.to_owned(), lines[0].span, label));
+            }
+            Contents::Events(_) => {}
         }
         holds_as_said(lines[0], &lock.held(), said)?;
+        // Whatever order the lines stand in.
+        lock.request.times.sort();
         Ok(lock)
     }
 
@@ -355,25 +363,28 @@ fn version(first: Line<'_>) -> Result<u32, Diagnostic> {
     }
 }
 
+/// Something in the file is missing.
+fn incomplete(first: Line<'_>, message: String, span: Span, label: &str) -> Diagnostic {
+    Diagnostic::new(first.source, message, span, label)
+        .with_remedy("restore the file, or lock again")
+}
+
 /// Refuses a file that does not hold what it says.
 fn holds_as_said(
     first: Line<'_>,
     found: &str,
     said: Option<(&str, Line<'_>)>,
 ) -> Result<(), Diagnostic> {
-    let refuse = |message: String, span: Span, label: &str| {
-        Err(Diagnostic::new(first.source, message, span, label)
-            .with_remedy("restore the file, or lock again"))
-    };
     match said {
         Some((said, _)) if said == found => Ok(()),
         Some((said, line)) => {
             let message = format!("this file holds {found}, and says {said}");
-            refuse(message, line.span, "something is missing, or was added")
+            Err(incomplete(first, message, line.span, "something is missing, or was added"))
         }
         None => {
             let message = "this file does not say what it holds".to_owned();
-            refuse(message, first.span, "no line `holds …` follows: the file is cut off")
+            let label = "no line `holds …` follows: the file is cut off";
+            Err(incomplete(first, message, first.span, label))
         }
     }
 }

@@ -232,6 +232,18 @@ fn numbers_are_exact() {
 }
 
 #[test]
+fn wrong_numbers_and_quantities_have_remedies() {
+    for text in ["*2", "1/2 m", "(1", "1..2", "1 m m", "1 m^x"] {
+        let number = parse_number(text).unwrap_err();
+        assert!(number.remedy().is_some(), "{number}");
+        let quantity = read_quantity(&source(text), Dimension::TIME).unwrap_err();
+        assert!(quantity.remedy().is_some(), "{quantity}");
+    }
+    let expression = parse_expression(&source("a b")).unwrap_err();
+    assert!(expression.remedy().is_some(), "{expression}");
+}
+
+#[test]
 fn literals_are_exact() {
     for (text, numerator, denominator) in [
         ("3", 3, 1),

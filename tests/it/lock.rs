@@ -87,6 +87,18 @@ fn locks_are_read_as_they_were_written() {
     }
 }
 
+/// Lines of values that were put in another order hold the same.
+#[test]
+fn the_order_of_values_does_not_matter() {
+    let lock = derived(scene("rigid-mass"), &request(0, "mu=1/4", &["1/2", "33/10"]));
+    let text = lock.to_text();
+    let (before, values) = text.split_once("value ").expect("values");
+    let values: Vec<&str> = values.trim_end().rsplit("\nvalue ").collect();
+    let turned = format!("{before}value {}\n", values.join("\nvalue "));
+    assert_ne!(turned, text);
+    assert_eq!(read("turned.lock", &turned).as_ref(), Ok(&lock));
+}
+
 /// Files of version 1 are never changed; they are read, and hold, for ever.
 #[test]
 fn old_files_are_read() {

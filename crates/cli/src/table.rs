@@ -115,7 +115,7 @@ fn text(value: &Json) -> String {
         Json::Null => String::new(),
         other => other.to_string(),
     };
-    match text.contains([',', '"', '\n']) {
+    match text.contains([',', '"', '\n', '\r']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),
         false => text,
     }

@@ -337,9 +337,17 @@ pub(super) fn expected_expression(input: Input<'_>) -> Diagnostic {
 
 /// A text without anything in it, where one expression was expected.
 pub(super) fn nothing(source: &Source, unit: &str) -> Diagnostic {
-    let remedy = if unit == "number" { NUMBERS } else { "write an expression such as `2*mu`" };
     Diagnostic::new(source, format!("no {unit} is given"), Span::new(0, 0), "nothing here")
-        .with_remedy(remedy)
+        .with_remedy(example(unit))
+}
+
+/// What a text that is one thing looks like.
+pub(super) fn example(unit: &str) -> &'static str {
+    match unit {
+        "number" => NUMBERS,
+        "quantity" => "write a number and its unit, such as `120 us` or `3/2 kN`",
+        _ => "write an expression such as `2*mu`",
+    }
 }
 
 /// What numbers look like.

@@ -115,7 +115,6 @@ fn alone<'a, T>(
     if input.after_blanks().text.is_empty() {
         return Err(complaint::nothing(source, unit));
     }
-    let found = read(&mut input)?;
-    expression::end(input)?;
-    Ok(found)
+    let found = read(&mut input).and_then(|found| expression::end(input).map(|()| found));
+    found.map_err(|error| error.or_remedy(complaint::example(unit)))
 }
