@@ -160,16 +160,15 @@ impl Lock {
                 }
             }
         }
-        match &mut lock.contents {
-            Contents::Pieces(pieces) => pieces.read(lines[0], listing)?,
-            Contents::Events(events) if events.ending.is_empty() => {
-                let message = "this file does not say how the events end";
-                let label = "no line `ending = …` follows";
-                return Err(incomplete(lines[0], message.to_owned(), lines[0].span, label));
-            }
-            Contents::Events(_) => {}
+        if let Contents::Pieces(pieces) = &mut lock.contents {
+            pieces.read(lines[0], listing)?;
         }
         holds_as_said(lines[0], &lock.held(), said)?;
+        if matches!(&lock.contents, Contents::Events(events) if events.ending.is_empty()) {
+            let message = "this file does not say how the events end".to_owned();
+            let label = "no line `ending = …` follows";
+            return Err(incomplete(lines[0], message, lines[0].span, label));
+        }
         // Whatever order the lines stand in.
         lock.request.times.sort();
         Ok(lock)

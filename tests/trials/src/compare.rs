@@ -208,12 +208,11 @@ fn share(law: &str) -> f64 {
     told.and_then(|told| told.parse().ok()).unwrap_or(MARCHED_LAW)
 }
 
+/// A source by its name, and the signal that it gives.
+type Named<'a> = (&'static str, Result<Box<dyn Signal + 'a>, ProblemError>);
+
 /// All sources of an observable.
-fn sources<'a>(
-    problem: &'a Problem,
-    name: &str,
-    window: [&Rational; 2],
-) -> Vec<(&'static str, Result<Box<dyn Signal + 'a>, ProblemError>)> {
+fn sources<'a>(problem: &'a Problem, name: &str, window: [&Rational; 2]) -> Vec<Named<'a>> {
     let few = Purpose::Values { digits: COUNT };
     let Ok(network) = problem.network() else {
         let solution = problem.solution().expect("equations");

@@ -103,11 +103,11 @@ fn compared(
     let solver = is_told.then_some(&solver);
     for (name, own) in NAMES.iter().zip(&seen) {
         compare_values((scene, own, solver), &mut comparison, (name, &times), tolerance)?;
-        if !scene.opens {
-            if let Ok(general) = problem.without_values() {
-                let mut general = Comparison { problem: &general, tally: comparison.tally };
-                general.formulas(name, &problem)?;
-            }
+        if !scene.opens
+            && let Ok(general) = problem.without_values()
+        {
+            let mut general = Comparison { problem: &general, tally: comparison.tally };
+            general.formulas(name, &problem)?;
         }
     }
     // What takes longest is not compared each time.
