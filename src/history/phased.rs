@@ -179,6 +179,8 @@ pub(crate) struct FollowedSignal<'a> {
     silence: Option<Silence>,
     /// The highest precision of stretches.
     most_bits: u64,
+    /// From so many bits on there are other stretches than those that were counted.
+    other_stretches: Cell<u64>,
     known: RefCell<Rc<Followed>>,
 }
 
@@ -254,7 +256,16 @@ impl<'a> FollowedSignal<'a> {
         let most_bits = SEARCH_BITS.min(follower.most_bits(&engine));
         let known = RefCell::new(Rc::new(Followed::of(follower.network, engine, &seen)?));
         let (follower, window) = (Rc::clone(follower), window.map(Clone::clone));
-        Ok(FollowedSignal { follower, seen, window, silence: None, most_bits, known })
+        let other_stretches = Cell::new(u64::MAX);
+        Ok(FollowedSignal {
+            follower,
+            seen,
+            window,
+            silence: None,
+            most_bits,
+            other_stretches,
+            known,
+        })
     }
 
     /// Finds all breaks, so that stretches can be asked for.
@@ -263,25 +274,29 @@ impl<'a> FollowedSignal<'a> {
         Ok(self)
     }
 
-    /// What is known at a precision; where more is known, that.
+    /// What is known at a precision; where more is known, that. Stretches that were counted stay: how many cells a local
+    /// contact begins with, and how long a fast motion takes to die out, depends on the precision.
     fn followed(&self, bits: u64) -> Result<Rc<Followed>, EvaluateError> {
         let known = Rc::clone(&self.known.borrow());
-        // How many cells a local contact begins with depends on the precision: once counted they stay.
-        if known.pieces.get().is_some() && self.follower.network.local_contact().is_some() {
+        let counted = known.pieces.get().map(Vec::len);
+        let is_fixed =
+            self.follower.network.local_contact().is_some() || bits >= self.other_stretches.get();
+        if counted.is_some() && is_fixed {
             return Ok(known);
         }
         let engine = self.follower.engine(bits);
         if Rc::ptr_eq(&engine, &known.engine) {
             return Ok(known);
         }
-        let bits = engine.cut.bits;
-        let wanting = |_| EvaluateError::NotFollowed { bits };
+        let found = engine.cut.bits;
+        let wanting = |_| EvaluateError::NotFollowed { bits: found };
         let network = self.follower.network;
         let finer = Followed::of(network, engine, &self.seen).map_err(wanting)?;
-        if let Some(pieces) = known.pieces.get()
-            && finer.pieces(network, &self.window).map_err(wanting)?.len() != pieces.len()
+        if let Some(counted) = counted
+            && finer.pieces(network, &self.window).map_err(wanting)?.len() != counted
         {
-            return Err(EvaluateError::NotFollowed { bits });
+            self.other_stretches.set(bits);
+            return Ok(known);
         }
         let finer = Rc::new(finer);
         *self.known.borrow_mut() = Rc::clone(&finer);

@@ -4,6 +4,7 @@
 use crate::history::{ball, is_zero, network_of, rational, values};
 use wavestep::history::{EventKind, History};
 use wavestep::signal::Limit;
+use wavestep::{Goal, Problem};
 use wavestep_polynomial::Rational;
 
 /// What is followed is the closed form of the same scene with closed contacts, as long as these would not open.
@@ -86,4 +87,20 @@ fn a_light_mass_is_pressed_on_a_bar() {
         observe e = strain(rod.right)";
     let times: Vec<Rational> = (0..3).map(|k| rational(20 * k + 7, 13)).collect();
     follows_the_closed_form(text, &["v", "e"], &times);
+}
+
+/// A fast motion that dies out takes more cells at a higher precision; the search keeps those that it counted.
+#[test]
+fn extrema_of_stiff_scenes_are_found_at_any_precision() {
+    let text = "scene \"A light mass on a stiff bar\"\n\
+        mass hammer { mass = 3/1000, velocity = 1000 }\n\
+        bar anvil { velocity = -500, impedance = 10^6, travel = 4*10^(-6) }\n\
+        load push { force = -1/3*10^6, from = 0, until = 4*10^(-6) }\n\
+        bar rod { velocity = -1000, impedance = 1000, travel = 99*10^(-8) }\n\
+        line free - hammer | anvil | push - rod - fixed\n\
+        observe f = force(anvil.left)\n";
+    let problem = Problem::read("stiff.wave", text).unwrap();
+    let signal = problem.signal("f").unwrap();
+    let largest = signal.extremum(Goal::Largest, "0"..="8e-6", 20).unwrap();
+    assert_eq!(largest.value.to_string(), "1500000000");
 }

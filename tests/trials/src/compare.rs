@@ -78,6 +78,13 @@ impl Comparison<'_> {
         if times.is_empty() {
             return Ok(());
         }
+        let scale = match self.scale(name, &times) {
+            Ok(scale) => scale,
+            Err(error) => {
+                self.tally.refuse("the largest value", &error);
+                return Ok(());
+            }
+        };
         for accuracy in [
             Accuracy::Method(Method::Certified, None),
             Accuracy::Method(Method::Compiled, None),
@@ -96,10 +103,10 @@ impl Comparison<'_> {
             let law = match doubles.bound {
                 Some(bound) => bound,
                 None if doubles.method == Method::Certified => 0.0,
-                None => self.scale(name, &times)?.max(largest_wave) * share(&doubles.law),
+                None => scale.max(largest_wave) * share(&doubles.law),
             };
             if let (Accuracy::Within(allowed), Some(bound)) = (accuracy, doubles.bound)
-                && bound > allowed.absolute(self.scale(name, &times)? * 1.01)
+                && bound > allowed.absolute(if scale > 0.0 { scale * 1.01 } else { 1.0 })
             {
                 return Err(format!("{name}: {what} has the bound {bound:e}"));
             }
@@ -121,10 +128,9 @@ impl Comparison<'_> {
     }
 
     /// About the largest value.
-    fn scale(&self, name: &str, times: &[Rational]) -> Result<f64, String> {
+    fn scale(&self, name: &str, times: &[Rational]) -> Result<f64, wavestep::Error> {
         let ends = [times.iter().min(), times.iter().max()].map(|time| time.expect("one").clone());
-        let question = self.problem.question_for(name, ends, Purpose::Polynomials);
-        question.map_err(|error| error.to_string())?.scale().map_err(|error| error.to_string())
+        Ok(self.problem.question_for(name, ends, Purpose::Polynomials)?.scale()?)
     }
 
     /// Formulas read back as themselves, and with values put in place of symbols they are those of the scene with values.
