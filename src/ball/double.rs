@@ -114,13 +114,13 @@ pub fn rational(value: f64) -> Rational {
     Rational::from(&Binary::from_double(value).expect("a finite number"))
 }
 
-/// The smallest double that is at least as large.
+/// The smallest double that is at least as large; infinity beyond all of them.
 pub(crate) fn at_or_after(value: &Rational) -> f64 {
     let ball = Ball::from_rational(value, 80);
-    let double = ball.midpoint().to_double();
+    let double = ball.midpoint().to_double().clamp(f64::MIN, f64::MAX);
     match rational(double) < *value {
         true => double.next_up(),
-        false if rational(double.next_down()) >= *value => double.next_down(),
+        false if double > f64::MIN && rational(double.next_down()) >= *value => double.next_down(),
         false => double,
     }
 }

@@ -332,10 +332,10 @@ impl<'a> Window<'a> {
     }
 }
 
-/// A window that holds a double: itself, or begun at the double before it.
+/// A window that holds a double: itself, or begun at the double before it; beyond all doubles, itself.
 pub fn reaching_a_double([from, to]: [Rational; 2]) -> [Rational; 2] {
     let first = at_or_after(&from);
-    match rational(first) > to {
+    match first.is_finite() && rational(first) > to {
         true => [rational(first.next_down()), to],
         false => [from, to],
     }

@@ -6,6 +6,7 @@ use crate::work::released;
 use numpy::{PyArrayDyn, PyArrayMethods as _, PyUntypedArrayMethods as _};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
+use std::ops::Range;
 
 /// Whether there are many times, not one.
 pub fn are_many(times: &Bound<'_, PyAny>) -> PyResult<bool> {
@@ -16,9 +17,19 @@ pub fn are_many(times: &Bound<'_, PyAny>) -> PyResult<bool> {
     Ok(inner.hasattr("ndim")? && inner.getattr("ndim")?.extract::<usize>()? > 0)
 }
 
-/// Times as an array of doubles; refused where their kind has numbers that no double holds.
-pub fn doubles<'py>(times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+/// Times as an array of doubles, quantities in a unit or, where that is empty, as plain numbers; refused where their kind
+/// has numbers that no double holds.
+pub fn doubles<'py>(
+    times: &Bound<'py, PyAny>,
+    unit: &str,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let py = times.py();
+    if times.hasattr("mask")? && times.hasattr("filled")? {
+        let remedy =
+            "give `t.compressed()`, or `t.filled(…)` with times in place of what is masked";
+        let message = "in a masked array some times are missing".to_owned();
+        return Err(Failure::Input(message, remedy.to_owned()).raised(py));
+    }
     // Where NumPy is missing this is told as usual.
     let numpy = py.import("numpy")?;
     if let Ok(array) = times.cast::<PyArrayDyn<f64>>()
@@ -27,7 +38,7 @@ pub fn doubles<'py>(times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn
         return Ok(array.clone());
     }
     let times = match is_quantity(times)? {
-        true => &times.call_method0("to_base_units")?.getattr("magnitude")?,
+        true => &py.import("wavestep._convert")?.call_method1("magnitudes", (times, unit))?,
         false => times,
     };
     let array = numpy.call_method1("asarray", (times,))?;
@@ -44,24 +55,34 @@ pub fn doubles<'py>(times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn
     Ok(array.cast_into()?)
 }
 
-/// Fills an array with the values at the times of another, without the interpreter's lock.
+/// Where the numbers of an array are in memory; it is contiguous.
+fn place(array: &Bound<'_, PyArrayDyn<f64>>) -> Range<usize> {
+    let start = array.data() as usize;
+    start..start + array.len() * size_of::<f64>()
+}
+
+/// Fills an array with the values at the times of another, without the interpreter's lock. Quantities are taken in a unit.
 pub fn fill<'py>(
-    times: &Bound<'py, PyAny>,
+    (times, unit): (&Bound<'py, PyAny>, &str),
     out: Option<&Bound<'py, PyAny>>,
     work: impl FnOnce(&[f64], &mut [f64]) -> Result<(), Failure> + Send,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = times.py();
-    let times = doubles(times)?;
+    let times = doubles(times, unit)?;
     let out = match out {
         Some(out) => out.clone(),
         None => py.import("numpy")?.call_method1("empty", (times.getattr("shape")?,))?,
     };
     let refuse = |_| {
         let remedy = "give numpy.empty(t.shape), or leave it out";
-        let message = "`out` is no contiguous array of float64 that can be written and is not `t`";
+        let message = "`out` is no contiguous array of float64 that can be written and shares nothing with `t`";
         Failure::Input(message.to_owned(), remedy.to_owned()).raised(py)
     };
     let array = out.cast::<PyArrayDyn<f64>>().map_err(|_| refuse(()))?;
+    let [read, written] = [&times, array].map(place);
+    if !array.is_c_contiguous() || read.start < written.end && written.start < read.end {
+        return Err(refuse(()));
+    }
     let times = times.try_readonly()?;
     let mut values = array.try_readwrite().map_err(|_| refuse(()))?;
     if values.shape() != times.shape() {

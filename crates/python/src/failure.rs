@@ -50,7 +50,7 @@ impl Failure {
                 let places = places.collect::<PyResult<Vec<_>>>()?;
                 // The library knows how the command is told.
                 let raise =
-                    |told: String| told.replace("raise --memory", "allow more with set_memory");
+                    |told: String| told.replace("raise --memory", "allow more with set_memory(…)");
                 (class(&error), error.to_string(), error.remedy().map(raise), places)
             }
         };

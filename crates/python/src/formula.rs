@@ -18,6 +18,14 @@ pub struct Formula(pub Exact);
 
 #[pymethods]
 impl Formula {
+    fn __copy__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: PyRef<'py, Self>, _memo: &Bound<'py, PyAny>) -> PyRef<'py, Self> {
+        slf
+    }
+
     /// The period on which it holds; `None` for echoes and for forms of every period.
     #[getter]
     fn order(&self) -> Option<usize> {

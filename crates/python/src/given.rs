@@ -5,7 +5,11 @@ use num_bigint::BigInt;
 use pyo3::exceptions::{PyOverflowError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyString};
+use wavestep::limits::MAX_DIGITS;
 use wavestep::{Given, Rational};
+
+/// Bits of a number with the most digits that are given out, and some more.
+const MOST_BITS: usize = 4 * MAX_DIGITS;
 
 /// A number or a time: `int`, `float` as its exact value, `Fraction`, `Decimal`, text, a quantity of pint.
 #[derive(Clone)]
@@ -36,8 +40,20 @@ pub fn given(value: &Bound<'_, PyAny>) -> PyResult<Given> {
     if is_quantity(value)? {
         return quantity(value);
     }
+    // A number of NumPy's, or an array without dimensions.
+    if value.hasattr("ndim")? && value.getattr("ndim")?.extract::<usize>()? == 0 {
+        let item = value.call_method0("item")?;
+        if !item.get_type().is(value.get_type()) {
+            return given(&item);
+        }
+    }
     if value.hasattr("__index__")? {
-        let integer: BigInt = value.call_method0("__index__")?.extract()?;
+        let integer = value.call_method0("__index__")?;
+        let bits: usize = integer.call_method0("bit_length")?.extract()?;
+        if bits > MOST_BITS {
+            return Err(too_long(value.py()));
+        }
+        let integer: BigInt = integer.extract()?;
         return Ok(Rational::from_integer(integer).into());
     }
     if value.hasattr("as_integer_ratio")? {
@@ -49,12 +65,27 @@ pub fn given(value: &Bound<'_, PyAny>) -> PyResult<Given> {
     Err(Failure::Input(message, remedy.to_owned()).raised(value.py()))
 }
 
+fn too_long(py: Python<'_>) -> PyErr {
+    let message = format!("a number has more than {MAX_DIGITS} digits");
+    Failure::Input(message, "give a shorter one".to_owned()).raised(py)
+}
+
 /// A fraction, or a decimal number; those that are infinite, or no numbers, raise exceptions of Python's.
 fn ratio(value: &Bound<'_, PyAny>) -> PyResult<Given> {
     let py = value.py();
+    // The ratio of a decimal number such as 1E+999999999 has as many digits.
+    if value.hasattr("adjusted")? {
+        let places: i64 = value.call_method0("adjusted")?.extract()?;
+        if places.unsigned_abs() > MAX_DIGITS as u64 {
+            return Err(too_long(py));
+        }
+    }
     match value.call_method0("as_integer_ratio") {
         Ok(ratio) => {
             let (above, below): (BigInt, BigInt) = ratio.extract()?;
+            if above.bits().max(below.bits()) > MOST_BITS as u64 {
+                return Err(too_long(py));
+            }
             Ok(Rational::new(above, below).into())
         }
         Err(error) if error.is_instance_of::<PyOverflowError>(py) => Ok(f64::INFINITY.into()),

@@ -5,15 +5,21 @@ use crate::formula::Formula;
 use crate::given::{Number, count, values};
 use crate::results;
 use crate::signal::Signal;
-use crate::work::released;
+use crate::work::{pause, released};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, TryLockError};
+use std::thread;
+use std::time::Duration;
+use wavestep::limits::MAX_ORDER;
 use wavestep::problem::Values;
 use wavestep::{Error, Given, Problem as Read, Quantity};
 use wavestep_draw::{Caption, Chart as _};
 use wavestep_studies::picture::{against_time, courses, lagrange, usual_end};
 use wavestep_studies::validity::pulling;
+
+/// How long a thread waits before it looks again whether it may ask.
+const WAIT: Duration = Duration::from_micros(200);
 
 /// A problem that several threads may ask, one at a time.
 pub struct Shared(Mutex<Read>);
@@ -24,7 +30,22 @@ impl Shared {
         &self,
         question: impl FnOnce(&Read) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
-        question(&self.0.lock().unwrap_or_else(PoisonError::into_inner))
+        loop {
+            match self.0.try_lock() {
+                Ok(problem) => return question(&problem),
+                Err(TryLockError::Poisoned(problem)) => return question(&problem.into_inner()),
+                // Another thread asks; Ctrl-C stops this one all the same.
+                Err(TryLockError::WouldBlock) => {
+                    thread::sleep(WAIT);
+                    pause();
+                }
+            }
+        }
+    }
+
+    /// The unit of times, empty for plain numbers.
+    pub fn time_unit(&self, py: Python<'_>) -> PyResult<String> {
+        self.ask(py, |problem| Ok(problem.time_unit().to_owned()))
     }
 
     /// Asks without the interpreter's lock.
@@ -44,7 +65,7 @@ impl Shared {
 /// >>> p.title, p.waves
 /// ('Rigid mass on a fixed bar', ['f', 'g'])
 #[pyclass(frozen, module = "wavestep")]
-pub struct Problem(Arc<Shared>);
+pub struct Problem(pub Arc<Shared>);
 
 /// A problem with more values.
 fn with_values(mut problem: Read, values: Vec<(String, Given)>) -> Result<Read, Error> {
@@ -184,7 +205,7 @@ impl Problem {
     /// The unit of times, empty for plain numbers.
     #[getter]
     fn time_unit(&self, py: Python<'_>) -> PyResult<String> {
-        self.0.ask(py, |problem| Ok(problem.time_unit().to_owned()))
+        self.0.time_unit(py)
     }
 
     /// In which units formulas are, and what the named constants in them are, a line each.
@@ -207,9 +228,16 @@ impl Problem {
         orders: &Bound<'_, PyAny>,
     ) -> PyResult<Vec<Formula>> {
         let orders: Vec<usize> = match orders.hasattr("__iter__")? {
-            true => orders.try_iter()?.map(|n| count(&n?)).collect::<PyResult<_>>()?,
+            true => {
+                let orders = orders.try_iter()?.take(MAX_ORDER + 2);
+                orders.map(|n| count(&n?)).collect::<PyResult<_>>()?
+            }
             false => vec![count(orders)?],
         };
+        if orders.len() > MAX_ORDER + 1 {
+            let message = format!("more than {} orders are asked for", MAX_ORDER + 1);
+            return Err(Failure::Input(message, "give fewer at a time".to_owned()).raised(py));
+        }
         let formulas = self.0.ask(py, |problem| {
             let mut formulas = Vec::new();
             for run in orders.chunk_by(|one, next| one.checked_add(1) == Some(*next)) {
@@ -340,6 +368,19 @@ impl Problem {
             let diagram = lagrange(&evaluator, quantity, [&from, &to], Caption::default());
             Ok(diagram.map_err(of_picture)?.svg())
         })
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let read = slf.py().import("wavestep._convert")?.getattr("problem_of")?;
+        Ok((read, slf.call_method0("_source")?))
+    }
+
+    fn __copy__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: PyRef<'py, Self>, _memo: &Bound<'py, PyAny>) -> PyRef<'py, Self> {
+        slf
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {

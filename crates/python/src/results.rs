@@ -1,7 +1,7 @@
 //! Results as dataclasses of the package.
 
 use crate::value::Value;
-use numpy::PyArray1;
+use numpy::{PyArray1, PyArrayMethods as _};
 use pyo3::IntoPyObjectExt as _;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -133,7 +133,8 @@ pub fn fields<'py>(py: Python<'py>, fields: &Fields) -> Object<'py> {
     make(py, "Field", (fields.time.clone(), all(py, &fields.bars, bar)?))
 }
 
-pub fn doubles<'py>(py: Python<'py>, found: Doubles) -> Object<'py> {
-    let values = PyArray1::from_vec(py, found.values).into_bound_py_any(py)?;
+/// Values in an array of a shape.
+pub fn doubles<'py>(py: Python<'py>, found: Doubles, shape: &[usize]) -> Object<'py> {
+    let values = PyArray1::from_vec(py, found.values).reshape(shape)?.into_bound_py_any(py)?;
     make(py, "Values", (values, found.bound, found.method.to_string(), found.law))
 }

@@ -3,19 +3,21 @@
 use crate::arrays::{are_many, doubles, fill};
 use crate::failure::Failure;
 use crate::given::{Number, count};
-use crate::problem::{Shared, svg};
+use crate::problem::{Problem, Shared, svg};
 use crate::results;
 use crate::value::Value;
 use crate::work::released;
-use numpy::PyArrayMethods as _;
+use numpy::{PyArrayMethods as _, PyUntypedArrayMethods as _};
 use pyo3::IntoPyObjectExt as _;
 use pyo3::prelude::*;
+use pyo3::types::PyFloat;
 use std::sync::Arc;
 use wavestep::{Doubles, Error, Given, Goal, Method, Tolerance};
 
 /// A wave or an observable as a function of time, zero before the start.
 ///
-/// Called with a time it gives the nearest double; with an array, the nearest doubles to all values.
+/// Called with a time it gives the nearest double; with an array, the nearest doubles to all values, in a new array of its
+/// shape or in `out`.
 ///
 /// >>> import wavestep as ws
 /// >>> velocity = ws.scene("rigid-mass", mu=1).signal("velocity")
@@ -67,10 +69,11 @@ impl Signal {
             let found = self.ask(py, |signal| signal.values_by(&[time], Method::Certified))?;
             return found.values[0].into_bound_py_any(py);
         }
+        let unit = self.problem.time_unit(py)?;
         let work = |times: &[f64], values: &mut [f64]| {
             self.problem.with(|problem| Ok(problem.signal(&self.name)?.rounded(times, values)?))
         };
-        fill(t, out, work)
+        fill((t, &unit), out, work)
     }
 
     /// The value with so many proven digits; the limit from later times where it jumps.
@@ -102,6 +105,10 @@ impl Signal {
 
     /// Values by the cheapest method that is proven to keep a tolerance, or by a method of one's choice.
     ///
+    /// `within` is a part of the largest value among them, such as `1e-9` (`1e-12` where nothing is given); `"abs:1e-9"` is in
+    /// the unit of the values, `"ulp:4"` in units in the last place of the largest one. `method` is `"certified"`,
+    /// `"compiled"`, `"marched"`, `"marched-unproven"`, `"stable"`, `"double-double"`, `"plain"` or `"expanded"`.
+    ///
     /// >>> import wavestep as ws
     /// >>> velocity = ws.scene("rigid-mass", mu=1).signal("velocity")
     /// >>> found = velocity.values(["1/2", "3/2"], within="1e-9")
@@ -111,25 +118,32 @@ impl Signal {
     fn values<'py>(
         &self,
         t: &Bound<'py, PyAny>,
-        within: Option<&str>,
+        within: Option<&Bound<'py, PyAny>>,
         method: Option<&str>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = t.py();
+        let within = within.map(Bound::str).transpose()?.map(|within| within.to_string());
+        let within = within.as_deref();
         let exact = match t.hasattr("dtype")? {
             true => None,
             false => t.extract::<Vec<Number>>().ok(),
         };
-        let found = match exact {
-            Some(times) => self.chosen(py, &times, within, method)?,
-            None => {
-                let times = doubles(t)?.try_readonly()?;
-                self.chosen(py, times.as_slice()?, within, method)?
+        match exact {
+            Some(times) => {
+                results::doubles(py, self.chosen(py, &times, within, method)?, &[times.len()])
             }
-        };
-        results::doubles(py, found)
+            None => {
+                let times = doubles(t, &self.problem.time_unit(py)?)?.try_readonly()?;
+                let found = self.chosen(py, times.as_slice()?, within, method)?;
+                results::doubles(py, found, times.shape())
+            }
+        }
     }
 
     /// A window made ready once: a function of arrays, with one proven bound for all of it.
+    ///
+    /// Its bound is about a quarter of `within`, which is written as for `values`, or some units in the last place of the
+    /// largest value where that is larger or nothing is given.
     ///
     /// >>> import numpy as np, wavestep as ws
     /// >>> curve = ws.scene("rigid-mass", mu=1).signal("velocity").compiled(0, 10)
@@ -142,13 +156,17 @@ impl Signal {
         py: Python<'_>,
         begin: Number,
         end: Number,
-        within: Option<&str>,
+        within: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Curve> {
+        let within = within.map(Bound::str).transpose()?.map(|within| within.to_string());
+        let within = within.as_deref();
         let curve = |signal: wavestep::Signal<'_>| {
             let tolerance = within.map(parsed::<Tolerance>).transpose()?;
             signal.compiled(begin..=end, tolerance)
         };
-        self.ask(py, curve).map(|curve| Curve { curve, name: self.name.clone() })
+        let curve = self.ask(py, curve)?;
+        let unit = self.problem.time_unit(py)?;
+        Ok(Curve { curve, name: self.name.clone(), unit, problem: Arc::clone(&self.problem) })
     }
 
     /// All times of a window at which the signal takes a value, or jumps over it; there are no others.
@@ -219,6 +237,20 @@ impl Signal {
         Ok(found.into_iter().map(Value).collect())
     }
 
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Problem, String))> {
+        let signal = slf.py().import("wavestep._convert")?.getattr("signal_of")?;
+        let own = slf.get();
+        Ok((signal, (Problem(Arc::clone(&own.problem)), own.name.clone())))
+    }
+
+    fn __copy__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: PyRef<'py, Self>, _memo: &Bound<'py, PyAny>) -> PyRef<'py, Self> {
+        slf
+    }
+
     fn __repr__(&self) -> String {
         format!("<signal {}>", self.name)
     }
@@ -260,7 +292,8 @@ impl Signal {
     }
 }
 
-/// A window of a signal made ready: called with times in doubles it gives values within its bound.
+/// A window of a signal made ready: called with times in doubles it gives values within its bound, in a new array or in
+/// `out`. A time that is no float is rounded to the nearest one.
 ///
 /// >>> import wavestep as ws
 /// >>> curve = ws.scene("rigid-mass", mu=1).signal("velocity").compiled(0, 2)
@@ -272,6 +305,22 @@ pub struct Curve {
     /// The name of the signal.
     #[pyo3(get)]
     name: String,
+    /// That of times; empty for plain numbers.
+    unit: String,
+    /// Knows what texts and quantities mean.
+    problem: Arc<Shared>,
+}
+
+impl Curve {
+    /// The double nearest to a time.
+    fn time(&self, t: &Bound<'_, PyAny>) -> PyResult<f64> {
+        if let Ok(double) = t.cast::<PyFloat>() {
+            return Ok(double.value());
+        }
+        let time: Number = t.extract()?;
+        let time = self.problem.ask(t.py(), |problem| Ok(problem.time("time", time)?))?;
+        Ok(wavestep::Value::Exact(time).to_f64())
+    }
 }
 
 #[pymethods]
@@ -284,11 +333,19 @@ impl Curve {
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = t.py();
         if !are_many(t)? && out.is_none() {
-            let (time, mut value) = ([t.extract::<f64>()?], [0.0]);
+            let (time, mut value) = ([self.time(t)?], [0.0]);
             released(py, || Ok(self.curve.values(&time, &mut value)?))?;
             return value[0].into_bound_py_any(py);
         }
-        fill(t, out, |times, values| Ok(self.curve.values(times, values)?))
+        fill((t, &self.unit), out, |times, values| Ok(self.curve.values(times, values)?))
+    }
+
+    fn __copy__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: PyRef<'py, Self>, _memo: &Bound<'py, PyAny>) -> PyRef<'py, Self> {
+        slf
     }
 
     /// A proven bound on the absolute error of every value, beyond half a unit in its last place.

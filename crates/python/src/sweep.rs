@@ -10,7 +10,12 @@ use std::collections::BTreeMap;
 use std::thread::available_parallelism;
 use wavestep::problem::Values;
 use wavestep::{Given, Goal, Rational, Value};
-use wavestep_studies::sweep::{Axis, MOST_ROWS, Row, Sweep as Rows, TEXTS, Time, ToSweep};
+use wavestep_studies::sweep::{
+    Axis, AxisError, MOST_ROWS, Row, Sweep as Rows, TEXTS, Time, ToSweep,
+};
+
+/// More threads than that take memory and time, and gain nothing.
+const MOST_THREADS: usize = 256;
 
 /// A time with what columns call it.
 type Called<T> = (String, T);
@@ -63,6 +68,11 @@ impl Sweep {
 }
 
 fn axis(symbol: String, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
+    if TEXTS.contains(&symbol.as_str()) {
+        let remedy = "rename the symbol in the scene".to_owned();
+        let message = AxisError::Reserved(symbol).to_string();
+        return Err(Failure::Input(message, remedy).raised(values.py()));
+    }
     let refuse = |message: String| {
         let remedy = "give a list such as [1, \"3/2\", 2], or text such as \"1..4:7\" or \"1/10..10:25:log\"";
         Failure::Input(message, remedy.to_owned()).raised(values.py())
@@ -78,6 +88,8 @@ fn axis(symbol: String, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
         let number = given(&value?)?.number(&symbol);
         number.map_err(|error| Failure::from(error).raised(values.py()))
     };
+    // One more than all are refused, whatever comes after them.
+    let several = several.take(MOST_ROWS + 1);
     let numbers: Vec<Rational> = several.map(number).collect::<PyResult<_>>()?;
     if numbers.is_empty() {
         return Err(refuse(format!("there are no values for `{symbol}`")));
@@ -226,6 +238,8 @@ impl Sweep {
     ) -> PyResult<()> {
         let (rows, columns) = (self.rows(), &self.columns);
         let threads = threads.or_else(|| Some(available_parallelism().ok()?.into())).unwrap_or(1);
+        let missing: usize = ranges.iter().map(|(begin, end)| end - begin).sum();
+        let threads = threads.min(missing).min(MOST_THREADS);
         let tell = |begin: usize, part: Part| {
             let told = Python::attach(|py| {
                 let end = part.end;

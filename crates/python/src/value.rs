@@ -1,8 +1,10 @@
 //! Values with proven digits.
 
+use crate::failure::Failure;
 use crate::given::count;
 use num_bigint::BigInt;
 use pyo3::prelude::*;
+use wavestep::limits::MAX_DIGITS;
 use wavestep::{Rational, Value as Proven};
 
 /// A value, exact or with proven digits.
@@ -18,6 +20,18 @@ use wavestep::{Rational, Value as Proven};
 #[pyclass(frozen, eq, module = "wavestep")]
 #[derive(PartialEq)]
 pub struct Value(pub Proven);
+
+impl Value {
+    /// So many digits as text.
+    fn text(&self, py: Python<'_>, digits: usize) -> PyResult<String> {
+        if digits > MAX_DIGITS {
+            let message = format!("{digits} digits are asked for");
+            let remedy = format!("give 1 to {MAX_DIGITS}");
+            return Err(Failure::Input(message, remedy).raised(py));
+        }
+        Ok(self.0.decimal(digits.max(1)).0.to_string())
+    }
+}
 
 #[pymethods]
 impl Value {
@@ -41,7 +55,7 @@ impl Value {
         py: Python<'py>,
         #[pyo3(from_py_with = count)] digits: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let text = self.0.decimal(digits.max(1)).0.to_string();
+        let text = self.text(py, digits)?;
         py.import("decimal")?.getattr("Decimal")?.call1((text,))
     }
 
@@ -52,7 +66,7 @@ impl Value {
         py: Python<'py>,
         #[pyo3(from_py_with = count)] digits: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let text = self.0.decimal(digits.max(1)).0.to_string();
+        let text = self.text(py, digits)?;
         py.import("wavestep._convert")?.call_method1("mpf", (text,))
     }
 
@@ -70,6 +84,22 @@ impl Value {
 
     fn __float__(&self) -> f64 {
         self.0.to_f64()
+    }
+
+    /// Formatted as a double; without a format, with its digits.
+    fn __format__(&self, py: Python<'_>, spec: &str) -> PyResult<String> {
+        if spec.is_empty() {
+            return Ok(self.0.to_string());
+        }
+        self.0.to_f64().into_pyobject(py)?.call_method1("__format__", (spec,))?.extract()
+    }
+
+    fn __copy__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: PyRef<'py, Self>, _memo: &Bound<'py, PyAny>) -> PyRef<'py, Self> {
+        slf
     }
 
     fn __str__(&self) -> String {

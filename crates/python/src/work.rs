@@ -2,6 +2,7 @@
 //! exception.
 
 use crate::failure::Failure;
+use crate::given::count;
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use std::any::Any;
@@ -164,8 +165,8 @@ fn resident() -> Option<u64> {
 /// >>> import wavestep as ws
 /// >>> ws.set_memory(2_000_000_000)
 #[pyfunction]
-pub fn set_memory(bytes: u64) {
-    allow(bytes);
+pub fn set_memory(#[pyo3(from_py_with = count)] bytes: usize) {
+    allow(bytes as u64);
 }
 
 /// Panics, for the test that a panic becomes an exception.

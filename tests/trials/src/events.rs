@@ -60,15 +60,24 @@ fn difference(one: &[Happening], other: &[Happening], until: f64, close: f64) ->
     first
 }
 
+/// What the history tells; a contact that opens and closes again at one instant has done nothing.
 fn told(scene: &Scene, history: &History) -> Vec<Happening> {
     let second = scene.units.map_or(1.0, |units| units.per_second as f64);
-    let told = by_force(history).into_iter();
-    told.filter(|(kind, _)| *kind != EventKind::Release)
-        .map(|(kind, event)| {
-            let time = event.time.to_f64() * second;
-            Happening { kind, contact: event.contact, time }
-        })
-        .collect()
+    let mut all: Vec<Happening> = Vec::new();
+    for (kind, event) in by_force(history) {
+        let own = Happening { kind, contact: event.contact, time: event.time.to_f64() * second };
+        let before = all.iter().rposition(|other| other.contact == own.contact);
+        let is_undone = |other: &Happening| {
+            let kinds = (other.kind, own.kind);
+            kinds == (EventKind::Opening, EventKind::Closing) && other.time == own.time
+        };
+        match before.filter(|place| is_undone(&all[*place])) {
+            Some(place) => drop(all.remove(place)),
+            None if kind != EventKind::Release => all.push(own),
+            None => {}
+        }
+    }
+    all
 }
 
 /// How far the events of a scene agree.

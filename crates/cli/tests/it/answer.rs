@@ -380,3 +380,13 @@ fn a_picture_of_values_beyond_doubles_is_refused() {
     let (code, _, err) = run(&folder, &arguments);
     assert!(code != 0 && err.contains("values of f are too large for doubles"), "{err}");
 }
+
+#[test]
+fn times_beyond_all_doubles_are_refused() {
+    let folder = folder("far");
+    for how in ["--method certified", "--method marched", "--tol 1e-9", "--digits 9"] {
+        let line = format!("eval rigid-mass --set mu=1 --quantity velocity --at 1e400 {how}");
+        let (code, _, err) = run(&folder, &line.split(' ').collect::<Vec<_>>());
+        assert!(code == 1 && err.contains("far more"), "{how}: {code} {err}");
+    }
+}

@@ -157,7 +157,7 @@ fn mistakes_are_told_before_any_work() {
         ("--over mu=1", "required", "--help"),
         ("--over mu=1..2:99999999999 --at 1", "more than 1000000 values", "write --over"),
         ("--over mu=1e400,1 --at 1", "beyond the range of doubles", "write --over"),
-        ("--over error=1 --at 1", "cannot be told from the column", "write --over"),
+        ("--over error=1 --at 1", "cannot be told from the column", "rename the symbol"),
         ("--over mu=1 --at 1 -o table.txt", "which kind of table", ".parquet"),
         ("--over mu=1..2:2000 --over k=1..2:2000 --at 1", "more than 1000000", "in parts"),
     ] {

@@ -5,7 +5,7 @@
 >>> p.signal("velocity")("3/2")
 0.22313016014842982
 
-_Times and values are ``int``, ``float`` (its exact value), ``Fraction``, ``Decimal``, text such as ``"33/10"`` or,
+Times and values are ``int``, ``float`` (its exact value), ``Fraction``, ``Decimal``, text such as ``"33/10"`` or,
 in scenes with units, ``"120 us"``, or quantities of pint.
 """
 
@@ -25,6 +25,7 @@ from ._errors import (
     WorkError,
 )
 from ._native import SCENES, Curve, Formula, Problem, Signal, Value, __version__, set_memory
+from ._results import Extremum, Field, History, Root, Values
 from ._sweep import sweep
 
 if TYPE_CHECKING:
@@ -36,14 +37,19 @@ __all__ = [
     "Curve",
     "Diagnostic",
     "Error",
+    "Extremum",
+    "Field",
     "Formula",
+    "History",
     "InputError",
     "InternalError",
     "Problem",
+    "Root",
     "Signal",
     "UndefinedError",
     "UnsupportedError",
     "Value",
+    "Values",
     "WorkError",
     "read",
     "scene",
@@ -78,5 +84,7 @@ def _text(text: str | os.PathLike[str]) -> tuple[str, str]:
     """What errors call a text, and the text."""
     if isinstance(text, str) and "\n" in text:
         return "text", text
+    if isinstance(text, str) and set('{"') & set(text):
+        raise InputError("a text of one line is taken as a file name", "write each statement on a line of its own")
     with open(text, encoding="utf-8") as file:
         return os.fspath(text), file.read()

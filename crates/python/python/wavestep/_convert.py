@@ -6,10 +6,31 @@ import re
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from ._errors import UnsupportedError
+from ._errors import InputError, UnsupportedError
 
 if TYPE_CHECKING:
+    from ._native import Problem, Signal
+
+def problem_of(source: tuple[str, str], values: dict[str, Any]) -> Problem:
+    """A problem from what it was pickled as."""
     from ._native import Problem
+
+    return Problem._read(*source, values)
+
+
+def signal_of(problem: Problem, name: str) -> Signal:
+    """A signal from what it was pickled as."""
+    return problem.signal(name)
+
+
+def magnitudes(times: Any, unit: str) -> Any:
+    """Quantities of pint as plain numbers, in seconds where times have a unit."""
+    try:
+        return times.to("s" if unit else "").magnitude
+    except Exception as error:
+        remedy = "give quantities of time, such as t * ureg.us" if unit else "give times as plain numbers"
+        raise InputError(f"the times are in `{times.units}`", remedy) from error
+
 
 _FUNCTIONS = ("cos", "exp", "sin", "sqrt")
 _TOKEN = re.compile(r"\s*(?:(?P<number>\d+)|(?P<name>[^\W\d]\w*)|(?P<sign>[-+*/^()]))")

@@ -62,10 +62,19 @@ def sweep(
     >>> ws.sweep("saint-venant", over={"mu": [1, "3/2", 2]}, contacts=True)["contact time hammer-rod"].tolist()
     [3.067667641618306, 2.683262356122621, 2.5045789097221833]
 
-    Columns are those of the command `wavestep sweep`. ``folder`` keeps finished chunks, so that an interrupted sweep is
-    resumed; ``chunk`` is their number of rows, else they take about the same time. With ``engine="dask"`` the workers of
-    ``client``, or of the current one, do the work; ``lazy=True`` gives a frame of Dask that works out its chunks when
-    they are asked for.
+    ``over`` has values by symbol: a list, or text such as ``"1..4:7"`` (seven from 1 to 4) or ``"1/10..10:25:log"``. The
+    columns are those of the command `wavestep sweep`:
+
+    - ``at``: values of ``quantities`` at these times, or of all observables;
+    - ``max``, ``min``: extrema of these quantities from ``begin`` to ``end``, with their times; without ``end`` the
+      usual window of the scene, whose end is a column then;
+    - ``contacts``: how long each contact is closed, and how often it closes;
+    - ``note``: what the row takes for granted, ``error``: why it has no values.
+
+    ``threads`` are as many as there are cores where nothing is said, and ``progress`` shows a bar where tqdm is installed.
+    ``folder`` keeps finished chunks, so that an interrupted sweep is resumed with the chunks that it began with; ``chunk``
+    is their number of rows, else they take about the same time. With ``engine="dask"`` the workers of ``client``, or of
+    the current one, do the work; ``lazy=True`` gives a frame of Dask that works out its chunks when they are asked for.
     """
     from pathlib import Path
 
@@ -75,7 +84,7 @@ def sweep(
     ranges = _ranges(asked, place, chunk, is_estimated=engine == "dask" or place is not None)
     if lazy:
         return _lazy(asked, ranges, place)
-    parts = {part: found for part in ranges if (found := _kept(place, part)) is not None}
+    parts = {part: found for part in ranges if (found := _kept(asked, place, part)) is not None}
     missing = [part for part in ranges if part not in parts]
     with _progress(len(asked), progress) as tell:
         tell(sum(stop - start for start, stop in parts))
@@ -180,10 +189,15 @@ def _ranges(asked: _Sweep, folder: Path | None, chunk: int | None, is_estimated:
     count = len(asked)
     file = folder and folder / "sweep.json"
     if file and file.exists():
-        held = json.loads(file.read_text(encoding="utf-8"))
-        if held["request"] != json.loads(asked.request):
+        try:
+            held = json.loads(file.read_text(encoding="utf-8"))
+            is_same = held["request"] == json.loads(asked.request)
+            ends: list[int] = held["ends"]
+            is_whole = [0, *ends] == sorted({0, *ends}) and ends[-1] == count
+        except (ValueError, KeyError, TypeError, IndexError):
+            is_same = is_whole = False
+        if not (is_same and is_whole):
             raise InputError(f"`{folder}` holds rows of another sweep", "name another folder, or delete this one")
-        ends: list[int] = held["ends"]
     elif chunk or not is_estimated or count <= _CHUNKS:
         size = chunk or -(-count // _CHUNKS)
         ends = [*range(size, count, size), count]
@@ -220,13 +234,18 @@ def _file(folder: Path, part: _Range) -> Path:
     return folder / "rows-{:07}-{:07}.parquet".format(*part)
 
 
-def _kept(folder: Path | None, part: _Range) -> _Columns | None:
-    """A chunk that is done already."""
+def _kept(asked: _Sweep, folder: Path | None, part: _Range) -> _Columns | None:
+    """A chunk that is done already; one whose file is damaged is not."""
     if folder is None or not _file(folder, part).exists():
         return None
-    from pyarrow import parquet
+    from pyarrow import ArrowException, parquet
 
-    table = parquet.read_table(_file(folder, part))
+    try:
+        table = parquet.read_table(_file(folder, part))
+    except (ArrowException, OSError):
+        return None
+    if table.num_rows != part[1] - part[0] or set(table.column_names) != {*asked.columns, *_TEXTS}:
+        return None
     return {
         name: table[name].to_pylist() if name in _TEXTS else table[name].to_numpy() for name in table.column_names
     }
@@ -255,7 +274,7 @@ def _write(file: Path, write: Callable[[Path], object]) -> None:
 
 def _chunk(asked: _Sweep, part: _Range, folder: Path | None) -> _Columns:
     """A chunk on a worker."""
-    found = _kept(folder, part)
+    found = _kept(asked, folder, part)
     if found is None:
         found = _rows(asked, part)
         _keep(folder, part, found)
