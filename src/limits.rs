@@ -176,6 +176,13 @@ pub(crate) fn pause() {
 
 static PAUSE: OnceLock<fn()> = OnceLock::new();
 
+/// Bytes that the process holds in memory, where Linux tells.
+pub fn resident() -> Option<u64> {
+    let told = std::fs::read_to_string("/proc/self/status").ok()?;
+    let held = told.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    Some(held.trim().strip_suffix(" kB")?.trim().parse::<u64>().ok()? * 1024)
+}
+
 /// The memory of the machine, where Linux tells.
 fn machine() -> Option<u64> {
     let told = std::fs::read_to_string("/proc/meminfo").ok()?;

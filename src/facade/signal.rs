@@ -17,7 +17,7 @@ use wavestep_polynomial::Rational;
 /// Digits that tell to which double a value rounds, unless it was made to lie between two.
 const DIGITS_OF_DOUBLE: usize = 40;
 
-/// A wave or an observable as a function of time `t`, zero for `t < 0`, analytic between breaks.
+/// A wave or an observable as a function of time `t ≥ 0`, analytic between breaks.
 ///
 /// Times and values are plain numbers, or in SI units where the scene has units; times as text name their unit
 /// there, `120 us`. Answers are proven: digits

@@ -4,8 +4,8 @@
 use super::failure::{COMPUTATION, Failure};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
-use std::{fs, process, thread};
-use wavestep::limits::{memory, share_done};
+use std::{process, thread};
+use wavestep::limits::{memory, resident, share_done};
 
 /// How often the watch looks.
 const TICK: Duration = Duration::from_millis(20);
@@ -86,11 +86,4 @@ fn reached() -> String {
         ("", true) => format!(" ({:.0} % {of} done)", 100.0 * share),
         (work, true) => format!(" ({work}, {:.0} % {of})", 100.0 * share),
     }
-}
-
-/// Bytes that the process holds in memory, where Linux tells.
-fn resident() -> Option<u64> {
-    let told = fs::read_to_string("/proc/self/status").ok()?;
-    let held = told.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
-    Some(held.trim().strip_suffix(" kB")?.trim().parse::<u64>().ok()? * 1024)
 }

@@ -141,14 +141,10 @@ impl From<PictureError> for Failure {
                 Failure::usage(error.to_string(), "give --quantity NAME")
             }
             PictureError::TooLarge(_) => {
-                let remedy = "choose another quantity or window";
-                Failure::new(COMPUTATION, error.to_string(), remedy)
+                Failure::new(COMPUTATION, error.to_string(), error.remedy())
             }
             PictureError::Plot(error) => error.into(),
-            PictureError::NoFigure { .. } => {
-                Failure::usage(error.to_string(), "`wavestep figure` lists all figures")
-            }
-            error => Failure::usage(error.to_string(), "see `wavestep plot --help`"),
+            error => Failure::usage(error.to_string(), error.remedy()),
         }
     }
 }

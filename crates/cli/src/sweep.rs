@@ -17,18 +17,15 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{BufRead as _, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use wavestep_studies::sweep::{Axis, AxisError, MOST_ROWS, Row, Sweep, TEXTS, Time, ToSweep};
+use wavestep_studies::sweep::{Axis, MOST_ROWS, Row, Sweep, TEXTS, Time, ToSweep};
 
 pub fn run(options: &Options) -> Result<String, Failure> {
     let (name, text) = input::text(&options.scene.scene)?;
     let set = input::values(&options.scene.set)?;
     let axes = options.over.iter().map(|over| over.parse::<Axis>()).collect::<Result<Vec<_>, _>>();
     let axes = axes.map_err(|error| {
-        let remedy = match error {
-            AxisError::Reserved(_) => "rename the symbol in the scene",
-            _ => "write --over mu=1,2,5 or --over mu=1/10..10:25:log",
-        };
-        Failure::usage(error.to_string(), remedy)
+        let form = "write --over mu=1,2,5 or --over mu=1/10..10:25:log";
+        Failure::usage(error.to_string(), error.remedy(form))
     })?;
     let trimmed = |names: &[String]| names.iter().map(|name| name.trim().to_owned()).collect();
     let asked = ToSweep {

@@ -27,8 +27,8 @@ pub fn doubles<'py>(
     if times.hasattr("mask")? && times.hasattr("filled")? {
         let remedy =
             "give `t.compressed()`, or `t.filled(…)` with times in place of what is masked";
-        let message = "in a masked array some times are missing".to_owned();
-        return Err(Failure::Input(message, remedy.to_owned()).raised(py));
+        let message = "some times of a masked array are missing";
+        return Err(Failure::input(message, remedy).raised(py));
     }
     // Where NumPy is missing this is told as usual.
     let numpy = py.import("numpy")?;
@@ -49,7 +49,7 @@ pub fn doubles<'py>(
         let message = format!("an array of kind `{kind}` does not hold doubles");
         let remedy =
             "give an array of float64; for fractions and text use `values`, or one time each";
-        return Err(Failure::Input(message, remedy.to_owned()).raised(py));
+        return Err(Failure::input(message, remedy).raised(py));
     }
     let array = numpy.call_method1("ascontiguousarray", (array, "float64"))?;
     Ok(array.cast_into()?)
@@ -76,7 +76,7 @@ pub fn fill<'py>(
     let refuse = |_| {
         let remedy = "give numpy.empty(t.shape), or leave it out";
         let message = "`out` is no contiguous array of float64 that can be written and shares nothing with `t`";
-        Failure::Input(message.to_owned(), remedy.to_owned()).raised(py)
+        Failure::input(message, remedy).raised(py)
     };
     let array = out.cast::<PyArrayDyn<f64>>().map_err(|_| refuse(()))?;
     let [read, written] = [&times, array].map(place);

@@ -7,10 +7,16 @@ use wavestep_studies::picture::PictureError;
 /// Why there is no answer.
 pub enum Failure {
     Library(Error),
-    /// What was given is at fault: what is wrong, and what can be done.
-    Input(String, String),
+    /// What was given is at fault.
+    Input {
+        message: String,
+        remedy: String,
+    },
     /// There is no picture.
-    Picture(String),
+    Picture {
+        message: String,
+        remedy: &'static str,
+    },
     /// A bug.
     Internal(String),
 }
@@ -25,11 +31,16 @@ impl<E: Into<Error>> From<E> for Failure {
 pub fn of_picture(error: PictureError) -> Failure {
     match error {
         PictureError::Problem(error) => Failure::Library((*error).into()),
-        error => Failure::Picture(error.to_string()),
+        error => Failure::Picture { message: error.to_string(), remedy: error.remedy() },
     }
 }
 
 impl Failure {
+    /// What is wrong with what was given, and what to do about it.
+    pub fn input(message: impl Into<String>, remedy: impl Into<String>) -> Failure {
+        Failure::Input { message: message.into(), remedy: remedy.into() }
+    }
+
     /// The exception.
     pub fn raised(self, py: Python<'_>) -> PyErr {
         self.exception(py).unwrap_or_else(|error| error)
@@ -38,8 +49,10 @@ impl Failure {
     fn exception(self, py: Python<'_>) -> PyResult<PyErr> {
         let none = Vec::new();
         let (class, message, remedy, places) = match self {
-            Failure::Input(message, remedy) => ("InputError", message, Some(remedy), none),
-            Failure::Picture(message) => ("UnsupportedError", message, None, none),
+            Failure::Input { message, remedy } => ("InputError", message, Some(remedy), none),
+            Failure::Picture { message, remedy } => {
+                ("UnsupportedError", message, Some(remedy.to_owned()), none)
+            }
             Failure::Internal(message) => {
                 let message = format!("wavestep failed: {message}");
                 let remedy = "please report it, with the scene: it is a bug in wavestep".to_owned();

@@ -62,12 +62,12 @@ pub fn given(value: &Bound<'_, PyAny>) -> PyResult<Given> {
     let name = value.get_type().name()?;
     let message = format!("a value of type `{name}` is not a number");
     let remedy = "give an int, a float, a Fraction or text such as \"33/10\" or \"120 us\"";
-    Err(Failure::Input(message, remedy.to_owned()).raised(value.py()))
+    Err(Failure::input(message, remedy).raised(value.py()))
 }
 
 fn too_long(py: Python<'_>) -> PyErr {
     let message = format!("a number has more than {MAX_DIGITS} digits");
-    Failure::Input(message, "give a shorter one".to_owned()).raised(py)
+    Failure::input(message, "give a shorter one").raised(py)
 }
 
 /// A fraction, or a decimal number; those that are infinite, or no numbers, raise exceptions of Python's.
@@ -116,8 +116,8 @@ pub fn count(value: &Bound<'_, PyAny>) -> PyResult<usize> {
     value.extract().map_err(|error: PyErr| {
         match error.is_instance_of::<PyOverflowError>(value.py()) {
             true => {
-                let remedy = "give a whole number from 0 on, and not as large".to_owned();
-                Failure::Input(format!("{value} is no number of things"), remedy).raised(value.py())
+                let remedy = "give a smaller whole number, 0 at least";
+                Failure::input(format!("{value} is out of range"), remedy).raised(value.py())
             }
             false => error,
         }

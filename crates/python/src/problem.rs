@@ -15,7 +15,7 @@ use wavestep::limits::MAX_ORDER;
 use wavestep::problem::Values;
 use wavestep::{Error, Given, Problem as Read, Quantity};
 use wavestep_draw::{Caption, Chart as _};
-use wavestep_studies::picture::{against_time, courses, lagrange, usual_end};
+use wavestep_studies::picture::{self, against_time, courses, lagrange};
 use wavestep_studies::validity::pulling;
 
 /// How long a thread waits before it looks again whether it may ask.
@@ -95,12 +95,10 @@ fn window(
     begin: Option<Given>,
     end: Option<Given>,
 ) -> Result<[wavestep::Rational; 2], Failure> {
-    let from = begin.map(|begin| problem.time("begin", begin)).transpose()?.unwrap_or_default();
-    let to = match end {
-        Some(end) => problem.time("end", end)?,
-        None => usual_end(problem, &from).map_err(of_picture)?,
-    };
-    Ok(problem.between(from, to)?)
+    let time =
+        |name, given: Option<Given>| given.map(|given| problem.time(name, given)).transpose();
+    let (from, to) = (time("begin", begin)?.unwrap_or_default(), time("end", end)?);
+    picture::window(problem, from, to).map_err(of_picture)
 }
 
 impl Problem {
@@ -213,8 +211,11 @@ impl Problem {
         self.0.ask(py, |problem| Ok(problem.scales()?))
     }
 
-    /// Exact functions of a wave or an observable on the periods of these orders; orders that follow each other are
-    /// derived together.
+    /// Exact functions of a wave or an observable on the periods of these orders, in local time since the period began;
+    /// orders that follow each other are derived together. Velocities and forces are in the units that `scales` tells.
+    ///
+    /// Refused are orders above 2000, functions that would be too long, and waves of scenes whose contacts open. Lengths
+    /// grow fast: `f[80]` of `rigid-mass`, with `mu` as a symbol, has 88,641 terms.
     ///
     /// >>> import wavestep as ws
     /// >>> for f in ws.scene("rigid-mass").derive("f", range(2)):
@@ -236,7 +237,7 @@ impl Problem {
         };
         if orders.len() > MAX_ORDER + 1 {
             let message = format!("more than {} orders are asked for", MAX_ORDER + 1);
-            return Err(Failure::Input(message, "give fewer at a time".to_owned()).raised(py));
+            return Err(Failure::input(message, "give fewer at a time").raised(py));
         }
         let formulas = self.0.ask(py, |problem| {
             let mut formulas = Vec::new();
@@ -284,7 +285,8 @@ impl Problem {
         Ok(Signal { problem: Arc::clone(&self.0), name, unit })
     }
 
-    /// What contacts do, until a time or until nothing can meet again.
+    /// What contacts do, until a time or until nothing can meet again; where no time is given at most for a hundred of the
+    /// longest travel times, or ten beside a local contact. `digits` are proven of each time, force and velocity.
     ///
     /// >>> import wavestep as ws
     /// >>> for event in ws.scene("saint-venant", mu=1).events(until=4).events:
@@ -305,7 +307,11 @@ impl Problem {
         results::history(py, &found)
     }
 
-    /// Velocity, strain, displacement and force along the bars at a time, at nodes or as averages over cells.
+    /// Velocity, strain, displacement and force along the bars at a time: at the ends of `cells` equal cells of each bar,
+    /// `cells + 1` values, or as averages over the cells, `cells` values.
+    ///
+    /// They are in SI units where the scene has units; tension and strains in tension are positive. Each value has its own
+    /// proven bound. Symbols need values.
     ///
     /// >>> import wavestep as ws
     /// >>> bar = ws.scene("hopkinson").field("100 us", cells=10).bars[0]
@@ -360,8 +366,8 @@ impl Problem {
         self.picture(py, |problem| {
             let found = Quantity::ALL.into_iter().find(|known| known.name() == quantity);
             let quantity = found.ok_or_else(|| {
-                let remedy = "give velocity, strain or force".to_owned();
-                Failure::Input(format!("there is no diagram of `{quantity}`"), remedy)
+                let message = format!("there is no diagram of `{quantity}`");
+                Failure::input(message, "give velocity, strain or force")
             })?;
             let [from, to] = window(problem, begin, end)?;
             let evaluator = problem.field_evaluator(&to)?;

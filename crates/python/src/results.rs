@@ -41,20 +41,17 @@ fn perhaps(value: &Option<Proven>) -> Option<Value> {
 }
 
 pub fn root<'py>(py: Python<'py>, root: &Root) -> Object<'py> {
-    let (kind, from, to, rises) = match root {
-        Root::Simple { time, rises } => ("simple", time.clone(), time.clone(), Some(*rises)),
-        Root::End { time } => ("end", time.clone(), time.clone(), None),
-        Root::Arrival { time, .. } => ("arrival", time.clone(), time.clone(), None),
-        Root::Jump { time, limits: [before, after] } => {
-            let rises = before.to_f64() < after.to_f64();
-            ("jump", time.clone(), time.clone(), Some(rises))
-        }
-        Root::Interval { from, to, .. } => ("interval", from.clone(), to.clone(), None),
+    let (kind, from, to) = match root {
+        Root::Simple { time, .. } => ("simple", time.clone(), time.clone()),
+        Root::End { time } => ("end", time.clone(), time.clone()),
+        Root::Arrival { time, .. } => ("arrival", time.clone(), time.clone()),
+        Root::Jump { time, .. } => ("jump", time.clone(), time.clone()),
+        Root::Interval { from, to, .. } => ("interval", from.clone(), to.clone()),
         Root::Undecided { from, to, .. } => {
-            ("undecided", Proven::Exact(from.clone()), Proven::Exact(to.clone()), None)
+            ("undecided", Proven::Exact(from.clone()), Proven::Exact(to.clone()))
         }
     };
-    make(py, "Root", (kind, Value(from), Value(to), rises))
+    make(py, "Root", (kind, Value(from), Value(to), root.rises()))
 }
 
 fn place<'py>(py: Python<'py>, place: &Place) -> Object<'py> {

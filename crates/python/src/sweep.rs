@@ -55,12 +55,12 @@ impl Sweep {
     fn checked(mut self) -> Result<Sweep, Failure> {
         let rows = self.rows();
         if let Some(twice) = rows.twice() {
-            let remedy = "give its values in `over` alone".to_owned();
-            return Err(Failure::Input(format!("two values are given for `{twice}`"), remedy));
+            let message = format!("two values are given for `{twice}`");
+            return Err(Failure::input(message, "give its values in `over` alone"));
         }
         if rows.count().is_none() {
             let message = format!("there are more than {MOST_ROWS} combinations of values");
-            return Err(Failure::Input(message, "give fewer values, or sweep in parts".to_owned()));
+            return Err(Failure::input(message, "give fewer values, or sweep in parts"));
         }
         self.columns = rows.columns().map_err(of_picture)?;
         Ok(self)
@@ -68,33 +68,25 @@ impl Sweep {
 }
 
 fn axis(symbol: String, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
-    if TEXTS.contains(&symbol.as_str()) {
-        let remedy = "rename the symbol in the scene".to_owned();
-        let message = AxisError::Reserved(symbol).to_string();
-        return Err(Failure::Input(message, remedy).raised(values.py()));
-    }
-    let refuse = |message: String| {
-        let remedy = "give a list such as [1, \"3/2\", 2], or text such as \"1..4:7\" or \"1/10..10:25:log\"";
-        Failure::Input(message, remedy.to_owned()).raised(values.py())
-    };
+    let py = values.py();
+    let form =
+        "give a list such as [1, \"3/2\", 2], or text such as \"1..4:7\" or \"1/10..10:25:log\"";
+    let refuse =
+        |error: AxisError| Failure::input(error.to_string(), error.remedy(form)).raised(py);
     if let Ok(text) = values.cast::<PyString>() {
-        let axis = format!("{symbol}={}", text.to_str()?).parse::<Axis>();
-        return axis.map_err(|error| refuse(error.to_string()));
+        return format!("{symbol}={}", text.to_str()?).parse().map_err(refuse);
     }
-    let several = values
-        .try_iter()
-        .map_err(|_| refuse(format!("the values of `{symbol}` are not a list")))?;
+    let several = values.try_iter().map_err(|_| {
+        Failure::input(format!("the values of `{symbol}` are not a list"), form).raised(py)
+    })?;
     let number = |value: PyResult<Bound<'_, PyAny>>| {
         let number = given(&value?)?.number(&symbol);
-        number.map_err(|error| Failure::from(error).raised(values.py()))
+        number.map_err(|error| Failure::from(error).raised(py))
     };
     // One more than all are refused, whatever comes after them.
     let several = several.take(MOST_ROWS + 1);
-    let numbers: Vec<Rational> = several.map(number).collect::<PyResult<_>>()?;
-    if numbers.is_empty() {
-        return Err(refuse(format!("there are no values for `{symbol}`")));
-    }
-    Ok(Axis { symbol, values: numbers })
+    let numbers = several.map(number).collect::<PyResult<_>>()?;
+    Axis::new(&symbol, numbers).map_err(refuse)
 }
 
 fn time(option: &'static str, (label, Number(given)): Called<Number>) -> Time {

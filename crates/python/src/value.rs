@@ -27,7 +27,7 @@ impl Value {
         if digits > MAX_DIGITS {
             let message = format!("{digits} digits are asked for");
             let remedy = format!("give 1 to {MAX_DIGITS}");
-            return Err(Failure::Input(message, remedy).raised(py));
+            return Err(Failure::input(message, remedy).raised(py));
         }
         Ok(self.0.decimal(digits.max(1)).0.to_string())
     }

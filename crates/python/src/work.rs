@@ -7,14 +7,13 @@ use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use std::any::Any;
 use std::cell::{Cell, RefCell};
-use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
-use wavestep::limits::{count_nothing_here, memory, set_memory as allow};
+use wavestep::limits::{count_nothing_here, memory, resident, set_memory as allow};
 
 /// How often signals and memory are looked at.
 const TICK: Duration = Duration::from_millis(50);
@@ -151,13 +150,6 @@ pub fn pause() {
         );
         stop(PyMemoryError::new_err(told));
     }
-}
-
-/// Bytes that the process holds in memory, where Linux tells.
-fn resident() -> Option<u64> {
-    let told = fs::read_to_string("/proc/self/status").ok()?;
-    let held = told.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
-    Some(held.trim().strip_suffix(" kB")?.trim().parse::<u64>().ok()? * 1024)
 }
 
 /// Allows so many bytes of memory for waves from now on; the default is a quarter of the machine's.

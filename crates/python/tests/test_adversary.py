@@ -112,3 +112,41 @@ def test_damaged_folders(tmp_path: Path) -> None:
     (tmp_path / "sweep.json").write_text('{"request": 1')
     with pytest.raises(ws.InputError, match="another sweep"):
         sweep()
+
+
+def test_tolerances_of_all_kinds() -> None:
+    expected = velocity.values([0.5], within="1e-3").bound
+    kinds: list[Any] = [1e-3, Fraction(1, 1000), Decimal("0.001"), np.float64(0.001)]
+    for own in kinds:
+        assert velocity.values([0.5], within=own).bound == expected
+        assert velocity.compiled(0, 1, within=own).bound == velocity.compiled(0, 1, within="1e-3").bound
+    wrong: list[Any] = [0, -1, float("inf"), float("nan"), "abc"]
+    for within in wrong:
+        with pytest.raises(ws.InputError, match="is not a tolerance") as caught:
+            velocity.values([0.5], within=within)
+        assert caught.value.remedy
+
+
+def test_lists_of_times_tell_what_is_wrong_in_them() -> None:
+    assert velocity.values([Fraction(1, 3), "1/2"]).values.shape == (2,)
+    nested: Any = [[0.5], [1.5]]
+    assert velocity.values(nested).values.shape == (2, 1)
+    with pytest.raises(ws.InputError, match="more than 10000 digits"):
+        velocity.values([0.5, 10**20000])
+    with pytest.raises(ws.InputError, match="is not a number"):
+        velocity.values([0.5, None])  # type: ignore[list-item]
+
+
+def test_axes_of_sweeps_have_doubles() -> None:
+    for values in ([10**400], "1e400,1"):
+        with pytest.raises(ws.InputError, match="beyond the range of doubles"):
+            ws.sweep("rigid-mass", over={"mu": values}, at=1)
+    with pytest.raises(ws.InputError, match="no values for `mu`"):
+        ws.sweep("rigid-mass", over={"mu": []}, at=1)
+
+
+def test_pictures_that_cannot_be_drawn_have_a_remedy() -> None:
+    unseen = 'scene "A"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed'
+    with pytest.raises(ws.UnsupportedError, match="no observables") as caught:
+        ws.read(unseen).plot()
+    assert caught.value.remedy

@@ -1,14 +1,11 @@
-"""Examples, and what the package costs."""
+"""Examples, and what is imported."""
 
 import doctest
 import pathlib
 import re
 import subprocess
 import sys
-import time
-from collections.abc import Callable
 
-import numpy as np
 import pytest
 
 import wavestep as ws
@@ -39,28 +36,12 @@ def test_there_are_examples() -> None:
         assert getattr(ws, name).__doc__, name
 
 
-def best(work: Callable[[], object], times: int = 10) -> float:
-    def once() -> float:
-        begun = time.perf_counter()
-        work()
-        return time.perf_counter() - begun
-
-    return min(once() for _ in range(times))
-
-
-def test_calls_cost_little() -> None:
-    f = ws.scene("rigid-mass", mu=1).signal("f")
-    curve, times = f.compiled(0, 402), np.random.default_rng(1).uniform(0, 402, 1000)
-    assert best(lambda: f(times)) < 5e-3
-    assert best(lambda: [curve(1.5) for _ in range(1000)]) < 1000 * 20e-6
-
-
-def test_the_package_is_imported_quickly_and_without_others() -> None:
-    run = [sys.executable, "-c"]
-    code = "import sys, wavestep; assert not {'numpy', 'sympy', 'pandas'} & set(sys.modules)"
-    subprocess.run([*run, code], check=True)
-    bare = best(lambda: subprocess.run([*run, ""], check=True))
-    assert best(lambda: subprocess.run([*run, "import wavestep"], check=True)) - bare < 30e-3
+def test_the_package_is_imported_without_others() -> None:
+    code = "import sys, wavestep; print(*{'dataclasses', 'numpy', 'pandas', 'sympy', 'typing'} & set(sys.modules))"
+    assert subprocess.run([sys.executable, "-c", code], check=True, capture_output=True).stdout == b"\n"
+    assert set(ws.__all__) <= set(dir(ws))
+    with pytest.raises(AttributeError, match="no attribute 'stress'"):
+        ws.stress  # type: ignore[attr-defined]
 
 
 def test_the_python_of_the_readme(capsys: pytest.CaptureFixture[str]) -> None:

@@ -57,15 +57,27 @@ pub enum AxisError {
     #[error("`{0}` is not of the form NAME=A,B,…, NAME=A..B:N or NAME=A..B:N:log")]
     Form(String),
     #[error("`{0}` has no values: the range is empty, or N is below 2")]
+    Range(String),
+    #[error("there are no values for `{0}`")]
     Empty(String),
     #[error("`{0}` has more than {MOST_ROWS} values")]
     TooMany(String),
     #[error("a symbol named `{0}` cannot be told from the column of that name")]
     Reserved(String),
-    #[error("a value in `{0}` is beyond the range of doubles")]
+    #[error("a value of `{0}` is beyond the range of doubles")]
     NotADouble(String),
     #[error("equal ratios in `{0}` need two positive ends")]
     NotPositive(String),
+}
+
+impl AxisError {
+    /// What to do about it, where values are written in this form.
+    pub fn remedy<'a>(&self, form: &'a str) -> &'a str {
+        match self {
+            AxisError::Reserved(_) => "rename the symbol in the scene",
+            _ => form,
+        }
+    }
 }
 
 impl FromStr for Axis {
@@ -84,7 +96,7 @@ impl FromStr for Axis {
                 let (from, to) = (value(from)?, value(to.ok_or_else(form)?)?);
                 let count = count.and_then(|count| count.parse().ok()).ok_or_else(form)?;
                 if count < 2 || from >= to {
-                    return Err(AxisError::Empty(text.to_owned()));
+                    return Err(AxisError::Range(text.to_owned()));
                 }
                 if count > MOST_ROWS {
                     return Err(AxisError::TooMany(text.to_owned()));
@@ -99,18 +111,34 @@ impl FromStr for Axis {
                 }
             }
         };
-        let values: Vec<Rational> = values;
+        match symbol.trim() {
+            "" => Err(form()),
+            symbol => Axis::new(symbol, values),
+        }
+    }
+}
+
+impl Axis {
+    /// A symbol that takes these values.
+    ///
+    /// # Errors
+    /// There is no value, there are too many, one is beyond the range of doubles, or the symbol is called as a column is.
+    pub fn new(symbol: &str, values: Vec<Rational>) -> Result<Axis, AxisError> {
+        let symbol = symbol.to_owned();
         let is_double = |value: &Rational| {
             let double = crate::nearest(value);
             double.is_finite() && (double == 0.0) == (*value == Rational::default())
         };
-        if !values.iter().all(is_double) {
-            return Err(AxisError::NotADouble(text.to_owned()));
-        }
-        match symbol.trim() {
-            "" => Err(form()),
-            symbol if TEXTS.contains(&symbol) => Err(AxisError::Reserved(symbol.to_owned())),
-            symbol => Ok(Axis { symbol: symbol.to_owned(), values }),
+        if TEXTS.contains(&symbol.as_str()) {
+            Err(AxisError::Reserved(symbol))
+        } else if values.is_empty() {
+            Err(AxisError::Empty(symbol))
+        } else if values.len() > MOST_ROWS {
+            Err(AxisError::TooMany(symbol))
+        } else if !values.iter().all(is_double) {
+            Err(AxisError::NotADouble(symbol))
+        } else {
+            Ok(Axis { symbol, values })
         }
     }
 }

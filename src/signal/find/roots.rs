@@ -87,6 +87,19 @@ pub enum Root {
     },
 }
 
+impl Root {
+    /// Whether `f − v` changes from below zero to above it, where it is known to change its sign at an instant.
+    pub fn rises(&self) -> Option<bool> {
+        match self {
+            Root::Simple { rises, .. } => Some(*rises),
+            Root::Jump { limits: [before, after], .. } => {
+                Some(before.bounds()[0] < after.bounds()[0])
+            }
+            _ => None,
+        }
+    }
+}
+
 /// All roots of a window, in order.
 ///
 /// # Invariants

@@ -1,6 +1,6 @@
 //! The ways of the library compared with each other.
 
-use crate::{DIGITS, DOUBLES, MARCHED, TEXT, Tally, print};
+use crate::{DIGITS, DOUBLES, FORMULAS, MARCHED, TEXT, Tally, print};
 use num_traits::{FromPrimitive as _, Signed as _, ToPrimitive as _};
 use wavestep::answer::Accuracy;
 use wavestep::expression::Fraction;
@@ -188,7 +188,7 @@ impl Comparison<'_> {
             if own != *special {
                 return Err(format!("{name}: with values {own:?}, not {special:?}"));
             }
-            self.tally.compared[DIGITS] += 1;
+            self.tally.compared[FORMULAS] += 1;
         }
         Ok(())
     }

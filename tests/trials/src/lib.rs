@@ -20,8 +20,8 @@ use chance::Chance;
 use std::collections::BTreeMap;
 
 /// What is compared, in the order of [`Tally::compared`].
-pub const CHECKS: [&str; 8] =
-    ["digits", "doubles", "marched", "solver", "energy", "momentum", "text", "events"];
+pub const CHECKS: [&str; 9] =
+    ["digits", "doubles", "marched", "solver", "energy", "momentum", "text", "events", "formulas"];
 
 /// The places of checks.
 const DIGITS: usize = 0;
@@ -32,6 +32,7 @@ const ENERGY: usize = 4;
 const MOMENTUM: usize = 5;
 const TEXT: usize = 6;
 pub const EVENTS: usize = 7;
+const FORMULAS: usize = 8;
 
 /// How much was compared, and what was refused.
 #[derive(Clone, Default, Debug)]

@@ -12,37 +12,57 @@ in scenes with units, ``"120 us"``, or quantities of pint.
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
 
-from ._errors import (
-    AccuracyError,
-    Diagnostic,
-    Error,
-    InputError,
-    InternalError,
-    UndefinedError,
-    UnsupportedError,
-    WorkError,
-)
 from ._native import SCENES, Curve, Formula, Problem, Signal, Value, __version__, set_memory
-from ._results import Extremum, Field, History, Root, Values
-from ._sweep import sweep
+
+# typing takes longer to import than the package.
+TYPE_CHECKING = False
 
 if TYPE_CHECKING:
+    from ._errors import (
+        AccuracyError,
+        Diagnostic,
+        Error,
+        InputError,
+        InternalError,
+        UndefinedError,
+        UnsupportedError,
+        WorkError,
+    )
     from ._native import _Number
+    from ._results import (
+        BarField,
+        Body,
+        Contact,
+        Event,
+        Extremum,
+        Field,
+        History,
+        Picture,
+        Place,
+        Root,
+        Values,
+    )
+    from ._sweep import sweep
 
 __all__ = [
     "SCENES",
     "AccuracyError",
+    "BarField",
+    "Body",
+    "Contact",
     "Curve",
     "Diagnostic",
     "Error",
+    "Event",
     "Extremum",
     "Field",
     "Formula",
     "History",
     "InputError",
     "InternalError",
+    "Picture",
+    "Place",
     "Problem",
     "Root",
     "Signal",
@@ -56,6 +76,24 @@ __all__ = [
     "set_memory",
     "sweep",
 ]
+
+
+if not TYPE_CHECKING:  # so that names which are nowhere are found
+
+    def __getattr__(name):
+        """The names above that are imported when they are asked for."""
+        from importlib import import_module
+
+        for module in ("_errors", "_results", "_sweep") if name in __all__ else ():
+            found = getattr(import_module(f"wavestep.{module}"), name, None)
+            if found is not None:
+                globals()[name] = found
+                return found
+        raise AttributeError(f"module 'wavestep' has no attribute '{name}'")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
 
 
 def scene(name: str, /, **values: _Number) -> Problem:
@@ -85,6 +123,8 @@ def _text(text: str | os.PathLike[str]) -> tuple[str, str]:
     if isinstance(text, str) and "\n" in text:
         return "text", text
     if isinstance(text, str) and set('{"') & set(text):
+        from ._errors import InputError
+
         raise InputError("a text of one line is taken as a file name", "write each statement on a line of its own")
     with open(text, encoding="utf-8") as file:
         return os.fspath(text), file.read()

@@ -66,9 +66,10 @@ def sweep(
     columns are those of the command `wavestep sweep`:
 
     - ``at``: values of ``quantities`` at these times, or of all observables;
-    - ``max``, ``min``: extrema of these quantities from ``begin`` to ``end``, with their times; without ``end`` the
-      usual window of the scene, whose end is a column then;
-    - ``contacts``: how long each contact is closed, and how often it closes;
+    - ``max``, ``min``: extrema of these quantities from ``begin`` to ``end``, each with the first time at which it is
+      taken; without ``end`` to the end of the scene's usual window;
+    - ``contacts``: how often each contact closes, duration and impulse of its first contact, and the coefficient of
+      restitution;
     - ``note``: what the row takes for granted, ``error``: why it has no values.
 
     ``threads`` are as many as there are cores where nothing is said, and ``progress`` shows a bar where tqdm is installed.

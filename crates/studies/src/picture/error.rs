@@ -9,7 +9,7 @@ use wavestep_draw::PlotError;
 
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum PictureError {
-    #[error("there is no diagram of the {}: give velocity, strain or force", .0.name())]
+    #[error("there is no diagram of the {}", .0.name())]
     NoDiagram(Quantity),
     #[error("there is no computed figure {asked}; the computed figures are {known}")]
     NoFigure { asked: String, known: String },
@@ -27,6 +27,20 @@ pub enum PictureError {
     Dispersion(#[from] DispersionError),
     #[error(transparent)]
     Plot(#[from] PlotError),
+}
+
+impl PictureError {
+    /// What to do about it, where the problem has no remedy of its own.
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            PictureError::NoDiagram(_) => "give velocity, strain or force",
+            PictureError::NoFigure { .. } => "`wavestep figure` lists all figures",
+            PictureError::NoBars => "plot a wave or an observable against time",
+            PictureError::NothingObserved => "name a wave, or add a line `observe` to the scene",
+            PictureError::Plot(PlotError::NotDrawn(_)) => "choose another width",
+            _ => "choose another quantity or window",
+        }
+    }
 }
 
 impl From<EvaluateError> for PictureError {
