@@ -414,7 +414,9 @@ fn remedy_of_history(error: &HistoryError) -> &'static str {
 fn remedy_of_way(error: &WayError) -> &'static str {
     match error {
         WayError::Method(MethodError::Outside) => "give times within the window",
-        WayError::Method(MethodError::NoTaps(_)) => "use the method compiled or certified",
+        WayError::Method(MethodError::NoTaps(_) | MethodError::Cancels(_)) => {
+            "use the method compiled or certified"
+        }
         WayError::Method(_) => "use a shorter window, or the method certified",
         WayError::Model(ModelError::Setting { .. }) => "give a setting within these bounds",
         WayError::Model(_) | WayError::Reduced(..) => {

@@ -264,7 +264,9 @@ fn for_evaluate(error: &EvaluateError) -> Option<&'static str> {
 
 fn for_way(error: &WayError) -> Option<&'static str> {
     Some(match error {
-        WayError::Method(MethodError::NoTaps(_)) => "use --method compiled or certified",
+        WayError::Method(MethodError::NoTaps(_) | MethodError::Cancels(_)) => {
+            "use --method compiled or certified"
+        }
         WayError::Method(_) => "use a shorter window, or --method certified",
         WayError::NeedsRecurrence(_) => STEPS,
         WayError::LeftLimit(_) => "remove --side left",

@@ -23,6 +23,9 @@ pub enum MethodError {
     Echoes(#[from] EchoError),
     #[error(transparent)]
     March(#[from] MarchError),
+    /// By such a part of the largest value.
+    #[error("rounding can change values by {0:.0e} of the largest one, since large parts cancel")]
+    Cancels(f64),
     #[error("a time outside the window")]
     Outside,
     /// So many are asked for; `usize::MAX` where they were not counted.

@@ -80,7 +80,7 @@ impl Waves {
         mut places: Vec<Place>,
         count: usize,
     ) -> Result<Vec<f64>, MethodError> {
-        let mut sums = vec![(Complex::ZERO, 0.0); count];
+        let mut sums = vec![(Complex::ZERO, 0.0, 0.0); count];
         places.sort_by_key(|place| (place.period, place.seen));
         if places.is_empty() {
             return Ok(vec![0.0; count]);
@@ -97,15 +97,29 @@ impl Waves {
                 true => march.slopes(*wave, &points),
             };
             for (place, value) in group.iter().zip(values) {
-                let (sum, size) = &mut sums[place.value];
+                let (sum, size, noise) = &mut sums[place.value];
                 *sum = *sum + value * *weight;
                 *size += march.largest(*wave) * weight.size();
+                *noise += march.noise(*wave) * weight.size();
             }
         }
-        if sums.iter().any(|(sum, size)| sum.im.abs() > NOT_REAL * size) {
+        if sums.iter().any(|(sum, size, _)| sum.im.abs() > NOT_REAL * size) {
             return Err(EvaluateError::NotReal.into());
         }
-        Ok(sums.into_iter().map(|(sum, _)| sum.re).collect())
+        let largest = sums.iter().map(|(_, size, _)| *size).fold(0.0, f64::max);
+        // Where parts of usual sizes cancel, nothing is lost.
+        let usual = (0..system.waves()).map(|wave| march.largest(wave)).fold(0.0, f64::max);
+        let allowed = (STIFF * largest).max(MEASURED * usual * self.weight());
+        let noise = sums.iter().map(|(_, _, noise)| *noise).fold(0.0, f64::max);
+        if noise > allowed {
+            return Err(MethodError::Cancels(noise / largest));
+        }
+        Ok(sums.into_iter().map(|(sum, ..)| sum.re).collect())
+    }
+
+    /// The sum of the weights.
+    fn weight(&self) -> f64 {
+        self.seen.iter().map(|seen| seen.weight.size()).sum()
     }
 
     /// Whether anything returns, so that the length of periods matters.

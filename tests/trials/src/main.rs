@@ -1,7 +1,7 @@
 //! `wavestep-trials [--hours H] [--scenes N] [--first NUMBER]`: trials one after another, and what became of them.
 
 use std::collections::BTreeMap;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::{AssertUnwindSafe, catch_unwind, set_hook};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 use wavestep_trials::{CHECKS, KINDS, Tally, Trial, Verdict};
@@ -34,6 +34,9 @@ impl Report {
         let begun = Instant::now();
         let trial = Trial::new(number);
         let (kind, text) = (trial.kind, trial.text.clone());
+        // Where a panic ends the run, it is known which trial it was.
+        let told = format!("trial {number}, {}\n{text}", KINDS[kind].0);
+        set_hook(Box::new(move |panic| eprintln!("{panic}\n{told}")));
         let verdict = catch_unwind(AssertUnwindSafe(|| trial.run()));
         let seconds = begun.elapsed().as_secs_f64();
         let row = &mut self.rows[kind];

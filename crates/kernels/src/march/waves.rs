@@ -43,6 +43,8 @@ pub struct WaveMarch<T> {
     depth: usize,
     /// The largest coefficient of each wave so far.
     largest: Vec<f64>,
+    /// About what the roundings of a period amount to in each wave, at most so far.
+    noise: Vec<f64>,
     /// Room for one span: what drives a state, the state, and a slope.
     scratch: [Vec<T>; 3],
 }
@@ -70,6 +72,7 @@ impl<T: Scalar> WaveMarch<T> {
             // A jump needs the end of the period before.
             depth: system.largest_lag() + 2,
             largest: vec![0.0; system.waves()],
+            noise: vec![0.0; system.waves()],
             scratch: Default::default(),
             system,
         };
@@ -91,6 +94,12 @@ impl<T: Scalar> WaveMarch<T> {
     /// to.
     pub fn largest(&self, wave: usize) -> f64 {
         self.largest[wave]
+    }
+
+    /// About what the roundings of one period amount to in a wave, at most so far: where large parts cancel, they are large
+    /// beside what is left.
+    pub fn noise(&self, wave: usize) -> f64 {
+        self.noise[wave]
     }
 
     /// Goes on to the next period. O(SMN) for `S` spans, `M` terms and polynomials of degree `N`.
@@ -174,9 +183,30 @@ impl<T: Scalar> WaveMarch<T> {
             (self.scratch, self.states[place]) = (scratch, state);
             let (piece, largest) = solved?;
             self.largest[wave] = largest;
+            self.noise[wave] = self.noise[wave].max(self.noise_of(place));
             self.kept[0][wave] = piece;
         }
         Ok(())
+    }
+
+    /// What the roundings of this period amount to in the wave of a step: its own, and those of the waves of this period that it
+    /// is made of. What came from periods before is taken as given.
+    fn noise_of(&self, step: usize) -> f64 {
+        let step = &self.system.steps[step];
+        let sum = |terms: &[Term<T>]| {
+            let noise = |term: &Term<T>| {
+                let own = f64::EPSILON * self.largest[term.wave];
+                let before = if term.lag == 0 { self.noise[term.wave] } else { 0.0 };
+                term.weight.size() * own.max(before)
+            };
+            terms.iter().map(noise).sum::<f64>()
+        };
+        let state = step.state.as_ref().map_or(0.0, |state| {
+            // A decaying state holds what drives it no longer than its rate says.
+            let held = (-state.rate.complex().re).max(1.0);
+            sum(&state.drive) / held + sum(&state.jumps)
+        });
+        f64::EPSILON * self.largest[step.wave] + sum(&step.values) + state
     }
 
     /// A wave on the current period, and its largest coefficient so far.
