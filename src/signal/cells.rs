@@ -129,8 +129,13 @@ impl<'a> Window<'a> {
             }
             // An exact zero, or a tie, or no more than what is left out: nothing is gained by more bits.
             let is_tie = *ball.radius() <= ball.midpoint().magnitude().scale(-200);
-            let known = is_tie || self.knows_all(&ball);
-            Ok(Attempt::of(ball.midpoint().to_double(), known))
+            let has_left_out = self.knows_all(&ball);
+            // What all these bits do not tell from zero is zero.
+            let value = match ball.contains_zero() && !has_left_out {
+                true => 0.0,
+                false => ball.midpoint().to_double(),
+            };
+            Ok(Attempt::of(value, is_tie || has_left_out))
         };
         Precisions::doubling(128, 1024).raise(attempt).map(Attempt::best)
     }

@@ -197,3 +197,44 @@ fn doubles_beside_local_contacts_are_proven_on_long_windows() -> Result<(), Erro
     }
     Ok(())
 }
+
+/// A mass between a support and a spring that drives a bar of a small impedance: three poles, of which one is fast.
+#[test]
+fn a_march_tells_where_its_digits_are_lost() -> Result<(), Error> {
+    let text = "scene \"A\"\nsymbol z > 0\nsupport base { stiffness = 3/2 }\nmass m { mass = 5/4, velocity = 1 }\n\
+        spring k { stiffness = 4 }\nbar b { impedance = z }\nline free - base - m - k | b - endless\n\
+        observe u = displacement(b.left)";
+    let problem = Problem::read("soft.wave", text)?;
+    let marched = Method::Marched { proven: true };
+    for (impedance, is_refused) in [("1", false), ("1/10", false), ("1/1000", true)] {
+        let problem = problem.with("z", impedance)?;
+        let signal = problem.signal("u")?;
+        let certified = signal.values_by(&["8/3"], Method::Certified)?.values[0];
+        match signal.values_by(&["8/3"], marched) {
+            Ok(found) if !is_refused => {
+                assert!((found.values[0] - certified).abs() < 1e-8 * certified, "{impedance}");
+            }
+            Err(error) if is_refused => {
+                assert!(error.to_string().contains("large parts cancel"), "{error}");
+                assert_eq!(error.remedy().as_deref(), Some("use the method compiled or certified"));
+            }
+            other => panic!("{impedance}: {other:?}"),
+        }
+    }
+    Ok(())
+}
+
+/// The wave arrives at the last time of the window.
+#[test]
+fn what_no_bits_tell_from_zero_is_zero() -> Result<(), Error> {
+    let text = "scene \"A\"\nmass m { mass = 4 kg, velocity = 1 m/s }\n\
+        bar b { impedance = 2/3 kN*s/m, travel = 1/3 ms }\n\
+        spring k { stiffness = 1 MN/m, damping = 1/2 kN*s/m }\nline free - m | b - k - fixed\n\
+        observe u = displacement(b.right)";
+    let problem = Problem::read("first.wave", text)?;
+    for method in [Method::Compiled, Method::Certified] {
+        let values = problem.signal("u")?.values_by(&["1/3000 s"], method)?.values;
+        assert_eq!(values, [0.0], "{method}");
+    }
+    Ok(())
+}

@@ -41,13 +41,12 @@ fn difference(one: &[Happening], other: &[Happening], until: f64, close: f64) ->
         let own = |all: &[Happening]| -> Vec<Happening> {
             all.iter().filter(|own| own.contact == contact).copied().collect()
         };
-        let (one, other) = (own(one), own(other));
+        let (one, other) = (settled(&own(one)), settled(&own(other)));
         for at in 0..one.len().max(other.len()) {
             let differs = match (one.get(at), other.get(at)) {
-                (Some(a), Some(b)) if a.kind == b.kind && (a.time - b.time).abs() < close => {
-                    continue;
-                }
+                (Some(a), Some(b)) if is_alike([a, b], close) => continue,
                 (Some(a), Some(b)) => a.time.min(b.time),
+                (Some(a), None) | (None, Some(a)) if a.kind == EventKind::Release => break,
                 (Some(a), None) | (None, Some(a)) => a.time,
                 (None, None) => unreachable!("one is long enough"),
             };
@@ -60,24 +59,41 @@ fn difference(one: &[Happening], other: &[Happening], until: f64, close: f64) ->
     first
 }
 
-/// What the history tells; a contact that opens and closes again at one instant has done nothing.
-fn told(scene: &Scene, history: &History) -> Vec<Happening> {
-    let second = scene.units.map_or(1.0, |units| units.per_second as f64);
-    let mut all: Vec<Happening> = Vec::new();
-    for (kind, event) in by_force(history) {
-        let own = Happening { kind, contact: event.contact, time: event.time.to_f64() * second };
-        let before = all.iter().rposition(|other| other.contact == own.contact);
-        let is_undone = |other: &Happening| {
-            let kinds = (other.kind, own.kind);
-            kinds == (EventKind::Opening, EventKind::Closing) && other.time == own.time
+/// Whether two tell of the same. A contact that touches without force has opened, by the force alone.
+fn is_alike([one, other]: [&Happening; 2], close: f64) -> bool {
+    let plain = |kind| if kind == EventKind::Release { EventKind::Opening } else { kind };
+    plain(one.kind) == plain(other.kind) && (one.time - other.time).abs() < close
+}
+
+/// What one contact does; where it opens and closes again at one instant it has done nothing.
+fn settled(all: &[Happening]) -> Vec<Happening> {
+    let mut settled: Vec<Happening> = Vec::new();
+    for own in all {
+        let is_undone = |other: &mut Happening| {
+            let closes = matches!(own.kind, EventKind::Closing | EventKind::Impact);
+            other.kind == EventKind::Opening && closes && other.time == own.time
         };
-        match before.filter(|place| is_undone(&all[*place])) {
-            Some(place) => drop(all.remove(place)),
-            None if kind != EventKind::Release => all.push(own),
-            None => {}
+        if settled.pop_if(is_undone).is_none() {
+            settled.push(*own);
         }
     }
-    all
+    settled
+}
+
+/// What the history tells. A release is told where nothing follows it: by the force alone it may be an opening.
+fn told(scene: &Scene, history: &History) -> Vec<Happening> {
+    let second = scene.units.map_or(1.0, |units| units.per_second as f64);
+    let events = by_force(history);
+    let is_last =
+        |at: usize| events[at + 1..].iter().all(|(_, own)| own.contact != events[at].1.contact);
+    let told = events.iter().enumerate();
+    let told = told.filter(|(at, (kind, _))| *kind != EventKind::Release || is_last(*at));
+    told.map(|(_, (kind, event))| Happening {
+        kind: *kind,
+        contact: event.contact,
+        time: event.time.to_f64() * second,
+    })
+    .collect()
 }
 
 /// How far the events of a scene agree.

@@ -271,7 +271,10 @@ impl Solver {
     pub fn follow(&mut self, until: f64, events: usize) -> Option<f64> {
         while let Some(node) = (0..self.nodes.len())
             .min_by(|a, b| self.traces[*a].now.total_cmp(&self.traces[*b].now))
-            .filter(|node| self.traces[*node].now < until && self.happenings.len() < events)
+            .filter(|node| {
+                let Trace { now, cells, .. } = &self.traces[*node];
+                *now < until && (self.happenings.len() < events || cells.is_empty())
+            })
         {
             self.advance(node)?;
         }
