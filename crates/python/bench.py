@@ -6,6 +6,7 @@ library runs in between, and the share of its speed is told.
 
 import json
 import pathlib
+import statistics
 import subprocess
 import sys
 import time
@@ -21,29 +22,34 @@ POINTS = 10_000_000
 ROOT = pathlib.Path(__file__).parents[2]
 
 
-def best(work: Callable[[], object], times: int = 20) -> float:
-    """The shortest of several runs, in seconds."""
+def runs(work: Callable[[], object], times: int = 20) -> list[float]:
+    """How long each of several runs takes, in seconds."""
 
     def once() -> float:
         begun = time.perf_counter()
         work()
         return time.perf_counter() - begun
 
-    return min(once() for _ in range(times))
+    return [once() for _ in range(times)]
+
+
+def best(work: Callable[[], object]) -> float:
+    """The shortest of several runs, in seconds."""
+    return min(runs(work))
 
 
 def rust() -> float:
-    """Seconds for the same values in the benchmark of the library, by its fastest sample."""
+    """Seconds for the same values in the benchmark of the library, at the median of the best instructions."""
     group = "rigid-mass mu=1 n≤200/compiled ascending"
     command = ["cargo", "bench", "-q", "-p", "wavestep-benches", "--bench", "methods", "--", group]
     subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     samples = (ROOT / "target/criterion").glob("rigid-mass mu=1*/compiled ascending/*/new/sample.json")
 
-    def fastest(file: pathlib.Path) -> float:
+    def middle(file: pathlib.Path) -> float:
         sample: dict[str, list[float]] = json.loads(file.read_text())
-        return min(t / n for t, n in zip(sample["times"], sample["iters"], strict=True)) / 1e9
+        return statistics.median(t / n for t, n in zip(sample["times"], sample["iters"], strict=True)) / 1e9
 
-    return min(map(fastest, samples))
+    return min(map(middle, samples))
 
 
 def import_time() -> float:
@@ -59,13 +65,15 @@ def main() -> None:
     times = np.arange(POINTS) * (END / POINTS)
     curve = f.compiled(0, END)
     values = np.empty_like(times)
-    own = best(lambda: curve(times, out=values))
+    own = runs(lambda: curve(times, out=values))
     if "--rust" in sys.argv:
         library = rust()
-        own = min(own, best(lambda: curve(times, out=values)))
-        print(f"10^7 values: {own * 1e3:.1f} ms, {library / own:.0%} of the speed in Rust ({library * 1e3:.1f} ms)")
+        middle = statistics.median(own + runs(lambda: curve(times, out=values)))
+        print(f"10^7 values: {middle * 1e3:.1f} ms, {library / middle:.0%} of the speed in Rust ({library * 1e3:.1f} ms)")
+    copied = best(lambda: np.copyto(values, times))
     fresh = best(lambda: curve(times))
-    print(f"10^7 values into a given array {own * 1e3:.1f} ms, into a new one {fresh * 1e3:.1f} ms")
+    print(f"10^7 values into a given array {min(own) * 1e3:.1f} ms, into a new one {fresh * 1e3:.1f} ms")
+    print(f"10^7 doubles copied: {copied * 1e3:.1f} ms")
     some = np.random.default_rng(1).uniform(0, END, 1000)
     print(f"1000 certified values: {best(lambda: f(some)) * 1e3:.2f} ms")
     many, one = 2000, 1.5

@@ -1,6 +1,6 @@
 //! Evaluation of a table at given times.
 
-use crate::vector::{Certified, Evaluate, Many, Neighbours, Plain, dispatch};
+use crate::vector::{Certified, Evaluate, Many, Neighbours, Plain, Simd, Stores, Task, dispatch};
 use crate::{Level, Table};
 
 /// Evaluates a table with chosen instructions.
@@ -17,17 +17,24 @@ use crate::{Level, Table};
 pub struct Evaluator<'a> {
     table: &'a Table,
     level: Level,
+    /// Of how many values those that are asked for are a part.
+    whole: usize,
 }
 
 impl<'a> Evaluator<'a> {
     /// At the best level of this machine.
     pub fn new(table: &'a Table) -> Self {
-        Self { table, level: Level::best() }
+        Self { table, level: Level::best(), whole: 0 }
     }
 
     /// The same with other instructions.
     pub fn with_level(self, level: Level) -> Self {
         Self { level, ..self }
+    }
+
+    /// The same for parts of so many values, which are written as all of them would be.
+    pub fn in_parts_of(self, whole: usize) -> Self {
+        Self { whole, ..self }
     }
 
     /// `out[i] = f(times[i])`, fast where neighbouring times mostly lie in one piece, in any order.
@@ -58,6 +65,27 @@ impl<'a> Evaluator<'a> {
         out: &mut [f64],
     ) -> Vec<usize> {
         assert_eq!(times.len(), out.len(), "there is one place for every time");
-        dispatch(self.level, Many { table: self.table, times, evaluate, neighbours, out })
+        let stores = Stores::of(out.len().max(self.whole));
+        dispatch(self.level, Many { table: self.table, times, evaluate, neighbours, stores, out })
+    }
+}
+
+/// Whether all times are numbers, and none is earlier than the one before.
+pub fn ascend(times: &[f64]) -> bool {
+    dispatch(Level::best(), Ascending(times))
+}
+
+struct Ascending<'a>(&'a [f64]);
+
+impl Task for Ascending<'_> {
+    type Output = bool;
+
+    /// Every pair is looked at, so that many are compared at once.
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> bool {
+        let Ascending(times) = self;
+        let Some((first, later)) = times.split_first() else { return true };
+        let pairs = times.iter().zip(later);
+        pairs.fold(!first.is_nan(), |so_far, (one, next)| so_far & (one <= next))
     }
 }

@@ -8,7 +8,7 @@
 //!
 //! Of a signal from which echoes are left out for a tolerance it gives the middle of a ball that is about as wide as these.
 
-use super::doubles::{ascend, inside, table};
+use super::doubles::{inside, table};
 use super::{Evaluator, MethodError};
 use crate::ball::{Attempt, Ball, Precisions, rational};
 use crate::signal::cells::{Fit, Window, enclosure};
@@ -17,8 +17,8 @@ use crate::signal::error::EvaluateError;
 use crate::signal::signal::{Limit, Signal};
 use num_traits::ToPrimitive as _;
 use std::cell::OnceCell;
-use wavestep_kernels::Table;
 use wavestep_kernels::fixed::ExactTime;
+use wavestep_kernels::{Table, ascend};
 use wavestep_polynomial::Rational;
 
 /// The degree of polynomials in pairs of doubles.

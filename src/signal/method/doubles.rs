@@ -6,7 +6,6 @@ use crate::ball::{Ball, at_or_after, at_or_before, rational};
 use crate::enclosure::{EnclosureError, Numbers};
 use crate::expression::Fraction;
 use crate::signal::cells::Pieces;
-use std::cmp::Ordering;
 use wavestep_kernels::Table;
 use wavestep_polynomial::Rational;
 
@@ -40,11 +39,6 @@ pub(super) fn inside(at: &[f64], [from, to]: [&Rational; 2]) -> Result<(), Metho
 /// Doubles as the numbers that they are.
 pub(super) fn exactly(at: &[f64]) -> Vec<Rational> {
     at.iter().map(|time| rational(*time)).collect()
-}
-
-/// Whether no time is earlier than the one before.
-pub(super) fn ascend(at: &[f64]) -> bool {
-    at.windows(2).all(|pair| pair[0].partial_cmp(&pair[1]) != Some(Ordering::Greater))
 }
 
 /// Polynomials as a table; refused where there are none.

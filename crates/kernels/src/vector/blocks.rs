@@ -10,14 +10,22 @@ use super::horner::{Blended, Broadcast, Evaluate, Transposed};
 use super::{Simd, Task};
 use crate::table::Table;
 
-/// Longer outputs are streamed past the caches: they are larger than a second-level cache.
-const STREAMED: usize = 1 << 18;
-
 /// How values are written.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Stores {
+pub(crate) enum Stores {
     Cached,
+    /// Past the caches.
     Streamed,
+}
+
+impl Stores {
+    /// Outputs of so many values are streamed: they are larger than a second-level cache.
+    const STREAMED: usize = 1 << 18;
+
+    /// How so many values are written.
+    pub(crate) fn of(count: usize) -> Stores {
+        if count >= Stores::STREAMED { Stores::Streamed } else { Stores::Cached }
+    }
 }
 
 /// Blocks that touch more pieces than this gather their coefficients.
@@ -39,6 +47,7 @@ pub(crate) struct Many<'a, E> {
     pub(crate) times: &'a [f64],
     pub(crate) evaluate: E,
     pub(crate) neighbours: Neighbours,
+    pub(crate) stores: Stores,
     pub(crate) out: &'a mut [f64],
 }
 
@@ -47,8 +56,8 @@ impl<E: Evaluate> Task for Many<'_, E> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Vec<usize> {
-        let Self { table, times, evaluate, neighbours, out } = self;
-        let job = Job { simd, table, times, evaluate, neighbours };
+        let Self { table, times, evaluate, neighbours, stores, out } = self;
+        let job = Job { simd, table, times, evaluate, neighbours, stores };
         let mut undecided = Vec::new();
         match if S::MANY_REGISTERS { E::MANY_IN_FLIGHT } else { E::FEW_IN_FLIGHT } {
             8.. => job.run::<8>(out, &mut undecided),
@@ -67,6 +76,7 @@ struct Job<'a, S, E> {
     times: &'a [f64],
     evaluate: E,
     neighbours: Neighbours,
+    stores: Stores,
 }
 
 impl<S: Simd, E: Evaluate> Job<'_, S, E> {
@@ -249,7 +259,7 @@ impl<S: Simd, E: Evaluate> Job<'_, S, E> {
     #[inline(always)]
     fn run<const N: usize>(&self, out: &mut [f64], undecided: &mut Vec<usize>) {
         let simd = self.simd;
-        let stores = if out.len() >= STREAMED { Stores::Streamed } else { Stores::Cached };
+        let stores = self.stores;
         let vector = size_of::<S::Values>();
         let misaligned = out.as_ptr().addr() % vector;
         let streams = stores == Stores::Streamed;

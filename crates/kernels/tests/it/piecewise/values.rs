@@ -1,7 +1,7 @@
 //! Values of tables: within their bounds, and the same double whatever the way.
 
 use crate::piecewise::support::*;
-use wavestep_kernels::{Level, Piece};
+use wavestep_kernels::{Level, Piece, ascend};
 
 #[test]
 fn values_are_within_the_bound_at_every_level() {
@@ -136,4 +136,34 @@ fn streamed_outputs_are_the_same() {
 fn times_and_places_must_be_equally_many() {
     let (mut pieces, end) = pieces(TYPICAL, &mut Random(7));
     table(&mut pieces, end).evaluator().sorted(&[0.0, 0.1], &mut [0.0]);
+}
+
+/// Parts are streamed where all of them are; the values do not change.
+#[test]
+fn parts_have_the_values_of_the_whole() {
+    let (mut pieces, end) = pieces(TYPICAL, &mut Random(8));
+    let table = table(&mut pieces, end);
+    let times: Vec<f64> = (0..5000).map(|i| f64::from(i) * end / 5000.0).collect();
+    let mut whole = vec![0.0; 5000];
+    table.evaluator().sorted(&times, &mut whole);
+    let mut parts = vec![0.0; 5000];
+    for (times, parts) in times.chunks(999).zip(parts.chunks_mut(999)) {
+        table.evaluator().in_parts_of(1 << 20).sorted(times, parts);
+    }
+    assert_eq!(bits(&parts), bits(&whole));
+}
+
+#[test]
+fn times_that_ascend_are_told_from_others() {
+    for count in [0, 1, 2, 7, 64, 101] {
+        let times: Vec<f64> = (0..count).map(|i| f64::from(i / 2)).collect();
+        assert!(ascend(&times), "{count}");
+        for place in 0..times.len() {
+            let mut other = times.clone();
+            other[place] = f64::NAN;
+            assert!(!ascend(&other), "not a number at {place} of {count}");
+            other[place] = -1.0;
+            assert_eq!(ascend(&other), place == 0, "less at {place} of {count}");
+        }
+    }
 }
