@@ -3,6 +3,7 @@
 mod calculus;
 mod division;
 mod factors;
+mod limbs;
 mod ordinary;
 mod ring;
 mod roots;
