@@ -42,7 +42,9 @@ proptest! {
     }
 
     #[test]
-    fn shifted_rows_are_added_and_subtracted(one in row(1..=6), other in row(1..=6), place in 1usize..4, bits in 0u32..64) {
+    fn shifted_rows_are_added_and_subtracted(
+        one in row(1..=6), other in row(1..=6), place in 1usize..4, bits in 0u32..64
+    ) {
         let moved = value(&other) << (64 * place) >> bits;
         let room = (other.len() + place + 1).saturating_sub(one.len()) + 1;
         let mut sum = with_room(&one, room);
