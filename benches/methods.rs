@@ -67,26 +67,26 @@ fn polynomials(criterion: &mut Criterion) {
                 group.bench_function(name("stores"), |b| {
                     let stores = constant(prepared.ascending[POINTS - 1]);
                     let stores = stores.evaluator().with_level(level);
-                    b.iter(|| stores.sorted(&prepared.ascending, black_box(&mut values)));
+                    b.iter(|| stores.values(&prepared.ascending, black_box(&mut values)));
                 });
                 group.bench_function(name("compiled ascending"), |b| {
                     let plain = prepared.compiled.table().evaluator().with_level(level);
-                    b.iter(|| plain.sorted(&prepared.ascending, black_box(&mut values)));
+                    b.iter(|| plain.values(&prepared.ascending, black_box(&mut values)));
                 });
                 group.bench_function(name("certified ascending"), |b| {
                     let pairs = prepared.certified.table().unwrap().evaluator().with_level(level);
-                    b.iter(|| pairs.rounded_sorted(&prepared.ascending, black_box(&mut values)));
+                    b.iter(|| pairs.rounded(&prepared.ascending, black_box(&mut values)));
                 });
                 group.throughput(Throughput::Elements(UNSORTED as u64));
                 let some = &mut values[..UNSORTED];
                 group.bench_function(name("compiled unsorted"), |b| {
                     let plain = prepared.compiled.table().evaluator().with_level(level);
-                    b.iter(|| plain.unsorted(&prepared.times, black_box(&mut *some)));
+                    b.iter(|| plain.values(&prepared.times, black_box(&mut *some)));
                 });
                 group.bench_function(name("certified unsorted"), |b| {
                     let pairs = prepared.certified.table().unwrap();
                     let pairs = pairs.evaluator().with_level(level);
-                    b.iter(|| pairs.rounded_unsorted(&prepared.times, black_box(&mut *some)));
+                    b.iter(|| pairs.rounded(&prepared.times, black_box(&mut *some)));
                 });
             }
             group.finish();

@@ -11,7 +11,7 @@ use crate::network::ScaledScene;
 use crate::scene::Ideal;
 use crate::signal::{
     Certified, Compiled, EvaluateError, Evaluator, Limit, Marched, MethodError, Summation, Summed,
-    Table,
+    Table, values_of,
 };
 use num_traits::ToPrimitive as _;
 use wavestep_polynomial::Rational;
@@ -173,7 +173,7 @@ impl<'a> Way<'a> {
         match &self.inner {
             Ways::Method(evaluator) => evaluator.values(at, &mut values)?,
             Ways::Model(model, place) => return Ok(model.values(*place, at)?),
-            Ways::Reduced(table, _) => table.evaluator().unsorted(at, &mut values),
+            Ways::Reduced(table, _) => values_of(table, at, &mut values)?,
         }
         Ok(values)
     }

@@ -27,7 +27,7 @@ mod rows;
 mod table;
 mod vector;
 
-pub use evaluator::{Evaluator, ascend};
+pub use evaluator::Evaluator;
 pub use level::Level;
 pub use limit::Limit;
 pub use table::{MAX_DEGREE, Piece, Table, TableError};

@@ -17,8 +17,8 @@ use crate::signal::error::EvaluateError;
 use crate::signal::signal::{Limit, Signal};
 use num_traits::ToPrimitive as _;
 use std::cell::OnceCell;
+use wavestep_kernels::Table;
 use wavestep_kernels::fixed::ExactTime;
-use wavestep_kernels::{Table, ascend};
 use wavestep_polynomial::Rational;
 
 /// The degree of polynomials in pairs of doubles.
@@ -164,8 +164,7 @@ impl Evaluator for Certified<'_> {
                 }
             }
             _ if !self.window.signal.left_out().is_zero() => (0..at.len()).collect(),
-            _ if ascend(at) => self.table()?.evaluator().rounded_sorted(at, values),
-            _ => self.table()?.evaluator().rounded_unsorted(at, values),
+            _ => self.table()?.evaluator().rounded(at, values),
         };
         for i in undecided {
             if !at[i].is_finite() {

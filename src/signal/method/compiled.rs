@@ -10,7 +10,7 @@ use super::{Evaluator, MethodError};
 use crate::ball::{Ball, Magnitude, unit_in_the_last_place};
 use crate::signal::cells::{Fit, Pieces, Window};
 use crate::signal::signal::{Limit, Signal};
-use wavestep_kernels::{Piece, Table, ascend};
+use wavestep_kernels::{Piece, Table};
 use wavestep_polynomial::Rational;
 
 /// The degree of polynomials in doubles: shorter ones need more pieces, longer ones more operations. With
@@ -113,27 +113,10 @@ impl Evaluator for Compiled<'_> {
     }
 }
 
-/// How many times are looked at and evaluated together: they stay in a cache of the second level in between.
-const BLOCK: usize = 1 << 14;
-
 /// The values of a table at many times.
 pub(crate) fn values_of(table: &Table, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
-    assert_eq!(at.len(), values.len(), "a place for each value");
-    let evaluator = table.evaluator().in_parts_of(at.len());
-    let inside = |time: f64| time >= table.start() && time <= table.end();
-    for (at, values) in at.chunks(BLOCK).zip(values.chunks_mut(BLOCK)) {
-        let ascends = ascend(at);
-        let is_inside = match ascends {
-            true => inside(at[0]) && inside(at[at.len() - 1]),
-            false => at.iter().all(|time| inside(*time)),
-        };
-        if !is_inside {
-            return Err(MethodError::Outside);
-        }
-        match ascends {
-            true => evaluator.sorted(at, values),
-            false => evaluator.unsorted(at, values),
-        }
+    match table.evaluator().values(at, values) {
+        true => Ok(()),
+        false => Err(MethodError::Outside),
     }
-    Ok(())
 }

@@ -10,62 +10,52 @@ use super::horner::{Blended, Broadcast, Evaluate, Transposed};
 use super::{Simd, Task};
 use crate::table::Table;
 
+/// Longer outputs are streamed past the caches: they are larger than a second-level cache.
+const STREAMED: usize = 1 << 18;
+
 /// How values are written.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Stores {
+enum Stores {
     Cached,
-    /// Past the caches.
     Streamed,
-}
-
-impl Stores {
-    /// Outputs of so many values are streamed: they are larger than a second-level cache.
-    const STREAMED: usize = 1 << 18;
-
-    /// How so many values are written.
-    pub(crate) fn of(count: usize) -> Stores {
-        if count >= Stores::STREAMED { Stores::Streamed } else { Stores::Cached }
-    }
 }
 
 /// Blocks that touch more pieces than this gather their coefficients.
 const NEIGHBOURS: usize = 6;
 
-/// Where neighbouring points are expected.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Neighbours {
-    /// Mostly in one piece.
-    Together,
-    /// Anywhere.
-    Apart,
+/// After as many blocks in a row that gather, only every eighth looks for neighbours first.
+const TRIES: u32 = 2;
+
+/// What is found of many points beside their values.
+#[derive(Default)]
+pub(crate) struct Found {
+    /// The indices of points in doubt, ascending.
+    pub(crate) undecided: Vec<usize>,
+    /// Whether a point lies outside the table.
+    pub(crate) is_outside: bool,
 }
 
-/// The evaluation of many points, as many as `out` has places. The output is the indices of those in
-/// doubt.
+/// The evaluation of many points, as many as `out` has places.
 pub(crate) struct Many<'a, E> {
     pub(crate) table: &'a Table,
     pub(crate) times: &'a [f64],
     pub(crate) evaluate: E,
-    pub(crate) neighbours: Neighbours,
-    pub(crate) stores: Stores,
     pub(crate) out: &'a mut [f64],
 }
 
 impl<E: Evaluate> Task for Many<'_, E> {
-    type Output = Vec<usize>;
+    type Output = Found;
 
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> Vec<usize> {
-        let Self { table, times, evaluate, neighbours, stores, out } = self;
-        let job = Job { simd, table, times, evaluate, neighbours, stores };
-        let mut undecided = Vec::new();
+    fn run<S: Simd>(self, simd: S) -> Found {
+        let Self { table, times, evaluate, out } = self;
+        let job = Job { simd, table, times, evaluate };
         match if S::MANY_REGISTERS { E::MANY_IN_FLIGHT } else { E::FEW_IN_FLIGHT } {
-            8.. => job.run::<8>(out, &mut undecided),
-            6.. => job.run::<6>(out, &mut undecided),
-            4.. => job.run::<4>(out, &mut undecided),
-            _ => job.run::<2>(out, &mut undecided),
+            8.. => job.run::<8>(out),
+            6.. => job.run::<6>(out),
+            4.. => job.run::<4>(out),
+            _ => job.run::<2>(out),
         }
-        undecided
     }
 }
 
@@ -75,8 +65,22 @@ struct Job<'a, S, E> {
     table: &'a Table,
     times: &'a [f64],
     evaluate: E,
-    neighbours: Neighbours,
-    stores: Stores,
+}
+
+/// Where the block before ended.
+#[derive(Default)]
+struct Trail {
+    piece: usize,
+    /// How many blocks in a row gathered.
+    gathered: u32,
+}
+
+impl Trail {
+    /// Whether neighbours are worth looking for: points in no order have none.
+    #[inline(always)]
+    fn tries(&self) -> bool {
+        self.gathered < TRIES || self.gathered.is_multiple_of(8)
+    }
 }
 
 impl<S: Simd, E: Evaluate> Job<'_, S, E> {
@@ -91,7 +95,8 @@ impl<S: Simd, E: Evaluate> Job<'_, S, E> {
         vectors
     }
 
-    /// Every lane with its own piece; NaN, without doubt, outside the table. The pieces of all vectors
+    /// Every lane with its own piece; NaN, without doubt, outside the table; and one bit for every lane that lies
+    /// there. The pieces of all vectors
     /// are looked up first, so that one search need not wait for another, and then all of them are
     /// evaluated together, so that one step need not wait for the step before.
     #[inline(always)]
@@ -99,7 +104,7 @@ impl<S: Simd, E: Evaluate> Job<'_, S, E> {
         &self,
         times: &[S::Values; N],
         room: &mut [S::Values],
-    ) -> ([S::Values; N], [u32; N]) {
+    ) -> ([S::Values; N], [u32; N], [u32; N]) {
         let (simd, table, rows) = (self.simd, self.table, E::rows(self.table));
         let start = simd.splat(table.start());
         let stride = simd.splat(rows.stride() as f64);
@@ -112,12 +117,14 @@ impl<S: Simd, E: Evaluate> Job<'_, S, E> {
         }
         let columns = Transposed::new(simd, rows, &offsets, room);
         let (mut values, mut doubts) = self.evaluate.evaluate(simd, table, columns, &inner);
+        let mut outside = [(1 << S::LANES) - 1; N];
         for j in 0..N {
             let within = table.lookup.within(simd, times[j]);
             values[j] = simd.select(within, values[j], simd.splat(f64::NAN));
             doubts[j] &= simd.bits(within);
+            outside[j] ^= simd.bits(within);
         }
-        (values, doubts)
+        (values, doubts, outside)
     }
 
     /// Room for the columns of so many vectors.
@@ -155,26 +162,28 @@ impl<S: Simd, E: Evaluate> Job<'_, S, E> {
         (few && self.inside(times, lookup.span(first, last))).then_some((first, last))
     }
 
-    /// One block. `piece` is where the block before ended.
+    /// One block.
     #[inline(always)]
     fn block<const N: usize>(
         &self,
         at: usize,
-        piece: &mut usize,
+        trail: &mut Trail,
         room: &mut [S::Values],
+        found: &mut Found,
     ) -> ([S::Values; N], [u32; N]) {
         let (simd, table) = (self.simd, self.table);
         let times: [S::Values; N] = self.times(at);
-        if self.neighbours == Neighbours::Together {
-            if self.inside(&times, table.lookup.span(*piece, *piece)) {
-                let rows = Broadcast::new(E::rows(table), *piece);
+        if trail.tries() {
+            let first = trail.piece;
+            if self.inside(&times, table.lookup.span(first, first)) {
+                trail.gathered = 0;
+                let rows = Broadcast::new(E::rows(table), first);
                 return self.evaluate.evaluate(simd, table, rows, &times);
             }
-            let first = *piece;
             if first + 1 < table.pieces()
                 && self.inside(&times, table.lookup.span(first, first + 1))
             {
-                *piece += 1;
+                *trail = Trail { piece: first + 1, gathered: 0 };
                 let start = simd.splat(table.lookup.span(first + 1, first + 1).0);
                 let mut later = [simd.at_least(times[0], start); N];
                 for j in 1..N {
@@ -184,11 +193,14 @@ impl<S: Simd, E: Evaluate> Job<'_, S, E> {
                 return self.evaluate.evaluate(simd, table, rows, &times);
             }
             if let Some((first, last)) = self.neighbours(&times) {
-                *piece = last;
+                *trail = Trail { piece: last, gathered: 0 };
                 return self.merged(&times, first, last);
             }
         }
-        self.gathered(&times, room)
+        trail.gathered = trail.gathered.wrapping_add(1);
+        let (values, doubts, outside) = self.gathered(&times, room);
+        found.is_outside |= outside != [0; N];
+        (values, doubts)
     }
 
     /// A block whose points lie in a few neighbouring pieces.
@@ -217,21 +229,17 @@ impl<S: Simd, E: Evaluate> Job<'_, S, E> {
 
     /// Fewer points than a block, from index `at` on.
     #[inline(always)]
-    fn partial(
-        &self,
-        at: usize,
-        out: &mut [f64],
-        room: &mut [S::Values],
-        undecided: &mut Vec<usize>,
-    ) {
+    fn partial(&self, at: usize, out: &mut [f64], room: &mut [S::Values], found: &mut Found) {
         for (i, chunk) in out.chunks_mut(S::LANES).enumerate() {
             let at = at + i * S::LANES;
             let mut lanes = [f64::NAN; 8];
             lanes[..chunk.len()].copy_from_slice(&self.times[at..][..chunk.len()]);
-            let ([values], [doubt]) = self.gathered(&[self.simd.load(&lanes)], room);
+            let ([values], [doubt], [outside]) = self.gathered(&[self.simd.load(&lanes)], room);
             self.simd.store(values, &mut lanes);
             chunk.copy_from_slice(&lanes[..chunk.len()]);
-            collect(at, doubt & ((1 << chunk.len()) - 1), undecided);
+            let filled = (1 << chunk.len()) - 1;
+            found.is_outside |= outside & filled != 0;
+            collect(at, doubt & filled, &mut found.undecided);
         }
     }
 
@@ -255,30 +263,31 @@ impl<S: Simd, E: Evaluate> Job<'_, S, E> {
         }
     }
 
-    /// All points, `out.len()` of them; the indices of those in doubt are appended, ascending.
+    /// All points, `out.len()` of them.
     #[inline(always)]
-    fn run<const N: usize>(&self, out: &mut [f64], undecided: &mut Vec<usize>) {
+    fn run<const N: usize>(&self, out: &mut [f64]) -> Found {
         let simd = self.simd;
-        let stores = self.stores;
+        let stores = if out.len() >= STREAMED { Stores::Streamed } else { Stores::Cached };
         let vector = size_of::<S::Values>();
         let misaligned = out.as_ptr().addr() % vector;
         let streams = stores == Stores::Streamed;
         let head = if streams && misaligned != 0 { (vector - misaligned) / 8 } else { 0 };
         let (head, body) = out.split_at_mut(head);
-        let mut room = self.room(N);
-        self.partial(0, head, &mut room, undecided);
-        let (mut at, mut piece) = (head.len(), 0);
+        let (mut room, mut found) = (self.room(N), Found::default());
+        self.partial(0, head, &mut room, &mut found);
+        let (mut at, mut trail) = (head.len(), Trail::default());
         let size = N * S::LANES;
         let mut blocks = body.chunks_exact_mut(size);
         for block in &mut blocks {
-            let values = self.block::<N>(at, &mut piece, &mut room);
-            self.write((at, block), stores, values, undecided);
+            let values = self.block::<N>(at, &mut trail, &mut room, &mut found);
+            self.write((at, block), stores, values, &mut found.undecided);
             at += size;
         }
-        self.partial(at, blocks.into_remainder(), &mut room, undecided);
+        self.partial(at, blocks.into_remainder(), &mut room, &mut found);
         if streams {
             simd.fence();
         }
+        found
     }
 }
 

@@ -13,7 +13,7 @@ mod scalar;
 mod simd;
 mod work;
 
-pub(crate) use blocks::{Many, Neighbours, Stores};
+pub(crate) use blocks::{Found, Many};
 #[cfg(any(test, target_arch = "aarch64"))]
 use eight::Eight;
 pub(crate) use horner::{Certified, Evaluate, Plain};

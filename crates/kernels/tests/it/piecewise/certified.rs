@@ -7,11 +7,17 @@ use wavestep_kernels::{Level, Piece, Table};
 fn check(table: &Table, pieces: &[Piece], times: &[f64], level: Level) -> usize {
     let mut out = vec![0.0; times.len()];
     let evaluator = table.evaluator().with_level(level);
-    let undecided = evaluator.rounded_unsorted(times, &mut out);
+    let undecided = evaluator.rounded(times, &mut out);
     assert!(undecided.is_sorted_by(|a, b| a < b));
+    let mut order: Vec<usize> = (0..times.len()).collect();
+    order.sort_by(|&i, &j| times[i].total_cmp(&times[j]));
+    let ascending: Vec<f64> = order.iter().map(|&i| times[i]).collect();
     let mut again = vec![0.0; times.len()];
-    assert_eq!(evaluator.rounded_sorted(times, &mut again), undecided);
-    assert_eq!(bits(&again), bits(&out));
+    let mut also_undecided = evaluator.rounded(&ascending, &mut again);
+    also_undecided.iter_mut().for_each(|i| *i = order[*i]);
+    also_undecided.sort_unstable();
+    assert_eq!(also_undecided, undecided);
+    assert_eq!(bits(&again), order.iter().map(|&i| out[i].to_bits()).collect::<Vec<_>>());
     for (i, (&t, &value)) in times.iter().zip(&out).enumerate() {
         let decided = undecided.binary_search(&i).is_err();
         if decided {
@@ -133,7 +139,7 @@ fn near_midpoints_the_error_decides() {
             let mut out = [0.0; 100];
             let evaluator = table.evaluator().with_level(level);
             let times = std::array::from_fn::<f64, 100, _>(|i| i as f64 * 0.01);
-            let undecided = evaluator.rounded_sorted(&times, &mut out);
+            let undecided = evaluator.rounded(&times, &mut out);
             assert_eq!(
                 undecided.len(),
                 if decided { 0 } else { 100 },
@@ -159,15 +165,18 @@ fn sorted_times_agree_and_outside_is_decided() {
     let times: Vec<f64> = (0..count).map(|i| (i as f64).mul_add(step, from)).collect();
     for level in Level::available() {
         let evaluator = table.evaluator().with_level(level);
-        let (mut expected, mut out) = (vec![0.0; count], vec![0.0; count]);
-        let undecided = evaluator.rounded_unsorted(&times, &mut expected);
+        let mut out = vec![0.0; count];
+        let undecided = evaluator.rounded(&times, &mut out);
         let in_doubt = |&i: &usize| {
             let inside = (0.0..=end).contains(&times[i]);
             inside && piece_at(&pieces, times[i]).error > 0.0
         };
         assert_eq!(undecided, (0..count).filter(in_doubt).collect::<Vec<_>>());
-        assert_eq!(evaluator.rounded_sorted(&times, &mut out), undecided);
-        assert_eq!(bits(&out), bits(&expected));
+        let mut alone = [0.0];
+        for (time, value) in times.iter().zip(&out) {
+            evaluator.rounded(&[*time], &mut alone);
+            assert_eq!(alone[0].to_bits(), value.to_bits(), "{level:?} at {time:e}");
+        }
     }
 }
 

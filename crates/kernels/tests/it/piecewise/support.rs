@@ -186,14 +186,14 @@ pub fn times(pieces: &[Piece], end: f64, count: usize, random: &mut Random) -> V
 /// The value at one time alone.
 pub fn value(evaluator: Evaluator<'_>, time: f64) -> f64 {
     let mut out = [0.0];
-    evaluator.unsorted(&[time], &mut out);
+    evaluator.values(&[time], &mut out);
     out[0]
 }
 
 /// The correctly rounded value at one time alone, where it is decided.
 pub fn rounded(evaluator: Evaluator<'_>, time: f64) -> Option<f64> {
     let mut out = [0.0];
-    evaluator.rounded_unsorted(&[time], &mut out).is_empty().then_some(out[0])
+    evaluator.rounded(&[time], &mut out).is_empty().then_some(out[0])
 }
 
 /// Bits, so that doubles compare as they are, NaN and the sign of 0 included.

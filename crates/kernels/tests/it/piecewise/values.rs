@@ -1,7 +1,7 @@
 //! Values of tables: within their bounds, and the same double whatever the way.
 
 use crate::piecewise::support::*;
-use wavestep_kernels::{Level, Piece, ascend};
+use wavestep_kernels::{Level, Piece};
 
 #[test]
 fn values_are_within_the_bound_at_every_level() {
@@ -14,7 +14,7 @@ fn values_are_within_the_bound_at_every_level() {
         let bound = Dyadic::new(table.bound());
         let mut out = vec![0.0; times.len()];
         for level in Level::available() {
-            table.evaluator().with_level(level).unsorted(&times, &mut out);
+            table.evaluator().with_level(level).values(&times, &mut out);
             let mut largest = 0.0_f64;
             for ((&value, exact), t) in out.iter().zip(&exact).zip(&times) {
                 let error = Dyadic::new(value).subtract(exact).abs();
@@ -38,7 +38,7 @@ fn the_bound_is_not_slack() {
         for level in Level::available() {
             let times = times(&pieces, end, 20_000, &mut random);
             let mut out = vec![0.0; times.len()];
-            table.evaluator().with_level(level).unsorted(&times, &mut out);
+            table.evaluator().with_level(level).values(&times, &mut out);
             let error = |(&t, &value): (&f64, &f64)| {
                 Dyadic::new(value).subtract(&exact(piece_at(&pieces, t), t)).abs().approximate()
             };
@@ -64,27 +64,25 @@ fn all_ways_give_the_same_doubles() {
         scattered.push(table.start().next_down());
         let mut ascending = scattered.clone();
         ascending.sort_by(f64::total_cmp);
+        let mixed = [&ascending[..], &scattered, &ascending].concat();
         let mut fused = Vec::new();
         for level in Level::available() {
             let evaluator = table.evaluator().with_level(level);
-            for times in [&scattered, &ascending] {
+            for times in [&scattered, &ascending, &mixed] {
                 let expected: Vec<f64> = times.iter().map(|&t| value(evaluator, t)).collect();
                 for (t, value) in times.iter().zip(&expected) {
                     let inside = table.start() <= *t && *t <= end;
                     assert_eq!(value.is_nan(), !inside, "{t:e}");
                 }
                 let mut out = vec![0.0; times.len()];
-                evaluator.sorted(times, &mut out);
-                assert_eq!(bits(&out), bits(&expected), "{shape:?} {level:?}");
-                out.fill(0.0);
-                evaluator.unsorted(times, &mut out);
+                assert!(!evaluator.values(times, &mut out));
                 assert_eq!(bits(&out), bits(&expected), "{shape:?} {level:?}");
                 if level > Level::Baseline {
                     fused.push(bits(&expected));
                 }
             }
         }
-        assert!(fused.iter().skip(2).zip(&fused).all(|(a, b)| a == b), "AVX2 and AVX-512 differ");
+        assert!(fused.iter().skip(3).zip(&fused).all(|(a, b)| a == b), "AVX2 and AVX-512 differ");
     }
 }
 
@@ -100,10 +98,10 @@ fn sizes_and_alignments_do_not_matter() {
         for size in 0..=70 {
             for shift in 0..9 {
                 let mut out = [7.0; 80];
-                evaluator.sorted(&times[..size], &mut out[shift..shift + size]);
+                evaluator.values(&times[..size], &mut out[shift..shift + size]);
                 assert_eq!(bits(&out[shift..shift + size]), bits(&expected[..size]));
                 assert!(out[..shift].iter().chain(&out[shift + size..]).all(|&x| x == 7.0));
-                evaluator.sorted(&times[shift..shift + size], &mut out[..size]);
+                evaluator.values(&times[shift..shift + size], &mut out[..size]);
                 assert_eq!(bits(&out[..size]), bits(&expected[shift..shift + size]));
             }
         }
@@ -124,7 +122,7 @@ fn streamed_outputs_are_the_same() {
         let expected: Vec<u64> = times.iter().map(|&t| value(evaluator, t).to_bits()).collect();
         for shift in 0..8 {
             out.fill(7.0);
-            evaluator.sorted(&times, &mut out[shift..shift + count]);
+            evaluator.values(&times, &mut out[shift..shift + count]);
             assert!(bits(&out[shift..shift + count]) == expected, "{level:?} {shift}");
             assert!(out[..shift].iter().chain(&out[shift + count..]).all(|&x| x == 7.0));
         }
@@ -135,35 +133,33 @@ fn streamed_outputs_are_the_same() {
 #[should_panic(expected = "one place for every time")]
 fn times_and_places_must_be_equally_many() {
     let (mut pieces, end) = pieces(TYPICAL, &mut Random(7));
-    table(&mut pieces, end).evaluator().sorted(&[0.0, 0.1], &mut [0.0]);
+    table(&mut pieces, end).evaluator().values(&[0.0, 0.1], &mut [0.0]);
 }
 
-/// Parts are streamed where all of them are; the values do not change.
+/// Wherever it stands among times in order and in none, and however many there are.
 #[test]
-fn parts_have_the_values_of_the_whole() {
+fn one_time_outside_is_noticed() {
     let (mut pieces, end) = pieces(TYPICAL, &mut Random(8));
     let table = table(&mut pieces, end);
-    let times: Vec<f64> = (0..5000).map(|i| f64::from(i) * end / 5000.0).collect();
-    let mut whole = vec![0.0; 5000];
-    table.evaluator().sorted(&times, &mut whole);
-    let mut parts = vec![0.0; 5000];
-    for (times, parts) in times.chunks(999).zip(parts.chunks_mut(999)) {
-        table.evaluator().in_parts_of(1 << 20).sorted(times, parts);
-    }
-    assert_eq!(bits(&parts), bits(&whole));
-}
-
-#[test]
-fn times_that_ascend_are_told_from_others() {
-    for count in [0, 1, 2, 7, 64, 101] {
-        let times: Vec<f64> = (0..count).map(|i| f64::from(i / 2)).collect();
-        assert!(ascend(&times), "{count}");
-        for place in 0..times.len() {
-            let mut other = times.clone();
-            other[place] = f64::NAN;
-            assert!(!ascend(&other), "not a number at {place} of {count}");
-            other[place] = -1.0;
-            assert_eq!(ascend(&other), place == 0, "less at {place} of {count}");
+    let start = table.start();
+    for count in [0, 1, 7, 64, 150] {
+        let ascending: Vec<f64> =
+            (0..count).map(|i| start + (end - start) * f64::from(i) / 149.0).collect();
+        let scattered = (0..ascending.len()).map(|i| ascending[i * 61 % ascending.len()]).collect();
+        for times in [ascending.clone(), scattered] {
+            for level in Level::available() {
+                let evaluator = table.evaluator().with_level(level);
+                let mut out = vec![0.0; times.len()];
+                assert!(evaluator.values(&times, &mut out), "{count} {level:?}");
+                for place in 0..times.len() {
+                    for outside in [f64::NAN, start.next_down(), end.next_up()] {
+                        let mut times = times.clone();
+                        times[place] = outside;
+                        let is_inside = evaluator.values(&times, &mut out);
+                        assert!(!is_inside, "{outside:e} at {place} of {count}, {level:?}");
+                    }
+                }
+            }
         }
     }
 }
