@@ -102,6 +102,11 @@ impl ComplexBall {
         Self::new(product(&self.re), product(&self.im))
     }
 
+    /// `z/n`, where `n` is not zero.
+    pub fn over(&self, divisor: u64, precision: u64) -> Self {
+        Self::new(self.re.over(divisor, precision), self.im.over(divisor, precision))
+    }
+
     /// `1/z = (re − i·im)/(re² + im²)`.
     pub fn reciprocal(&self, precision: u64) -> Result<Self, BallError> {
         let norm = self.re.square(precision).add(&self.im.square(precision), precision);

@@ -106,8 +106,7 @@ impl Course {
                         _ => {}
                     }
                 }
-                let next = Rational::new(1.into(), (i as u64 + 1).into());
-                power = power.multiply(rate, bits).multiply_rational(&next, bits);
+                power = power.multiply(rate, bits).over(i as u64 + 1, bits);
             }
         }
         let real = |value: ComplexBall| -> Number { Number::Enclosed(value.real().clone()) };

@@ -41,6 +41,8 @@ const NEGLIGIBLE_BITS: i64 = 64;
 struct Piece {
     /// Its first instant and its last.
     ends: [Moment; 2],
+    /// When it begins, and how long it lasts.
+    course: [Number; 2],
     /// From its first instant on, in the user's units and the time of the scene.
     series: Series,
     /// The sizes of the parts it is the sum of.
@@ -327,16 +329,21 @@ impl<'a> FollowedSignal<'a> {
         stretch: usize,
         at: At<'_>,
     ) -> Result<Number, EvaluateError> {
-        let [from, to] = &followed.piece(stretch).ends;
-        let number = match at {
-            At::End(Limit::Right) => return Ok(Number::zero()),
-            At::End(Limit::Left) => followed.engine.clock.since(from, to)?,
+        let Piece { ends: [from, _], course: [start, length], .. } = followed.piece(stretch);
+        let clock = &followed.engine.clock;
+        Ok(match at {
+            At::End(Limit::Right) => Number::zero(),
+            At::End(Limit::Left) => length.clone(),
             At::Time(time) => {
-                followed.engine.clock.since(from, &Moment::at(self.scaled_time(time)))?
+                let since = followed.scaled(time).subtract(start, clock.bits);
+                match since.sign() {
+                    Some(_) => since,
+                    // It may be the first instant itself.
+                    None => clock.since(from, &Moment::at(self.scaled_time(time)))?,
+                }
             }
-            At::Scaled(time) => followed.engine.clock.since(from, &Moment::at(time.clone()))?,
-        };
-        Ok(number)
+            At::Scaled(time) => clock.since(from, &Moment::at(time.clone()))?,
+        })
     }
 }
 
@@ -386,11 +393,23 @@ impl Followed {
                 Some(last) if last.goes_on(&series, start, is_continuous, engine)? => {
                     last.ends[1] = end.clone();
                 }
-                _ => pieces.push(Piece { ends: [start.clone(), end.clone()], series, size }),
+                _ => {
+                    let (ends, course) = ([start.clone(), end.clone()], [0, 1].map(Number::integer));
+                    pieces.push(Piece { ends, course, series, size });
+                }
             }
         }
-        (0..self.integrated).try_for_each(|_| integrate(&mut pieces, engine))?;
+        for Piece { ends: [from, to], course, .. } in &mut pieces {
+            *course = [engine.clock.time(from)?, engine.clock.since(from, to)?];
+        }
+        (0..self.integrated).for_each(|_| integrate(&mut pieces, engine));
         Ok(self.pieces.get_or_init(|| pieces))
+    }
+
+    /// A length of the user's time in the scale of the scene.
+    fn scaled(&self, time: &Rational) -> Number {
+        let bits = self.engine.cut.bits;
+        Number::of_rational(time.clone(), bits).multiply(&self.unit[1], bits)
     }
 
     fn piece(&self, stretch: usize) -> &Piece {
@@ -398,15 +417,14 @@ impl Followed {
     }
 
     /// How far times up to `h` from one go beyond the ends of a piece at most.
-    fn beyond(&self, stretch: usize, at: &Number, h: &Number) -> Result<Magnitude, EvaluateError> {
-        let [from, to] = &self.piece(stretch).ends;
-        let (clock, bits) = (&self.engine.clock, self.engine.cut.bits);
-        let after = at.add(h, bits).subtract(&clock.since(from, to)?, bits);
+    fn beyond(&self, stretch: usize, at: &Number, h: &Number) -> Magnitude {
+        let ([_, length], bits) = (&self.piece(stretch).course, self.engine.cut.bits);
+        let after = at.add(h, bits).subtract(length, bits);
         let positive = |time: Number| match time.sign() {
             Some(Ordering::Less | Ordering::Equal) => Magnitude::ZERO,
             _ => time.magnitude(),
         };
-        Ok(positive(after).max(positive(h.subtract(at, bits))))
+        positive(after).max(positive(h.subtract(at, bits)))
     }
 
     /// The derivative of an order with respect to the user's time, from the first instant of a piece on.
@@ -420,15 +438,13 @@ impl Followed {
 }
 
 /// Replaces a function by its integral from the first instant on.
-fn integrate(pieces: &mut [Piece], engine: &Engine) -> Result<(), HistoryError> {
+fn integrate(pieces: &mut [Piece], engine: &Engine) {
     let mut sum = Number::zero();
-    for piece in pieces {
-        piece.size = piece.size.max(sum.magnitude());
-        piece.series = piece.series.integral(sum, &engine.cut);
-        let length = engine.clock.since(&piece.ends[0], &piece.ends[1])?;
-        sum = piece.series.value(&length, &engine.cut);
+    for Piece { course: [_, length], series, size, .. } in pieces {
+        *size = (*size).max(sum.magnitude());
+        *series = series.integral(sum, &engine.cut);
+        sum = series.value(length, &engine.cut);
     }
-    Ok(())
 }
 
 /// The sum of parts from an instant on, and of their sizes.
@@ -610,9 +626,9 @@ impl Signal for FollowedSignal<'_> {
             Limit::Left if stretch + 1 == pieces.len() => return Some(self.window[1].clone()),
             _ => {}
         }
-        let place = usize::from(end == Limit::Left);
-        let time = known.engine.clock.time(&pieces[stretch].ends[place]).ok()?;
-        Some(time.exact()? * known.unit[0].exact()?)
+        let Moment { event, delay } = &pieces[stretch].ends[usize::from(end == Limit::Left)];
+        let since_start = event.is_none().then(|| delay.as_constant())??;
+        Some(since_start * known.unit[0].exact()?)
     }
 
     fn time(&self, stretch: usize, end: Limit, bits: u64) -> Result<Ball, EvaluateError> {
@@ -634,7 +650,7 @@ impl Signal for FollowedSignal<'_> {
     ) -> Result<Ball, EvaluateError> {
         let followed = self.cut(bits)?;
         let at = self.since(&followed, stretch, at)?;
-        let beyond = followed.beyond(stretch, &at, &Number::zero())?;
+        let beyond = followed.beyond(stretch, &at, &Number::zero());
         let cut = &followed.engine.cut;
         Ok(followed.derivative(stretch, order).extended(&beyond, cut).value(&at, cut).ball(bits))
     }
@@ -651,8 +667,8 @@ impl Signal for FollowedSignal<'_> {
         // A finer history may be known than is asked for.
         let cut = &Truncation { bits: followed.engine.cut.bits.min(bits), ..followed.engine.cut };
         let at = self.since(&followed, stretch, At::Time(middle))?;
-        let h = followed.engine.clock.number(&self.scaled_time(half))?;
-        let beyond = followed.beyond(stretch, &at, &h)?;
+        let h = followed.scaled(half);
+        let beyond = followed.beyond(stretch, &at, &h);
         let series = followed.derivative(stretch, order).extended(&beyond, cut);
         let (near, remainder) = series.about(&at, &h.magnitude(), terms, cut);
         let mut power = Number::one();

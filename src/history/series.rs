@@ -312,7 +312,12 @@ impl Series {
 
     /// How many derivatives are known to be exactly zero at the start; all of them where it is zero.
     pub fn flatness(&self) -> usize {
-        if self.is_zero() { usize::MAX } else { self.flat }
+        let leading = || self.coefficients.iter().take_while(|c| c.is_zero()).count();
+        match self.rest.is_zero() {
+            true if self.coefficients.is_empty() => usize::MAX,
+            true => self.flat.max(leading()),
+            false => self.flat,
+        }
     }
 
     fn with_slope(self, slope: Option<Magnitude>) -> Series {

@@ -18,9 +18,10 @@
 
 use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::{EnclosureError, Numbers, real_part};
-use crate::expression::{Field as _, Transform};
+use crate::expression::{Field as _, Fraction, Transform};
 use crate::signal::error::EvaluateError;
 use crate::signal::transforms::{divided_powers, dot, exponential};
+use std::collections::BTreeMap;
 use wavestep_polynomial::Rational;
 
 /// The powers of two that are tried for `1/θ`.
@@ -63,35 +64,10 @@ impl Taylor<ComplexBall> {
         numbers: &Numbers,
         bits: u64,
     ) -> Result<Self, EvaluateError> {
-        Taylor::weighted(function, (x, h, &Ball::zero()), terms, numbers, bits)
-    }
-
-    /// `e^(−wu) f(x₀ + hu)` with a weight `w`.
-    pub fn weighted(
-        function: &Transform<ComplexBall>,
-        (x, h, weight): (&ComplexBall, &ComplexBall, &Ball),
-        terms: usize,
-        numbers: &Numbers,
-        bits: u64,
-    ) -> Result<Self, EvaluateError> {
-        let mut sum = Taylor::zero(terms);
-        let scales = divided_powers(h, terms, bits);
-        let weight = ComplexBall::from(weight.clone().negate());
-        let field = numbers.field(bits);
-        for (pole, coefficients) in function.poles() {
-            let part = polynomial(coefficients, x, &scales, h, bits);
-            let rate = field.embed(&pole.clone().into())?.multiply(h, bits).add(&weight, bits);
-            let part = match pole.is_zero() && rate.magnitude().is_zero() {
-                true => part,
-                false => match exponential(pole, x, numbers, bits) {
-                    Ok(factor) => part.times_exponential(&rate, &factor, bits),
-                    // Beyond what balls hold.
-                    Err(_) => part.unknown(),
-                },
-            };
-            sum.add_scaled(&part, &ComplexBall::one(), bits);
-        }
-        Ok(sum)
+        let weight = Ball::zero();
+        let mut expansion = Expansion::new((h, &weight), terms, numbers, bits);
+        expansion.add(function, x, &ComplexBall::one());
+        expansion.sum()
     }
 
     /// With a remainder that tells nothing.
@@ -107,8 +83,8 @@ impl Taylor<ComplexBall> {
         self.remainder = self.remainder.add(&other.remainder.multiply(&factor.magnitude()));
     }
 
-    /// Times a factor and `e^(ru)`.
-    fn times_exponential(self, rate: &ComplexBall, factor: &ComplexBall, bits: u64) -> Self {
+    /// Times `e^(ru)`.
+    fn times_exponential(self, rate: &ComplexBall, bits: u64) -> Self {
         let terms = self.coefficients.len();
         let eta = rate.magnitude();
         if eta.scale(1) > Magnitude::from_u64(terms as u64 + 1) {
@@ -118,7 +94,7 @@ impl Taylor<ComplexBall> {
                 Some(most) => {
                     let sizes = self.coefficients.iter().map(ComplexBall::magnitude);
                     let whole = sizes.fold(self.remainder, |sum, size| sum.add(&size));
-                    let remainder = whole.multiply(&most).multiply(&factor.magnitude());
+                    let remainder = whole.multiply(&most);
                     Taylor { remainder, ..Taylor::zero(terms) }
                 }
             };
@@ -132,7 +108,7 @@ impl Taylor<ComplexBall> {
             for i in 0..=k {
                 sum = sum.add(&self.coefficients[i].multiply(&series[k - i], bits), bits);
             }
-            coefficients.push(sum.multiply(factor, bits));
+            coefficients.push(sum);
         }
         // above[i]: the sum of |e_j| from j = terms − i on, the rest included.
         let mut above = vec![rest];
@@ -142,7 +118,7 @@ impl Taylor<ComplexBall> {
         let products = self.coefficients.iter().zip(&above).map(|(c, a)| c.magnitude().multiply(a));
         let products = products.fold(Magnitude::ZERO, |sum, product| sum.add(&product));
         let whole = &above[terms];
-        let remainder = products.add(&self.remainder.multiply(whole)).multiply(&factor.magnitude());
+        let remainder = products.add(&self.remainder.multiply(whole));
         Taylor { coefficients, remainder }
     }
 
@@ -150,6 +126,64 @@ impl Taylor<ComplexBall> {
     pub fn real(self) -> Result<Taylor, EnclosureError> {
         let real: Result<_, _> = self.coefficients.into_iter().map(real_part).collect();
         Ok(Taylor { coefficients: real?, remainder: self.remainder })
+    }
+}
+
+/// `e^(−wu) Σ f(x₀ + hu)` with a weight `w`: of functions about places of their own, added up pole by pole, so that
+/// each exponential is multiplied out once.
+pub(crate) struct Expansion<'a> {
+    h: &'a ComplexBall,
+    weight: &'a Ball,
+    terms: usize,
+    numbers: &'a Numbers,
+    bits: u64,
+    /// `h^m/m!`.
+    scales: Vec<ComplexBall>,
+    /// What each exponential is multiplied with.
+    polynomials: BTreeMap<Fraction, Taylor<ComplexBall>>,
+}
+
+impl<'a> Expansion<'a> {
+    /// Of nothing yet, with so many terms.
+    pub fn new(
+        (h, weight): (&'a ComplexBall, &'a Ball),
+        terms: usize,
+        numbers: &'a Numbers,
+        bits: u64,
+    ) -> Self {
+        let scales = divided_powers(h, terms, bits);
+        let polynomials = BTreeMap::new();
+        Expansion { h, weight, terms, numbers, bits, scales, polynomials }
+    }
+
+    /// Adds `factor · f(x + hu)`.
+    pub fn add(&mut self, function: &Transform<ComplexBall>, x: &ComplexBall, factor: &ComplexBall) {
+        let (terms, bits) = (self.terms, self.bits);
+        for (pole, coefficients) in function.poles() {
+            let part = polynomial(coefficients, x, &self.scales, self.h, bits);
+            let own = self.polynomials.entry(pole.clone()).or_insert_with(|| Taylor::zero(terms));
+            match exponential(pole, x, self.numbers, bits) {
+                Ok(size) => own.add_scaled(&part, &size.multiply(factor, bits), bits),
+                // Beyond what balls hold.
+                Err(_) => own.remainder = Magnitude::power_of_two(WIDE),
+            }
+        }
+    }
+
+    /// The sum of all that was added.
+    pub fn sum(self) -> Result<Taylor<ComplexBall>, EvaluateError> {
+        let (field, bits) = (self.numbers.field(self.bits), self.bits);
+        let weight = ComplexBall::from(self.weight.clone().negate());
+        let mut sum = Taylor::zero(self.terms);
+        for (pole, part) in self.polynomials {
+            let rate = field.embed(&pole.into())?.multiply(self.h, bits).add(&weight, bits);
+            let part = match rate.magnitude().is_zero() {
+                true => part,
+                false => part.times_exponential(&rate, bits),
+            };
+            sum.add_scaled(&part, &ComplexBall::one(), bits);
+        }
+        Ok(sum)
     }
 }
 
@@ -226,7 +260,7 @@ impl Taylor {
     /// `∫_0^u p`, with one more term. The remainder is the same, since `|u| ≤ 1`.
     pub(crate) fn antiderivative(mut self, bits: u64) -> Taylor {
         for (k, c) in self.coefficients.iter_mut().enumerate() {
-            *c = c.multiply_rational(&Rational::new(1.into(), (k + 1).into()), bits);
+            *c = c.over(k as u64 + 1, bits);
         }
         self.coefficients.insert(0, Ball::zero());
         self

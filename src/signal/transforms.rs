@@ -7,7 +7,6 @@ use crate::enclosure::Numbers;
 use crate::expression::{Field as _, Fraction, Transform};
 use crate::signal::error::EvaluateError;
 use std::collections::BTreeMap;
-use wavestep_polynomial::Rational;
 
 /// `Σ_j c_j x^j/j!`, by Horner's rule.
 pub(crate) fn in_divided_powers(
@@ -17,8 +16,7 @@ pub(crate) fn in_divided_powers(
 ) -> ComplexBall {
     let mut value = ComplexBall::zero();
     for (j, coefficient) in coefficients.iter().enumerate().rev() {
-        let share = Rational::new(1.into(), (j + 1).into());
-        value = value.multiply(x, bits).multiply_rational(&share, bits).add(coefficient, bits);
+        value = value.multiply(x, bits).over(j as u64 + 1, bits).add(coefficient, bits);
     }
     value
 }
@@ -29,8 +27,7 @@ pub(crate) fn divided_powers(x: &ComplexBall, count: usize, bits: u64) -> Vec<Co
     let mut powers = Vec::with_capacity(count);
     for j in 0..count {
         powers.push(power.clone());
-        let share = Rational::new(1.into(), (j + 1).into());
-        power = power.multiply(x, bits).multiply_rational(&share, bits);
+        power = power.multiply(x, bits).over(j as u64 + 1, bits);
     }
     powers
 }

@@ -8,7 +8,7 @@ use crate::expression::{Field as _, Fraction, Transform};
 use crate::limits::MAX_PIECES;
 use crate::recurrence::ObservedWave;
 use crate::signal::error::EvaluateError;
-use crate::signal::taylor::Taylor;
+use crate::signal::taylor::{Expansion, Taylor};
 use crate::signal::transforms::value_at;
 use std::collections::BTreeMap;
 use wavestep_polynomial::Rational;
@@ -178,14 +178,12 @@ impl ClosedForm {
         let field = self.numbers.field(bits);
         let h = field.embed(&self.slowness.scale(half).into())?;
         let at = self.slowness.scale(centre);
-        let mut sum = Taylor::<ComplexBall>::zero(terms);
+        let mut expansion = Expansion::new((&h, weight), terms, &self.numbers, bits);
         self.for_each_function(stretch, derivative, bits, |function, origin, coefficient| {
-            let x = field.embed(&(&at - origin).into())?;
-            let part = Taylor::weighted(function, (&x, &h, weight), terms, &self.numbers, bits)?;
-            sum.add_scaled(&part, coefficient, bits);
+            expansion.add(function, &field.embed(&(&at - origin).into())?, coefficient);
             Ok(())
         })?;
-        let mut sum = sum.real()?;
+        let mut sum = expansion.sum()?.real()?;
         if derivative > 0 {
             let one = Ball::from_integer(&1.into());
             sum = sum.scaled(&self.times_slowness(one, derivative, bits)?, bits);

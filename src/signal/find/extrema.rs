@@ -255,15 +255,12 @@ impl<'s> Search<'s> {
                 moving.push(stretch);
             }
         }
-        for candidate in &left {
-            record.note(&contenders.value(&mut candidate.clone(), comparisons().first())?);
-        }
-        left.retain(|candidate| match candidate {
-            Candidate::Limit { stretch, side } => {
-                let signed = self.function.signed(*stretch).filter(|own| own.holds_at(*side));
-                !signed.is_some_and(|own| record.beats_sign(own.sign))
-            }
-            _ => true,
+        let values = contenders.values(&mut left, comparisons().first())?;
+        values.iter().for_each(|value| record.note(value));
+        let mut values = values.iter();
+        left.retain(|candidate| {
+            let is_beaten = record.beats(values.next().expect("one value each"));
+            !is_beaten && !contenders.is_beaten_by_sign(candidate, &record)
         });
         let target = Target { order: 1, level: &zero, limit_bits };
         for i in counted(0..moving.len(), "of the stretches") {
@@ -341,6 +338,13 @@ impl Contenders<'_, '_> {
             }
         };
         Ok(self.signed(value))
+    }
+
+    /// Whether a limit is beaten by the sign that is known of it.
+    fn is_beaten_by_sign(&self, candidate: &Candidate, record: &Record) -> bool {
+        let Candidate::Limit { stretch, side } = candidate else { return false };
+        let signed = self.search.function.signed(*stretch).filter(|own| own.holds_at(*side));
+        signed.is_some_and(|own| record.beats_sign(own.sign))
     }
 
     /// The values at all candidates that are left.

@@ -115,12 +115,13 @@ impl<'a> Search<'a> {
         let attempt = |bits| {
             let sign = match (self.enclose(stretch, target, at, bits)?.sign(), target.order, at) {
                 (None, 0, _) if bits == precisions.first() => {
-                    let exact = function.exact(stretch, at)?;
-                    exact.map(|value| value.cmp(target.level)).or_else(|| {
-                        let At::End(end) = at else { return None };
-                        let signed = function.signed(stretch).filter(|own| own.holds_at(end))?;
-                        (*target.level == Rational::default()).then_some(signed.sign)
-                    })
+                    match (function.exact(stretch, at)?, at) {
+                        (Some(value), _) => Some(value.cmp(target.level)),
+                        (None, At::End(end)) if *target.level == Rational::default() => {
+                            self.sign_at_end(stretch, end)?
+                        }
+                        (None, _) => None,
+                    }
                 }
                 (None, 1, At::End(side)) if bits == precisions.first() => {
                     self.slope_vanishes(stretch, side)?.then_some(Ordering::Equal)
@@ -130,6 +131,20 @@ impl<'a> Search<'a> {
             Ok(Attempt::of(sign, sign.is_some()))
         };
         precisions.raise(attempt).map(Attempt::best)
+    }
+
+    /// What is known of the sign in the limit at an end of a stretch, whatever enclosures tell.
+    fn sign_at_end(
+        &self,
+        stretch: usize,
+        end: Limit,
+    ) -> Result<Option<Ordering>, EvaluateError> {
+        let signed = self.function.signed(stretch).filter(|own| own.holds_at(end));
+        if let Some(signed) = signed {
+            return Ok(Some(signed.sign));
+        }
+        let vanishes = self.function.flatness(stretch, end, 0)? > 0;
+        Ok(vanishes.then_some(Ordering::Equal))
     }
 
     /// Whether the derivative in the limit at an end of a stretch is known to be exactly zero.

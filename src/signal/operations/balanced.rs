@@ -8,6 +8,7 @@ use crate::expression::{Expression, Fraction};
 use crate::signal::{At, EchoCount, Effort, Enclosure, Known, Limit, Signal, Taylor};
 use num_traits::{One as _, Zero as _};
 use std::cell::OnceCell;
+use std::cmp::Ordering;
 use std::ops::Range;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
@@ -84,21 +85,23 @@ impl<'a> Balanced<'a> {
     }
 
     /// Whether the quantity is known to be zero at the beginning or the end of a place: where nothing has
-    /// flowed in on one side of it.
+    /// flowed in on one side of it, or at the beginning of the window.
     fn is_zero_at(&self, place: usize, end: Limit) -> Outcome<bool> {
         let own = self.stretch(place, end);
-        let is_zero = |stretch: usize| -> Outcome<bool> {
-            if !self.is_still(stretch)? {
-                return Ok(false);
-            }
+        let begins_at_zero = |stretch: usize| -> Outcome<bool> {
             let start = locate(&*self.of, &Mark::of(&*self.flow, stretch), Limit::Right)?;
-            let exact = || self.of.exact(start, At::End(Limit::Right));
-            Ok(self.of.is_zero(start) || exact()?.is_some_and(|value| value.is_zero()))
+            let first = At::End(Limit::Right);
+            let exact = || self.of.exact(start, first);
+            Ok(self.of.is_zero(start)
+                || self.of.enclose(start, 0, first, STILL_BITS)?.sign() == Some(Ordering::Equal)
+                || exact()?.is_some_and(|value| value.is_zero()))
         };
+        let stays_zero = |stretch| Ok(self.is_still(stretch)? && begins_at_zero(stretch)?);
         match (end, own.checked_sub(1)) {
-            _ if is_zero(own)? => Ok(true),
-            (Limit::Right, Some(before)) => is_zero(before),
-            _ => Ok(false),
+            _ if stays_zero(own)? => Ok(true),
+            (Limit::Right, Some(before)) => stays_zero(before),
+            (Limit::Right, None) => begins_at_zero(own),
+            (Limit::Left, _) => Ok(false),
         }
     }
 

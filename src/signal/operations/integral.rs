@@ -26,8 +26,9 @@ use wavestep_polynomial::Rational;
 /// How often a stretch is halved at most.
 const MAX_DEPTH: usize = 40;
 
-/// Cells are widened by `1/SLACK`, so that an enclosed end lies inside.
-const SLACK: u64 = 1 << 16;
+/// Cells are widened by `1/SLACK`, so that an enclosed end lies inside; by no more, since beyond its stretch a function
+/// grows at the fastest rate of its scene.
+const SLACK: u64 = 1 << 48;
 
 /// Radius, as a power of two, returned where the time is too uncertain; callers retry with more bits.
 const WIDE: i64 = 1 << 20;
@@ -294,7 +295,8 @@ impl Cell {
 
     /// Whether the polynomial holds at a time.
     fn holds(&self, time: &Ball, bits: u64) -> bool {
-        self.place(time, bits).magnitude() <= Magnitude::power_of_two(0)
+        let (lower, upper) = self.place(time, bits).endpoints();
+        [lower, upper].iter().all(|end| end.is_within(&Magnitude::power_of_two(0)))
     }
 
     /// The integral from the start of the first cell to a time within this one.

@@ -31,8 +31,9 @@ use crate::signal::{
     Signal, Taylor, last_begun,
 };
 use num_traits::{Signed as _, Zero as _};
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
 use std::cmp::Ordering;
+use std::collections::HashMap;
 use std::ops::Range;
 use std::rc::Rc;
 use wavestep_polynomial::{Rational, Symbol};
@@ -62,6 +63,8 @@ pub(crate) struct Scale<'a> {
     clock: &'a Symbol,
     assumptions: &'a Assumptions,
     numbers: Numbers,
+    /// Lengths of time in the user's, by bits: breaks are asked for again and again.
+    times: RefCell<HashMap<u64, HashMap<Fraction, Ball>>>,
 }
 
 impl<'a> Scale<'a> {
@@ -73,6 +76,7 @@ impl<'a> Scale<'a> {
             clock: &network.scene().time,
             assumptions: &model.assumptions,
             numbers: Numbers::new(&model.constants),
+            times: RefCell::default(),
         })
     }
 
@@ -84,6 +88,7 @@ impl<'a> Scale<'a> {
             clock: &recurrence.statement().time,
             assumptions: &recurrence.statement().assumptions,
             numbers: Numbers::new(recurrence.constants()),
+            times: RefCell::default(),
         })
     }
 
@@ -117,9 +122,14 @@ impl<'a> Scale<'a> {
 
     /// The same, enclosed.
     pub fn time(&self, length: &Fraction, bits: u64) -> Outcome<Ball> {
+        if let Some(known) = self.times.borrow().get(&bits).and_then(|times| times.get(length)) {
+            return Ok(known.clone());
+        }
         let slowness = self.numbers.enclose(&self.slowness, bits)?;
         let inverse = slowness.reciprocal(bits).map_err(EvaluateError::Ball)?;
-        Ok(self.numbers.enclose(length, bits)?.multiply(&inverse, bits))
+        let time = self.numbers.enclose(length, bits)?.multiply(&inverse, bits);
+        self.times.borrow_mut().entry(bits).or_default().insert(length.clone(), time.clone());
+        Ok(time)
     }
 }
 
