@@ -138,7 +138,7 @@ impl Engine {
 
     /// The contact at a bare end of a spring, which presses as the spring does, or the one that a local contact is, by
     /// its place among those of the node.
-    fn contact_of_spring(&self, lump: Lump) -> Option<usize> {
+    pub fn contact_of_spring(&self, lump: Lump) -> Option<usize> {
         let node = &self.nodes[lump.node];
         let Lumped { run, law, .. } = &node.elements[lump.place];
         if let Link::Local { .. } = node.links.get(*run)? {

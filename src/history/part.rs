@@ -10,7 +10,7 @@ use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
 use crate::history::series::{Series, Truncation};
 use crate::history::track::Track;
-use crate::network::{ElementLaw, Side, Window};
+use crate::network::{ElementLaw, Lump, Side, Window};
 use crate::signal::Limit;
 use std::borrow::Cow;
 
@@ -183,20 +183,32 @@ impl Engine {
     }
 
     /// Whether a part is known to be exactly zero just before an instant: the force of a contact that opens because it
-    /// came to zero; the compression of a local contact, while open its negative gap, that opens or closes by itself.
+    /// came to zero, with the compression of a spring that presses as it does; the compression of a local contact, while
+    /// open its negative gap, that opens or closes by itself.
     pub fn vanishes_before(&self, part: &Part, moment: &Moment) -> bool {
         let Source::Node { node, quantity } = part.source else { return false };
         let own = &self.nodes[node];
-        let contact = own.contacts().zip(0..).find(|((contact, _), force)| match quantity {
-            NodeQuantity::Force(place) => *force == place,
-            NodeQuantity::Compression(place) => own.local_contact(*contact) == Some(place),
-            NodeQuantity::Velocity(_) | NodeQuantity::Displacement(_) => false,
-        });
+        let is_local = |contact| match quantity {
+            NodeQuantity::Compression(place) => own.local_contact(contact) == Some(place),
+            _ => false,
+        };
+        let force = match quantity {
+            NodeQuantity::Force(place) => Some(place),
+            NodeQuantity::Compression(place) => match own.elements[place].law.resistance() {
+                Some([_, damping]) if damping.is_zero() => {
+                    self.contact_of_spring(Lump { node, place })
+                }
+                _ => None,
+            },
+            NodeQuantity::Velocity(_) | NodeQuantity::Displacement(_) => None,
+        };
+        let mut contacts = own.contacts().zip(0..);
+        let contact = contacts.find(|((own, _), place)| is_local(*own) || force == Some(*place));
         let Some(((contact, _), _)) = contact else { return false };
-        let is_compression = matches!(quantity, NodeQuantity::Compression(_));
         let mut happenings = self.happenings.iter().filter(|own| own.contact == contact);
         happenings.any(|own| {
-            own.cause == Cause::Crossing && (is_compression || !own.closes) && own.moment == *moment
+            let holds = is_local(contact) || !own.closes;
+            own.cause == Cause::Crossing && holds && own.moment == *moment
         })
     }
 

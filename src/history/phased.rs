@@ -394,7 +394,8 @@ impl Followed {
                     last.ends[1] = end.clone();
                 }
                 _ => {
-                    let (ends, course) = ([start.clone(), end.clone()], [0, 1].map(Number::integer));
+                    let (ends, course) =
+                        ([start.clone(), end.clone()], [0, 1].map(Number::integer));
                     pieces.push(Piece { ends, course, series, size });
                 }
             }

@@ -44,5 +44,5 @@ pub use signal::{At, EchoCount, Effort, Instant, Limit, Point, Signal, Signed};
 pub(crate) use signal::{Enclosure, Known, MAX_FLATNESS, has_begun, last_begun};
 pub(crate) use silence::Silence;
 pub use taps::{NoTaps, Taps};
-pub use taylor::Taylor;
+pub use taylor::{Expansion, Taylor};
 pub use varying::Varying;

@@ -252,6 +252,11 @@ pub trait Signal {
     /// Whether the function is known to be zero on a stretch.
     fn is_zero(&self, stretch: usize) -> bool;
 
+    /// A signal of which this one is the square, and a positive number that it is multiplied with.
+    fn square_of(&self) -> Option<(Ball, &dyn Signal)> {
+        None
+    }
+
     /// What is known of the sign of the function between the ends of a stretch, whatever enclosures tell.
     fn signed(&self, _: usize) -> Option<Signed> {
         None

@@ -131,7 +131,7 @@ impl Taylor<ComplexBall> {
 
 /// `e^(−wu) Σ f(x₀ + hu)` with a weight `w`: of functions about places of their own, added up pole by pole, so that
 /// each exponential is multiplied out once.
-pub(crate) struct Expansion<'a> {
+pub struct Expansion<'a> {
     h: &'a ComplexBall,
     weight: &'a Ball,
     terms: usize,
@@ -157,7 +157,12 @@ impl<'a> Expansion<'a> {
     }
 
     /// Adds `factor · f(x + hu)`.
-    pub fn add(&mut self, function: &Transform<ComplexBall>, x: &ComplexBall, factor: &ComplexBall) {
+    pub fn add(
+        &mut self,
+        function: &Transform<ComplexBall>,
+        x: &ComplexBall,
+        factor: &ComplexBall,
+    ) {
         let (terms, bits) = (self.terms, self.bits);
         for (pole, coefficients) in function.poles() {
             let part = polynomial(coefficients, x, &self.scales, self.h, bits);

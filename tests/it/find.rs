@@ -288,6 +288,7 @@ fn no_change_of_sign_is_missed() {
                         Root::End { time } | Root::Arrival { time, .. } => {
                             blind.push((rational(time), rational(time)));
                         }
+                        Root::Double { .. } => panic!("{quantity} is no square"),
                         Root::Undecided { from, to, .. } => blind.push((from.clone(), to.clone())),
                     }
                 }

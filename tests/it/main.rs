@@ -42,6 +42,7 @@ mod source;
 mod source_form;
 mod support;
 mod trials;
+mod zeros;
 
 use support::snapshot::snapshot;
 

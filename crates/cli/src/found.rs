@@ -166,6 +166,7 @@ fn root_line(root: &Root, told: &Told<'_>) -> String {
         Root::Simple { time, rises } => {
             format!("{} (simple, {})", at(time), if *rises { "rising" } else { "falling" })
         }
+        Root::Double { time } => format!("{} (double)", at(time)),
         Root::End { time } => format!("{} (exactly, at an end of the window)", at(time)),
         Root::Arrival { time, before, after } => {
             let limits = match (before, after) {
@@ -249,6 +250,7 @@ fn root_json(root: &Root) -> Json {
         Root::Simple { time, rises } => {
             json!({ "kind": "simple", "time": number(time), "rises": rises })
         }
+        Root::Double { time } => json!({ "kind": "double", "time": number(time) }),
         Root::End { time } => json!({ "kind": "end", "time": number(time) }),
         Root::Arrival { time, before, after } => {
             json!({ "kind": "arrival", "time": number(time), "before": before, "after": after })

@@ -43,6 +43,7 @@ fn perhaps(value: &Option<Proven>) -> Option<Value> {
 pub fn root<'py>(py: Python<'py>, root: &Root) -> Object<'py> {
     let (kind, from, to) = match root {
         Root::Simple { time, .. } => ("simple", time.clone(), time.clone()),
+        Root::Double { time } => ("double", time.clone(), time.clone()),
         Root::End { time } => ("end", time.clone(), time.clone()),
         Root::Arrival { time, .. } => ("arrival", time.clone(), time.clone()),
         Root::Jump { time, .. } => ("jump", time.clone(), time.clone()),

@@ -181,6 +181,11 @@ impl<'s> Search<'s> {
         digits: usize,
         limit_bits: u64,
     ) -> Result<Option<Extremum>, EvaluateError> {
+        if let (Goal::Smallest, None) = (goal, least)
+            && let Some(extremum) = self.smallest_of_square(digits, limit_bits)?
+        {
+            return Ok(Some(extremum));
+        }
         let contenders = self.contenders(goal, least, limit_bits)?;
         // Whether places differ by less than is known already is not worth following a scene once more.
         let ready =

@@ -5,7 +5,8 @@
 //! and every statement about one of them is proven with balls or decided exactly; what is not
 //! decided is returned as that. The proofs stand where the work is done: `cover` cuts a stretch
 //! into cells, `refine` narrows one root, `roots` and `extrema` put the answers together,
-//! `search` asks for exact values where an enclosure cannot tell zero from what is small. What kind of
+//! `search` asks for exact values where an enclosure cannot tell zero from what is small, `square` looks at what is
+//! squared instead. What kind of
 //! function it is they need not know: any [`Signal`](crate::signal::Signal) will do.
 //!
 //! Ends of stretches may be irrational. A cell there reaches a little beyond the end, where the
@@ -19,6 +20,7 @@ pub mod refine;
 mod roots;
 mod search;
 mod size;
+mod square;
 
 pub(crate) use cover::middle_and_half;
 pub use extrema::{Extremum, Goal, Place};

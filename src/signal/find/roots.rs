@@ -11,7 +11,7 @@
 //! - an open cell at an arrival where `f − v` and `f'` both vanish exactly and `f''` has a sign on
 //!   all of the cell: `f − v` has that sign beside the arrival.
 //!
-//! Between stretches the two limits tell of jumps.
+//! Between stretches the two limits tell of jumps. The roots of a [`square`](super::square) are those of what is squared.
 
 use crate::ball::{Ball, Value};
 use crate::limits::{MAX_ROOTS, counted};
@@ -42,6 +42,11 @@ pub enum Root {
         time: Value,
         /// Whether from below to above.
         rises: bool,
+    },
+    /// A root of a square, `f = 0`, without a change of sign.
+    Double {
+        /// When.
+        time: Value,
     },
     /// `f = v` exactly at an end of the window.
     End {
@@ -156,6 +161,11 @@ impl Search<'_> {
         digits: usize,
         limit_bits: u64,
     ) -> Result<Roots, EvaluateError> {
+        if *level == Rational::default()
+            && let Some(roots) = self.roots_of_square(digits, limit_bits)?
+        {
+            return Ok(roots);
+        }
         let target = Target { order: 0, level, limit_bits: self.most_bits(limit_bits) };
         self.work.set(0);
         let mut finder = Finder { search: self, target, digits, all: Vec::new() };

@@ -134,11 +134,7 @@ impl<'a> Search<'a> {
     }
 
     /// What is known of the sign in the limit at an end of a stretch, whatever enclosures tell.
-    fn sign_at_end(
-        &self,
-        stretch: usize,
-        end: Limit,
-    ) -> Result<Option<Ordering>, EvaluateError> {
+    fn sign_at_end(&self, stretch: usize, end: Limit) -> Result<Option<Ordering>, EvaluateError> {
         let signed = self.function.signed(stretch).filter(|own| own.holds_at(end));
         if let Some(signed) = signed {
             return Ok(Some(signed.sign));

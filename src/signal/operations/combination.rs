@@ -87,6 +87,12 @@ impl Rule for Combination<'_> {
         self.products.iter().all(|product| product.factors.iter().any(is_zero))
     }
 
+    fn square_of(&self) -> Option<(&Fraction, &dyn Signal)> {
+        let [Product { coefficient, factors }] = &self.products[..] else { return None };
+        let [one, other] = factors[..] else { return None };
+        (one == other).then(|| (coefficient, &*self.operands[one]))
+    }
+
     fn terms(
         &self,
         places: &[usize],

@@ -244,6 +244,11 @@ pub(crate) trait Rule {
 
     fn is_zero(&self, places: &[usize]) -> bool;
 
+    /// As [`Signal::square_of`], in the scale of the scene.
+    fn square_of(&self) -> Option<(&Fraction, &dyn Signal)> {
+        None
+    }
+
     /// Terms of which a derivative with respect to the user's time is the sum.
     fn terms(&self, places: &[usize], order: usize, at: &Mark<'_>, bits: u64)
     -> Outcome<Vec<Ball>>;
@@ -465,6 +470,13 @@ impl<R: Rule> Signal for Operation<'_, R> {
 
     fn is_zero(&self, stretch: usize) -> bool {
         self.rule.is_zero(&self.step(stretch).places)
+    }
+
+    fn square_of(&self) -> Option<(Ball, &dyn Signal)> {
+        let (factor, squared) = self.rule.square_of()?;
+        let factor = self.scale.numbers.enclose(factor, FIRST_BITS).ok()?;
+        let factor = self.in_unit(factor, FIRST_BITS).ok()?;
+        (factor.sign() == Some(Ordering::Greater)).then_some((factor, squared))
     }
 
     fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational> {

@@ -3,8 +3,8 @@
 use wavestep::ball::{Ball, ComplexBall, Magnitude};
 use wavestep::enclosure::Numbers;
 use wavestep::expression::{Expression, Field as _, Fraction, Transform};
-use wavestep::signal::Taylor;
 use wavestep::signal::transforms::value_at;
+use wavestep::signal::{Expansion, Taylor};
 use wavestep_polynomial::{Rational, Symbol};
 
 const BITS: u64 = 200;
@@ -78,9 +78,9 @@ fn weighted(
     for weight in [rational(-2, 1), rational(1, 3)] {
         let weight = Ball::from_rational(&(half * weight), BITS);
         let place = [centre, half].map(|value| ComplexBall::from(Ball::from_rational(value, BITS)));
-        let place = (&place[0], &place[1], &weight);
-        let taylor = Taylor::weighted(function, place, terms, numbers, BITS).unwrap();
-        let taylor = taylor.real().unwrap();
+        let mut expansion = Expansion::new((&place[1], &weight), terms, numbers, BITS);
+        expansion.add(function, &place[0], &ComplexBall::one());
+        let taylor = expansion.sum().unwrap().real().unwrap();
         for u in [-1, 0, 1].map(|u| rational(u, 1)) {
             let u = Ball::from_rational(&u, BITS);
             let factor = weight.clone().negate().multiply(&u, BITS).exp(BITS).unwrap();
@@ -105,7 +105,52 @@ fn a_fast_decay_is_small_and_has_a_sign() {
     let size = taylor.real().unwrap().value(&Ball::zero(), BITS).magnitude();
     assert!(size < Magnitude::power_of_two(-2_880_000), "{size:?}");
     let weight = Ball::from_integer(&(-1_000_000).into());
-    let signed = Taylor::weighted(&function, (&x, &h, &weight), 20, &numbers, BITS).unwrap();
-    let value = signed.real().unwrap().value(&Ball::symmetric(&rational(1, 1)), BITS);
+    let mut signed = Expansion::new((&h, &weight), 20, &numbers, BITS);
+    signed.add(&function, &x, &ComplexBall::one());
+    let value =
+        signed.sum().unwrap().real().unwrap().value(&Ball::symmetric(&rational(1, 1)), BITS);
     assert_eq!(value.sign(), Some(std::cmp::Ordering::Greater));
+}
+
+/// Functions about places of their own, of which some have the same rates, add up to what they are one by one.
+#[test]
+fn functions_about_several_places_add_up() {
+    let (symbol, numbers) = (Symbol::new("x").unwrap(), Numbers::new(&[]));
+    let field = numbers.field(BITS);
+    let x = Fraction::symbol(&symbol);
+    let times = |factor: Fraction, rate: Rational| {
+        Expression::from(factor).times_exponential(&x.scale(&rate))
+    };
+    let ball = |value: &Rational| field.embed(&Fraction::constant(value).into()).unwrap();
+    let (h, weight) = (ball(&rational(1, 3)), Ball::zero());
+    let parts = [
+        (times(x.pow(2), rational(-1, 1)), rational(1, 2), rational(3, 1)),
+        (times(Fraction::one(), rational(-1, 1)), rational(5, 4), rational(-2, 7)),
+        (Expression::from(x.pow(3)), rational(2, 1), rational(1, 5)),
+        (
+            &times(x.clone(), rational(2, 1)) + &Expression::from(x.clone()),
+            rational(0, 1),
+            rational(1, 1),
+        ),
+    ];
+    let mut together = Expansion::new((&h, &weight), 12, &numbers, BITS);
+    let mut each = Vec::new();
+    for (function, place, factor) in &parts {
+        let exact = Transform::of(function, &symbol);
+        let function = Transform::<ComplexBall>::embedded(&exact, &field).unwrap();
+        together.add(&function, &ball(place), &ball(factor));
+        each.push((function, place, factor));
+    }
+    let together = together.sum().unwrap().real().unwrap();
+    for u in [-1, 0, 1].map(|u| rational(u, 1)) {
+        let mut sum = Ball::zero();
+        for (function, place, factor) in &each {
+            let at = ball(&(*place + &u * rational(1, 3)));
+            let value = value_at(function, &at, &numbers, BITS).unwrap();
+            sum = sum.add(value.multiply(&ball(factor), BITS).real(), BITS);
+        }
+        let value = together.value(&Ball::from_rational(&u, BITS), BITS);
+        assert!(value.subtract(&sum, BITS).contains_zero(), "at {u}: {value} and {sum}");
+        assert!(*value.radius() < Magnitude::power_of_two(-20), "at {u}: {value}");
+    }
 }

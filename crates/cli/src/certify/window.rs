@@ -110,7 +110,9 @@ fn place(root: &Root, digits: usize) -> Result<Option<Window>, Failure> {
         Root::End { time } | Root::Arrival { time, .. } => Some([exact(time)?, exact(time)?]),
         Root::Interval { from, to, .. } => Some([exact(from)?, exact(to)?]),
         Root::Jump { .. } => None,
-        Root::Undecided { .. } => return Err(undecided("whether there is a root")),
+        Root::Double { .. } | Root::Undecided { .. } => {
+            return Err(undecided("whether there is a root"));
+        }
     })
 }
 

@@ -23,7 +23,7 @@ def _frame(rows: list[dict[str, Any]]) -> _DataFrame:
 class Root:
     """Where a signal takes a value (``begin`` is ``end``, but for intervals), or jumps over it."""
 
-    kind: Literal["simple", "end", "arrival", "jump", "interval", "undecided"]
+    kind: Literal["simple", "double", "end", "arrival", "jump", "interval", "undecided"]
     begin: Value
     end: Value
     rises: bool | None

@@ -1,0 +1,160 @@
+//! Zeros that no precision tells from small values: double roots of squares, and beginnings that are flat.
+
+use wavestep::{Error, Goal, Place, Problem, Root, Value};
+
+const DIGITS: usize = 20;
+
+/// A bar in which waves are driven by a force that begins with zero, a spring, and another bar.
+const RAMP: &str = "scene \"A ramp\"\nmaterial steel { wave_speed = 5 km/s, density = 8000 kg/m^3 }\n\
+    bar in { material = steel, diameter = 19 mm, length = 2 m }\n\
+    spring k { stiffness = 700 kN/mm }\n\
+    bar out { material = steel, diameter = 19 mm, length = 2 m }\n\
+    load ramp { force = 198000000*t N, from = 0 us, until = 20 us }\n\
+    line free - ramp - in - k - out - free\n\
+    observe gauge = strain(out.at(1/2))\nobserve held = energy(out)\n";
+
+/// Masses on both sides of a spring, then a bar on a damper: at the start only the first mass moves.
+const PILE: &str = "scene \"A pile\"\nmaterial steel { modulus = 210 GPa, density = 7850 kg/m^3 }\n\
+    mass ram { mass = 8000 kg, velocity = 5 m/s }\nspring cushion { stiffness = 2 GN/m }\n\
+    mass helmet { mass = 1200 kg }\n\
+    bar shaft { material = steel, diameter = 610 mm, inner_diameter = 580 mm, length = 30 m }\n\
+    support toe { damping = 200 kN*s/m, stiffness = 100 MN/m }\n\
+    line free - ram - cushion - helmet - shaft - toe - free\n\
+    observe held = energy(shaft)\nobserve toe_energy = energy(toe)\nobserve sinks = displacement(shaft.right)\n";
+
+fn read(text: &str) -> Result<Problem, Error> {
+    Problem::read("scene", text)
+}
+
+fn times(roots: &[Root]) -> Vec<&Value> {
+    let mut times = Vec::new();
+    for root in roots {
+        if let Root::Simple { time, .. } | Root::Double { time } = root {
+            times.push(time);
+        }
+    }
+    times
+}
+
+/// `F²/(2k)` and `k u²/2` are zero where force and displacement are, each root a double one, and nothing is open.
+#[test]
+fn an_energy_is_zero_where_what_is_squared_is() -> Result<(), Error> {
+    let hopkinson = read(
+        "scene \"Bars\"\nbar a { impedance = 1, travel = 1, velocity = 1 }\nspring k { stiffness = 2 }\n\
+         bar b { impedance = 2, travel = 3/2 }\nline free - a - k - b - free\n\
+         observe force = force(k)\nobserve held = energy(k)\nobserve other = 2*energy(k)\n",
+    )?;
+    let opens = read(
+        "scene \"Drill\"\nbar piston { impedance = 1, travel = 1, velocity = 1 }\n\
+         bar rod { impedance = 2/3, travel = 4 }\nsupport rock { stiffness = 1/2, damping = 1/8 }\n\
+         line free - piston | rod - rock - free\ncontacts open\n\
+         observe sinks = displacement(rod.right)\nobserve held = energy(rock)\n",
+    )?;
+    let drill = [("0", "20"), ("sinks", "held")];
+    let bars = [("0", "12"), ("force", "held")];
+    let twice = [("0", "12"), ("force", "other")];
+    for (problem, [(from, to), (of, energy)]) in
+        [(&opens, drill), (&hopkinson, bars), (&hopkinson, twice)]
+    {
+        let known = problem.signal(of)?.roots(from..=to, DIGITS)?;
+        let signal = problem.signal(energy)?;
+        let found = signal.roots(from..=to, DIGITS)?;
+        assert_eq!((known.undecided(), found.undecided()), (0, 0), "{energy}");
+        assert_eq!(times(&found.all), times(&known.all), "{energy}");
+        assert!(times(&found.all).len() > 1, "{energy}");
+        assert!(
+            found.all.iter().all(|root| !matches!(root, Root::Simple { .. } | Root::Jump { .. }))
+        );
+        let least = signal.extremum(Goal::Smallest, from..=to, DIGITS)?;
+        assert_eq!(least.value.exact(), Some(&wavestep::Rational::default()), "{energy}");
+        let critical = |place: &&Place| matches!(place, Place::Critical(_));
+        assert_eq!(least.places.iter().filter(critical).count(), times(&found.all).len());
+        for time in times(&found.all) {
+            let [before, after] = time.bounds();
+            for time in [before, after] {
+                let [from, to] = signal.at(time, 5)?.bounds();
+                assert!(from >= wavestep::Rational::default(), "{from} to {to}");
+                assert!(
+                    to.clone() < wavestep::Rational::new(1.into(), 1_000_000_000.into()),
+                    "{to}"
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A square that jumps where what is squared jumps over zero has no root there, and the least value of one without a root
+/// is no zero.
+#[test]
+fn a_square_has_no_roots_but_those() -> Result<(), Error> {
+    let mass = read(
+        "scene \"A mass in a bar that moves\"\nbar a { impedance = 1, travel = 1, velocity = 1 }\n\
+         mass m { mass = 1, velocity = 1 }\nbar b { impedance = 1, travel = 1, velocity = 1 }\n\
+         line free - a - m - b - free\nobserve held = energy(m)\n",
+    )?;
+    let signal = mass.signal("held")?;
+    assert!(signal.roots(0..=5, DIGITS)?.all.is_empty());
+    let least = signal.extremum(Goal::Smallest, 0..=5, DIGITS)?;
+    assert_eq!(least.value.exact(), Some(&wavestep::Rational::new(1.into(), 2.into())));
+    Ok(())
+}
+
+/// What begins as a power of the time since an arrival is zero there, and nowhere near.
+#[test]
+fn a_flat_beginning_is_one_zero() -> Result<(), Error> {
+    for (text, names) in [(RAMP, &["gauge", "held"][..]), (PILE, &["held", "toe_energy", "sinks"])]
+    {
+        for name in names {
+            let problem = read(text)?;
+            let signal = problem.signal(name)?;
+            let found = signal.roots("0 ms"..="3 ms", DIGITS)?;
+            assert_eq!(found.undecided(), 0, "{name}: {:?}", found.all);
+            // Whatever comes first is at the start.
+            let (Root::End { time } | Root::Interval { from: time, .. }) = &found.all[0] else {
+                panic!("{name}: {:?}", found.all);
+            };
+            assert_eq!(time.to_f64(), 0.0);
+        }
+    }
+    Ok(())
+}
+
+/// A spring that lets go is unstrained from there on, and was not before.
+#[test]
+fn a_spring_that_lets_go_is_unstrained() -> Result<(), Error> {
+    let cushion = Problem::builtin("cushion-with-release")?.with("mu", "3/2")?;
+    let found = cushion.signal("compression")?.roots(0..=10, DIGITS)?;
+    let [Root::End { .. }, Root::Interval { from, .. }] = &found.all[..] else {
+        panic!("{:?}", found.all);
+    };
+    let events = cushion.events(DIGITS)?;
+    let opening = &events.events[1].time;
+    assert_eq!(from.to_f64(), opening.to_f64());
+    Ok(())
+}
+
+/// A bar struck by a mass of 1e-9 under a force of 1e9: what the line holds is what the force has done. After a few
+/// nanoseconds the fast motion has died out, and enclosures of what is left must not grow at its rate.
+#[test]
+fn energies_keep_their_digits_beside_a_light_mass() -> Result<(), Error> {
+    let light = read(
+        "scene \"A light mass under a large force\"\nload weight { force = 1e9 }\n\
+         mass hammer { mass = 1e-9, velocity = 1 }\nbar rod { impedance = 1, travel = 1 }\n\
+         line free - weight - hammer | rod - fixed\ncontacts open\n\
+         observe way = displacement(hammer)\nobserve all = energy(line)\n",
+    )?;
+    let number = |value: Value| wavestep::Rational::from(value.decimal(30).0.to_rational());
+    let work = wavestep::Rational::from_integer(1_000_000_000.into());
+    let first = wavestep::Rational::new(1.into(), 2_000_000_000.into());
+    for time in ["1e-9", "1e-6", "1/1000", "1/2", "1", "3", "7/2"] {
+        let (way, all) = (light.signal("way")?.at(time, 30)?, light.signal("all")?.at(time, 30)?);
+        let (way, all) = (number(way), number(all));
+        let off = &all - (&way * &work + &first);
+        let most = &all / wavestep::Rational::from_integer(num_bigint::BigInt::from(10).pow(28));
+        assert!(off <= most && -off <= most, "at {time}: {all} of {way}");
+    }
+    let found = light.signal("all")?.extremum(Goal::Largest, 0..=2, 10)?;
+    assert_eq!(found.places.len(), 1);
+    Ok(())
+}
