@@ -305,6 +305,19 @@ impl<'a> FollowedSignal<'a> {
         Ok(finer)
     }
 
+    /// The same for values at times, for which other stretches will do.
+    fn followed_for_values(&self, bits: u64) -> Result<Rc<Followed>, EvaluateError> {
+        let known = self.followed(bits)?;
+        let engine = self.follower.engine(bits);
+        let found = engine.cut.bits;
+        match found > known.engine.cut.bits {
+            true => Followed::of(self.follower.network, engine, &self.seen)
+                .map(Rc::new)
+                .map_err(|_| EvaluateError::NotFollowed { bits: found }),
+            false => Ok(known),
+        }
+    }
+
     /// Stretches at this precision, capped at `most_bits`.
     fn cut(&self, bits: u64) -> Result<Rc<Followed>, EvaluateError> {
         self.followed(bits.min(self.most_bits))
@@ -524,7 +537,7 @@ impl Signal for FollowedSignal<'_> {
                 first = (bits + SPARE_BITS).max((2 * first).min(MAX_HISTORY_BITS));
             }
             let attempt = |bits| {
-                let followed = self.followed(bits)?;
+                let followed = self.followed_for_values(bits)?;
                 match followed.engine.sum_of(&followed.parts, (&moment, limit)) {
                     Ok(value) => Ok(Attempt::Done(value)),
                     Err(error @ HistoryError::Undecided { .. }) => {
