@@ -684,6 +684,12 @@ impl Signal for FollowedSignal<'_> {
         let h = followed.scaled(half);
         let beyond = followed.beyond(stretch, &at, &h);
         let series = followed.derivative(stretch, order).extended(&beyond, cut);
+        // Rational numbers beside balls cost more than they tell.
+        let place = |time: Number| match series.is_exact() {
+            true => time,
+            false => time.enclosed(cut.bits),
+        };
+        let (at, h) = (place(at), place(h));
         let (near, remainder) = series.about(&at, &h.magnitude(), terms, cut);
         let mut power = Number::one();
         let mut coefficients = Vec::with_capacity(terms);

@@ -155,6 +155,18 @@ fn a_flat_beginning_is_one_zero() -> Result<(), Error> {
     Ok(())
 }
 
+/// What has decayed to 2^−433 is not told from zero by the first enclosures, and is no zero.
+#[test]
+fn what_is_small_is_no_zero() -> Result<(), Error> {
+    let struck = read(
+        "scene \"A mass on an endless bar\"\nmass hammer { mass = 1, velocity = 1 }\nbar rod { impedance = 1 }\n\
+         line free - hammer | rod - endless\ncontacts open\nobserve v = velocity(hammer)\n",
+    )?;
+    let found = struck.signal("v")?.roots(1..=300, DIGITS)?;
+    assert!(found.all.is_empty(), "{:?}", found.all);
+    Ok(())
+}
+
 /// A spring that lets go is unstrained from there on, and was not before.
 #[test]
 fn a_spring_that_lets_go_is_unstrained() -> Result<(), Error> {
@@ -166,6 +178,16 @@ fn a_spring_that_lets_go_is_unstrained() -> Result<(), Error> {
     let events = cushion.events(DIGITS)?;
     let opening = &events.events[1].time;
     assert_eq!(from.to_f64(), opening.to_f64());
+    // With a damper the force comes to zero while the spring is still strained.
+    let damped = read(
+        "scene \"A damped cushion\"\nmass hammer { mass = 1, velocity = 1 }\n\
+         spring cushion { stiffness = 1, damping = 1/2 }\nbar rod { impedance = 1 }\n\
+         line free - hammer | cushion - rod - endless\ncontacts open\n\
+         observe compression = compression(cushion)\n",
+    )?;
+    let found = damped.signal("compression")?.roots(0..=40, DIGITS)?;
+    let interval = |root: &Root| matches!(root, Root::Interval { .. } | Root::Arrival { .. });
+    assert!(!found.all.iter().any(interval), "{:?}", found.all);
     Ok(())
 }
 
