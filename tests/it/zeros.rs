@@ -159,15 +159,18 @@ fn a_flat_beginning_is_one_zero() -> Result<(), Error> {
     Ok(())
 }
 
-/// What has decayed to 2^−433 is not told from zero by the first enclosures, and is no zero.
+/// What has decayed to 2^−433 is not told from zero by the first enclosures, and nowhere taken for it.
 #[test]
 fn what_is_small_is_no_zero() -> Result<(), Error> {
     let struck = read(
-        "scene \"A mass on an endless bar\"\nmass hammer { mass = 1, velocity = 1 }\nbar rod { impedance = 1 }\n\
-         line free - hammer | rod - endless\ncontacts open\nobserve v = velocity(hammer)\n",
+        "scene \"A mass on a long bar that moves\"\nmass hammer { mass = 1, velocity = 2 }\n\
+         bar rod { impedance = 1, travel = 1000, velocity = 1 }\n\
+         mass stop { mass = 1, velocity = 2 }\nline free - hammer - rod | stop - free\ncontacts open\n\
+         observe v = velocity(hammer) - velocity(rod.right)\n",
     )?;
     let found = struck.signal("v")?.roots(1..=300, DIGITS)?;
-    assert!(found.all.is_empty(), "{:?}", found.all);
+    let is_open = |root: &Root| matches!(root, Root::Undecided { .. });
+    assert!(found.all.iter().all(is_open), "{:?}", found.all);
     Ok(())
 }
 
