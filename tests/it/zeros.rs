@@ -1,5 +1,6 @@
 //! Zeros that no precision tells from small values: double roots of squares, and beginnings that are flat.
 
+use wavestep::ball::Ball;
 use wavestep::language::{Source, read_scene};
 use wavestep::network::Network;
 use wavestep::planner::{Purpose, of_scene};
@@ -234,4 +235,32 @@ fn energies_keep_their_digits_beside_a_light_mass() -> Result<(), Error> {
     let found = light.signal("all")?.extremum(Goal::Largest, 0..=2, 10)?;
     assert_eq!(found.places.len(), 1);
     Ok(())
+}
+
+/// A polynomial that reaches beyond its stretch holds the function that goes on there.
+#[test]
+fn polynomials_hold_beyond_their_stretches() {
+    let text = "scene \"A mass on a long bar\"\nmass hammer { mass = 1, velocity = 1 }\n\
+        bar rod { impedance = 1, travel = 1000 }\nline free - hammer | rod - free\ncontacts open\n\
+        observe v = velocity(hammer)\n";
+    let scene = read_scene(&Source::new("scene", text).unwrap(), &Default::default()).unwrap();
+    let network = Network::new(&scene).unwrap();
+    let window = [0, 20].map(|time| wavestep::Rational::from_integer(time.into()));
+    let observed = &network.observables()[0];
+    let signal = of_scene(&network, observed, window.each_ref(), Purpose::Stretches).unwrap();
+    assert!(signal.count().unwrap() > 2);
+    let ends = [Limit::Right, Limit::Left].map(|end| signal.exact_time(1, end).unwrap());
+    let [length, middle] = [&ends[1] - &ends[0], ends[1].clone()];
+    for (reach, is_sharp) in [((1, 4096), true), ((1, 1), false), ((8, 1), false)] {
+        let half = &length * wavestep::Rational::new(reach.0.into(), reach.1.into());
+        let taylor = signal.taylor(1, 0, (&middle, &half), 200, 192).unwrap();
+        for u in [-1, 0, 1].map(|u| wavestep::Rational::from_integer(u.into())) {
+            let time = Ball::from_rational(&-(&middle + &half * &u), 400);
+            let off = taylor.value(&Ball::from_rational(&u, 400), 400);
+            let off = off.subtract(&time.exp(400).unwrap(), 400);
+            assert!(off.contains_zero(), "{reach:?} of {length} at {u}: {off}");
+            let is_small = *off.radius() < wavestep::ball::Magnitude::power_of_two(-100);
+            assert!(is_small || !is_sharp, "{off}");
+        }
+    }
 }
