@@ -404,17 +404,14 @@ impl Followed {
             let (series, size) = sum(engine, parts, start)?;
             match pieces.last_mut() {
                 Some(last) if last.goes_on(&series, start, is_continuous, engine)? => {
+                    last.course[1] = engine.clock.since(&last.ends[0], end)?;
                     last.ends[1] = end.clone();
                 }
                 _ => {
-                    let (ends, course) =
-                        ([start.clone(), end.clone()], [0, 1].map(Number::integer));
-                    pieces.push(Piece { ends, course, series, size });
+                    let course = [engine.clock.time(start)?, engine.clock.since(start, end)?];
+                    pieces.push(Piece { ends: [start.clone(), end.clone()], course, series, size });
                 }
             }
-        }
-        for Piece { ends: [from, to], course, .. } in &mut pieces {
-            *course = [engine.clock.time(from)?, engine.clock.since(from, to)?];
         }
         (0..self.integrated).for_each(|_| integrate(&mut pieces, engine));
         Ok(self.pieces.get_or_init(|| pieces))
