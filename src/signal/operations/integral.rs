@@ -424,10 +424,6 @@ impl Rule for Integral<'_> {
         Some(sum)
     }
 
-    fn slope_vanishes(&self, _: &[usize], _: Limit) -> Outcome<bool> {
-        Ok(false)
-    }
-
     fn point(&self, at: &Rational, _: Limit) -> Outcome<(Known, Enclosure<'_>, u64)> {
         let places = self.places(at, Limit::Left)?;
         let known = match self.is_zero(&places) {

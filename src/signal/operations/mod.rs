@@ -266,8 +266,10 @@ pub(crate) trait Rule {
     /// As [`Signal::exact_at`].
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression>;
 
-    /// Whether the first derivative at an end of a stretch is known to be exactly zero.
-    fn slope_vanishes(&self, places: &[usize], end: Limit) -> Outcome<bool>;
+    /// Whether the first derivative at an end of a stretch is known to be exactly zero; by flatness where no more is known.
+    fn slope_vanishes(&self, places: &[usize], end: Limit) -> Outcome<bool> {
+        Ok(self.flatness(places, end, 1)? > 0)
+    }
 
     /// As [`Signal::flatness`].
     fn flatness(&self, _: &[usize], _: Limit, _: usize) -> Outcome<usize> {

@@ -131,10 +131,6 @@ impl Rule for Vibrating<'_> {
         None
     }
 
-    fn slope_vanishes(&self, _: &[usize], _: Limit) -> Outcome<bool> {
-        Ok(false)
-    }
-
     fn point(&self, at: &Rational, _: Limit) -> Outcome<(Known, Enclosure<'_>, u64)> {
         let at = at.clone();
         let enclose = move |bits| self.derivative(0, &Ball::from_rational(&at, bits), bits);
