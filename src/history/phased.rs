@@ -724,25 +724,22 @@ impl Signal for FollowedSignal<'_> {
         Ok(value.exact().cloned())
     }
 
-    fn slope_vanishes(&self, stretch: usize, end: Limit) -> Result<bool, EvaluateError> {
-        let followed = self.cut(0)?;
-        let last = &followed.piece(stretch).ends[1];
-        let flat = |part| {
-            let slope = followed.engine.slope_of(part);
-            slope.is_some_and(|slope| followed.engine.vanishes_before(&slope, last))
-        };
-        if end == Limit::Left && followed.parts.iter().all(flat) {
-            return Ok(true);
-        }
-        let at = self.since(&followed, stretch, At::End(end))?;
-        Ok(followed.derivative(stretch, 1).value(&at, &followed.engine.cut).is_zero())
-    }
-
     fn flatness(&self, stretch: usize, end: Limit, order: usize) -> Result<usize, EvaluateError> {
         let followed = self.cut(0)?;
         let at = self.since(&followed, stretch, At::End(end))?;
+        let (engine, last) = (&followed.engine, &followed.piece(stretch).ends[1]);
+        let slope = |part| {
+            let slope = engine.slope_of(part);
+            slope.is_some_and(|slope| engine.vanishes_before(&slope, last))
+        };
         let is_zero = |order: &usize| {
-            followed.derivative(stretch, *order).value(&at, &followed.engine.cut).is_zero()
+            let by_law = end == Limit::Left
+                && match order {
+                    0 => followed.parts.iter().all(|part| engine.vanishes_before(part, last)),
+                    1 => followed.parts.iter().all(slope),
+                    _ => false,
+                };
+            by_law || followed.derivative(stretch, *order).value(&at, &engine.cut).is_zero()
         };
         Ok((order..order + MAX_FLATNESS).take_while(is_zero).count())
     }

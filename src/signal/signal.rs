@@ -321,9 +321,6 @@ pub trait Signal {
     /// The value, where it is known to be rational.
     fn exact(&self, stretch: usize, at: At<'_>) -> Result<Option<Rational>, EvaluateError>;
 
-    /// Whether the derivative in the limit at an end is known to be exactly zero.
-    fn slope_vanishes(&self, stretch: usize, end: Limit) -> Result<bool, EvaluateError>;
-
     /// How many derivatives, from that of an order on, are known to be exactly zero in the limit at an end;
     /// at most `MAX_FLATNESS`.
     fn flatness(&self, _: usize, _: Limit, _: usize) -> Result<usize, EvaluateError> {

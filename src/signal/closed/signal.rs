@@ -251,6 +251,29 @@ impl<'a> ClosedSignal<'a> {
         }
         Ok(made.get_or_init(|| echoes))
     }
+
+    /// Whether the derivative in the limit at an end is known to be exactly zero, of an observable that sees no
+    /// derivatives and no function of time itself.
+    fn slope_is_zero(&self, stretch: usize, end: Limit) -> Result<bool, EvaluateError> {
+        let at = self.scaled(stretch, At::End(end));
+        let value = match &self.source {
+            Source::Recurrence { echoes, value } => {
+                let Some((slope, at)) = slope_of(value).zip(at.as_constant()) else {
+                    return Ok(false);
+                };
+                let zero = Known::Rational(Rational::default());
+                return Ok(echoes.point(&slope, &at, end).is_ok_and(|point| point.known == zero));
+            }
+            Source::Scene { network, value, unit, .. } => {
+                let Some(slope) = slope_of(value) else { return Ok(false) };
+                let Ok(echoes) = SceneEchoes::new(network, &at) else { return Ok(false) };
+                echoes
+                    .point(&slope, unit, &at, end)
+                    .and_then(|point| point.value(FEW_DIGITS, SIGN_BITS))
+            }
+        };
+        Ok(matches!(value, Ok(Value::Exact(value)) if value == Rational::default()))
+    }
 }
 
 /// The echoes of a scene in which those of all that is observed have a closed form, without units and
@@ -503,41 +526,25 @@ impl Signal for ClosedSignal<'_> {
         self.exact_value(&self.scaled(stretch, at), side)
     }
 
-    /// For observables that see no derivatives and no function of time themselves.
-    fn slope_vanishes(&self, stretch: usize, end: Limit) -> Result<bool, EvaluateError> {
-        let at = self.scaled(stretch, At::End(end));
-        let value = match &self.source {
-            Source::Recurrence { echoes, value } => {
-                let Some((slope, at)) = slope_of(value).zip(at.as_constant()) else {
-                    return Ok(false);
-                };
-                let zero = Known::Rational(Rational::default());
-                return Ok(echoes.point(&slope, &at, end).is_ok_and(|point| point.known == zero));
-            }
-            Source::Scene { network, value, unit, .. } => {
-                let Some(slope) = slope_of(value) else { return Ok(false) };
-                let Ok(echoes) = SceneEchoes::new(network, &at) else { return Ok(false) };
-                echoes
-                    .point(&slope, unit, &at, end)
-                    .and_then(|point| point.value(FEW_DIGITS, SIGN_BITS))
-            }
-        };
-        Ok(matches!(value, Ok(Value::Exact(value)) if value == Rational::default()))
-    }
-
-    /// By the exact function of the stretch, where that is known.
+    /// By the exact function of the stretch, where that is known, else by the value or the slope alone.
     fn flatness(&self, stretch: usize, end: Limit, order: usize) -> Result<usize, EvaluateError> {
-        let Source::Scene { network, .. } = &self.source else { return Ok(0) };
+        let is_zero = match order {
+            0 => self.exact(stretch, At::End(end))? == Some(Rational::default()),
+            1 => self.slope_is_zero(stretch, end)?,
+            _ => false,
+        };
+        let least = usize::from(is_zero);
+        let Source::Scene { network, .. } = &self.source else { return Ok(least) };
         let time = &network.scene().time;
         let own = self.exact_at(stretch, &Fraction::symbol(time), Effort::Much);
-        let Some(own) = own else { return Ok(0) };
+        let Some(own) = own else { return Ok(least) };
         let at = self.scaled(stretch, At::End(end));
         let mut slope = (0..order).fold(own, |slope, _| slope.derivative(time));
         let mut count = 0;
         while count < MAX_FLATNESS && slope.substitute(time, &at)?.is_zero() {
             (slope, count) = (slope.derivative(time), count + 1);
         }
-        Ok(count)
+        Ok(count.max(least))
     }
 
     /// A real function `Σ_λ e^{λx} Σ_j c_j x^j/j!` with N coefficients, of which the value is one, solves

@@ -150,7 +150,7 @@ impl<'a> Search<'a> {
         side: Limit,
     ) -> Result<bool, EvaluateError> {
         let slope = self.function.enclose(stretch, 1, At::End(side), self.bits.get())?;
-        Ok(slope.contains_zero() && self.function.slope_vanishes(stretch, side)?)
+        Ok(slope.contains_zero() && self.function.flatness(stretch, side, 1)? > 0)
     }
 
     /// Rational bounds of a stretch: its ends themselves where they are rational, else so little

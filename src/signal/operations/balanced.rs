@@ -206,11 +206,6 @@ impl Rule for Balanced<'_> {
         self.of.exact_at(stretch, at, effort)
     }
 
-    fn slope_vanishes(&self, places: &[usize], end: Limit) -> Outcome<bool> {
-        let slope = self.flow.exact(self.stretch(places[0], end), At::End(end))?;
-        Ok(slope.is_some_and(|slope| slope.is_zero()) || self.flatness(places, end, 1)? > 0)
-    }
-
     fn flatness(&self, places: &[usize], end: Limit, order: usize) -> Outcome<usize> {
         let stretch = self.stretch(places[0], end);
         match order.checked_sub(1) {

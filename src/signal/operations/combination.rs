@@ -6,7 +6,7 @@
 use super::{Mark, Outcome, Rule, Scale, value_at};
 use crate::ball::{Arithmetic as _, Ball};
 use crate::expression::{Expression, Fraction};
-use crate::signal::{At, EchoCount, Effort, Enclosure, Known, Limit, MAX_FLATNESS, Signal, Taylor};
+use crate::signal::{EchoCount, Effort, Enclosure, Known, Limit, MAX_FLATNESS, Signal, Taylor};
 use num_traits::{One as _, Zero as _};
 use std::ops::Range;
 use std::rc::Rc;
@@ -61,11 +61,6 @@ impl Combination<'_> {
         let coefficient = self.scale.numbers.enclose(&product.coefficient, bits)?;
         let last = known.pop().expect("one for each order");
         Ok(last.scaled(&coefficient, bits))
-    }
-
-    fn is_exactly_zero(&self, places: &[usize], operand: usize, end: Limit) -> Outcome<bool> {
-        let value = self.operands[operand].exact(places[operand], At::End(end))?;
-        Ok(value.is_some_and(|value| value.is_zero()))
     }
 }
 
@@ -146,31 +141,24 @@ impl Rule for Combination<'_> {
         Some(sum)
     }
 
-    /// Where in every product, for each factor, its slope or another factor is zero.
-    fn slope_vanishes(&self, places: &[usize], end: Limit) -> Outcome<bool> {
-        for Product { factors, .. } in &self.products {
-            for (i, &operand) in factors.iter().enumerate() {
-                let mut vanishes = self.operands[operand].slope_vanishes(places[operand], end)?;
-                for (_, &other) in factors.iter().enumerate().filter(|(j, _)| *j != i) {
-                    vanishes = vanishes || self.is_exactly_zero(places, other, end)?;
-                }
-                if !vanishes {
-                    return Ok(false);
-                }
-            }
-        }
-        Ok(true)
-    }
-
-    /// A product vanishes as often as its factors together, and a sum as often as the least of its products.
+    /// A sum is as flat as the least flat of its products. A product vanishes as often as its factors together; one
+    /// without a zero is a constant and more, as far as every factor is.
     fn flatness(&self, places: &[usize], end: Limit, order: usize) -> Outcome<usize> {
-        let mut least = MAX_FLATNESS;
+        let of =
+            |operand: &usize, order| self.operands[*operand].flatness(places[*operand], end, order);
+        let mut least = MAX_FLATNESS + order;
         for Product { factors, .. } in &self.products {
-            let mut product = 0;
-            for &operand in factors {
-                product += self.operands[operand].flatness(places[operand], end, 0)?;
+            let mut zeros = 0;
+            for factor in factors {
+                zeros += of(factor, 0)?;
             }
-            least = least.min(product);
+            if zeros == 0 && order > 0 {
+                zeros = 1 + MAX_FLATNESS;
+                for factor in factors {
+                    zeros = zeros.min(1 + of(factor, 1)?);
+                }
+            }
+            least = least.min(zeros);
         }
         Ok(least.saturating_sub(order))
     }

@@ -3,7 +3,7 @@
 use super::{Mark, Outcome, Rule, Scale};
 use crate::ball::Ball;
 use crate::expression::{Expression, Fraction};
-use crate::signal::{EchoCount, Effort, Enclosure, Known, Limit, Taylor};
+use crate::signal::{EchoCount, Effort, Enclosure, Known, Limit, MAX_FLATNESS, Taylor};
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
@@ -53,8 +53,8 @@ impl Rule for Constant<'_> {
         Some(self.value.clone().into())
     }
 
-    fn slope_vanishes(&self, _: &[usize], _: Limit) -> Outcome<bool> {
-        Ok(true)
+    fn flatness(&self, _: &[usize], _: Limit, order: usize) -> Outcome<usize> {
+        Ok(if order > 0 || self.value.is_zero() { MAX_FLATNESS } else { 0 })
     }
 
     fn point(&self, _: &Rational, _: Limit) -> Outcome<(Known, Enclosure<'_>, u64)> {

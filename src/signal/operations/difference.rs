@@ -140,11 +140,6 @@ impl Rule for Difference<'_> {
         Some(Expression::constant(&(number(0)? - number(1)?)))
     }
 
-    fn slope_vanishes(&self, places: &[usize], end: Limit) -> Outcome<bool> {
-        let vanish = self.both(places, |operand, place| operand.slope_vanishes(place, end))?;
-        Ok(vanish == [true; 2])
-    }
-
     fn flatness(&self, places: &[usize], end: Limit, order: usize) -> Outcome<usize> {
         let [own, other] =
             self.both(places, |operand, place| operand.flatness(place, end, order))?;

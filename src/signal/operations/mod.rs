@@ -266,11 +266,6 @@ pub(crate) trait Rule {
     /// As [`Signal::exact_at`].
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression>;
 
-    /// Whether the first derivative at an end of a stretch is known to be exactly zero; by flatness where no more is known.
-    fn slope_vanishes(&self, places: &[usize], end: Limit) -> Outcome<bool> {
-        Ok(self.flatness(places, end, 1)? > 0)
-    }
-
     /// As [`Signal::flatness`].
     fn flatness(&self, _: &[usize], _: Limit, _: usize) -> Outcome<usize> {
         Ok(0)
@@ -555,12 +550,10 @@ impl<R: Rule> Signal for Operation<'_, R> {
         })
     }
 
-    fn slope_vanishes(&self, stretch: usize, end: Limit) -> Outcome<bool> {
-        self.rule.slope_vanishes(&self.step(stretch).places, end)
-    }
-
     fn flatness(&self, stretch: usize, end: Limit, order: usize) -> Outcome<usize> {
-        self.rule.flatness(&self.step(stretch).places, end, order)
+        let is_zero =
+            order == 0 && self.exact(stretch, At::End(end))?.is_some_and(|value| value.is_zero());
+        Ok(self.rule.flatness(&self.step(stretch).places, end, order)?.max(usize::from(is_zero)))
     }
 
     /// Known where the exact function of the stretch is the constant.
