@@ -111,12 +111,18 @@ def same_claims(one, other):
         claims = [document.get(key, {}) for document in (one, other)]
         if claims[0].keys() != claims[1].keys() or not all(same(own, claims[1][wave]) for wave, own in claims[0].items()):
             return False
+    if ("minus" in one) != ("minus" in other) or "minus" in one and not same_claims(one["minus"], other["minus"]):
+        return False
     if any(one.get(key) != other.get(key) and Fraction(one[key]) != Fraction(other[key]) for key in ("at", "from", "to")):
         return False
     if one.get("goal") != other.get("goal"):
         return False
     values = [check.decimal(document) for document in (one, other) if "value" in document]
     if values and abs(values[0][0] - values[1][0]) > values[0][1] + values[1][1]:
+        return False
+    rows = [[list(map(Fraction, row)) for row in document.get("values", [])] for document in (one, other)]
+    is_near = lambda a, b: abs(a[0] - b[0]) <= a[1] + b[1]
+    if len(rows[0]) != len(rows[1]) or not all(map(is_near, *rows)):
         return False
     zeros = [[list(map(Fraction, pair)) for pair in document.get("zeros", [])] for document in (one, other)]
     overlap = lambda a, b: a[0] <= b[1] and b[0] <= a[1]

@@ -378,9 +378,19 @@ def check_echoes(cert, equations, continuity, latest):
 # What a quantity is between arrivals, and what follows.
 
 
-def seen(cert, pieces, begin):
-    """A quantity as an expression in scene time, from a time on, and when a next piece of a wave begins."""
-    period, t, total, end = number(read_function(cert["period"])), cert["time"], {}, None
+def check_scenes(cert):
+    """The scene with its pieces, and the one that is subtracted, if any: it has the same time."""
+    scenes = [(cert, check_pieces(cert))]
+    if "minus" in cert:
+        need(cert["minus"]["time"] == cert["time"], "the times have different names")
+        scenes.append((cert["minus"], check_pieces(cert["minus"])))
+    return scenes
+
+
+def seen(scenes, begin):
+    """A quantity as an expression in scene time, from a time on, less that of a second scene, and when a next piece begins."""
+    (cert, pieces), *others = scenes
+    period, t, total, end = number(read_function(cert["period"])).get((), 0), cert["time"], {}, None
     need(begin >= 0, "the time is before the start")
     for wave, kind, delay, coefficient in cert["observed"]["waves"]:
         need(wave in pieces and kind in ("value", "slope"), f"unknown wave {wave} or operator {kind}")
@@ -391,10 +401,21 @@ def seen(cert, pieces, begin):
             piece = slope(pieces[wave][n], cert["local"]) if kind == "slope" else pieces[wave][n]
             local = add({(): {((t, 1),): 1}}, {(): {(): -rational(delay) - n * period}})
             accumulate(total, put(piece, cert["local"], local), read(coefficient))
-    return accumulate(total, read(cert["observed"]["forcing"])), end
+    accumulate(total, read(cert["observed"]["forcing"]))
+    if others:
+        less_, next_ = seen(others, begin)
+        accumulate(total, less_, MINUS)
+        end = min(filter(None, (end, next_)), default=None)
+    for symbol in (symbol for symbol, square in ROOTS.items() if square == -1):  # the conjugate is the same
+        need(is_zero(accumulate(put(total, symbol, {(): {((symbol, 1),): -1}}), total, MINUS)), "the quantity is not real")
+    return total, end
 
 
-def cells(cert, pieces, level):
+def lifted(expression, by):
+    return accumulate(accumulate({}, expression), {(): {(): {(): by}}})
+
+
+def cells(cert, scenes, level):
     """Intervals without gaps from the first time of the window to the last, each with the quantity less a level and a
     derivative that has one sign there. That of order 0 is the quantity itself; with that of order 1, or of order k where
     those of orders 1 ... k - 1 are zero at one end, the quantity is strictly monotone; without one it is the level."""
@@ -403,9 +424,9 @@ def cells(cert, pieces, level):
     for begin, end, order in cert["cells"]:
         begin, end = rational(begin), rational(end)
         need(begin == time and begin < end, "the intervals have gaps")
-        expression, next_ = seen(cert, pieces, begin)
+        expression, next_ = seen(scenes, begin)
         need(next_ is None or end <= next_, "a wave arrives within an interval")
-        accumulate(expression, {(): {(): {(): -level}}})
+        expression = lifted(expression, -level)
         if order is None:
             need(is_zero(expression), "the quantity is not constant")
             yield begin, end, expression, order, 0
@@ -432,17 +453,30 @@ def decimal(cert):
 def check_value(cert):
     """The decimal is the value, correctly rounded."""
     time, (claim, slack) = rational(cert["at"]), decimal(cert)
-    expression, _ = seen(cert, check_pieces(cert), time)
-    accumulate(expression, {(): {(): {(): slack - claim}}})
-    need(sign(expression, cert["time"], time) >= 0, "the value is another one: smaller")
-    accumulate(expression, {(): {(): {(): -2 * slack}}})
-    need(sign(expression, cert["time"], time) <= 0, "the value is another one: larger")
+    expression, _ = seen(check_scenes(cert), time)
+    need(sign(lifted(expression, slack - claim), cert["time"], time) >= 0, "the value is another one: smaller")
+    need(sign(lifted(expression, -slack - claim), cert["time"], time) <= 0, "the value is another one: larger")
+
+
+def evenly_spaced(begin, end, count):
+    need(is_count(count) and count > 0 and begin <= end, "no times, or they run backwards")
+    return [begin + (end - begin) * i / max(count - 1, 1) for i in range(count)]
+
+
+def check_doubles(cert):
+    """Each value, one at each of evenly spaced times, is off by its bound at most."""
+    scenes, t, times_ = check_scenes(cert), cert["time"], evenly_spaced(*map(rational, (cert["from"], cert["to"])), cert["points"])
+    need(len(times_) == len(cert["values"]), "a value is missing, or there is one too many")
+    for time, (value, off) in zip(times_, ([rational(own) for own in row] for row in cert["values"])):
+        expression, _ = seen(scenes, time)
+        is_near = sign(lifted(expression, off - value), t, time) >= 0 >= sign(lifted(expression, -off - value), t, time)
+        need(is_near, f"the value at {time} is another one")
 
 
 def check_roots(cert):
     """Zeros, also of limits where waves arrive, are where monotone parts change sign, or at ends of intervals."""
     t, found = cert["time"], []
-    for begin, end, expression, order, _ in cells(cert, check_pieces(cert), Fraction(0)):
+    for begin, end, expression, order, _ in cells(cert, check_scenes(cert), Fraction(0)):
         if order is None:
             zeros = [(begin, end)]
         elif order == 0:
@@ -466,16 +500,17 @@ def check_roots(cert):
 
 
 def check_extremum(cert):
-    """Nothing is beyond the rounded value by more than half a unit of its last place, and something comes as near to it."""
-    way = {"largest": 1, "smallest": -1}[cert["goal"]]
-    (claim, slack), t, (place, time) = decimal(cert), cert["time"], cert["attained"]
-    is_taken, bound = False, claim + way * slack
-    for i, (begin, end, expression, order, sign_) in enumerate(cells(cert, check_pieces(cert), bound)):
-        signs = [sign_] if order in (None, 0) else [sign(expression, t, at) for at in (begin, end)]
-        need(all(sign_ * way <= 0 for sign_ in signs), f"a value between {begin} and {end} is beyond the extremum")
-        if i == place:
-            accumulate(expression, {(): {(): {(): 2 * way * slack}}})
-            is_taken = begin <= rational(time) <= end and sign(expression, t, rational(time)) * way >= 0
+    """Nothing is beyond the rounded value by more than half a unit of its last place, and something comes as near to it. A
+    distance is the larger of the largest value and of the negative of the smallest."""
+    ways = {"largest": [1], "smallest": [-1], "distance": [1, -1]}[cert["goal"]]
+    (claim, slack), t, (place, time), scenes, is_taken = decimal(cert), cert["time"], cert["attained"], check_scenes(cert), False
+    for way in ways:
+        bound = (way * claim if len(ways) > 1 else claim) + way * slack
+        for i, (begin, end, expression, order, sign_) in enumerate(cells(cert, scenes, bound)):
+            signs = [sign_] if order in (None, 0) else [sign(expression, t, at) for at in (begin, end)]
+            need(all(sign_ * way <= 0 for sign_ in signs), f"a value between {begin} and {end} is beyond the extremum")
+            if i == place and begin <= rational(time) <= end:
+                is_taken |= sign(lifted(expression, 2 * way * slack), t, rational(time)) * way >= 0
     need(is_taken, "the extremum is not taken where it is said")
 
 
@@ -493,7 +528,8 @@ def check(cert):
     ROOTS.clear()
     ROOTS.update({symbol: read_square(square) for symbol, square in cert["roots"].items()})
     need(len(set(ROOTS.values())) == len(ROOTS), "two roots of one number")
-    kinds = {"pieces": check_pieces, "general": check_general, "value": check_value, "roots": check_roots, "extremum": check_extremum}
+    kinds = {"pieces": check_pieces, "general": check_general, "value": check_value, "doubles": check_doubles}
+    kinds |= {"roots": check_roots, "extremum": check_extremum}
     need(type(cert["title"]) is str and cert["title"].encode(), "a title is missing")
     need(cert["kind"] in kinds, f"unknown kind {json.dumps(cert['kind'])}")
     kinds[cert["kind"]](cert)

@@ -13,7 +13,7 @@ from fractions import Fraction
 
 try:
     import flint
-    from flint import arb, arb_series, fmpq, fmpq_mat, fmpq_mpoly_ctx
+    from flint import acb, acb_series, arb, fmpq, fmpq_mat, fmpq_mpoly_ctx
 except ImportError:
     if __name__ != "__main__":
         raise
@@ -51,7 +51,9 @@ class Ring:
     def __init__(self, cert):
         need('"#' not in json.dumps(cert), "a name of ours")
         self.times = [cert["local"], cert["time"]]
-        need(not {*self.times, *cert["waves"]} & set(cert["roots"]), "a time or a wave is no root")
+        scenes = [cert] + ([cert["minus"]] if "minus" in cert else [])
+        names = {name for scene in scenes for name in (scene["local"], scene["time"], *scene["waves"])}
+        need(not names & set(cert["roots"]), "a time or a wave is no root")
         names = {*self.times, *cert["roots"], "#n", "#p", "#r"}
 
         def collect(node):
@@ -60,14 +62,14 @@ class Ring:
             for child in node.values() if isinstance(node, dict) else node if isinstance(node, list) else ():
                 collect(child)
 
-        collect([cert[key] for key in ("period", "line", "equations", "continuity", "pieces", "general", "observed") if key in cert])
+        collect([cert[key] for key in ("period", "line", "equations", "continuity", "pieces", "general", "observed", "minus") if key in cert])
         self.names = sorted(names)
         self.context = fmpq_mpoly_ctx.get(self.names, "lex")
         self.symbols = dict(zip(self.names, self.context.gens()))
-        below = [self.prime(text) for text in cert["roots"].values()]
-        need(len(set(below)) == len(below), "two roots of one number")
+        self.below = {self.names.index(root): self.prime(text) for root, text in cert["roots"].items()}
+        need(len(set(self.below.values())) == len(self.below), "two roots of one number")
         self.squares = [self.symbols[root] ** 2 - rational(square) for root, square in cert["roots"].items()]
-        self.roots = [self.names.index(root) for root in cert["roots"]]
+        self.roots = list(self.below)
         self.zero, self.one = self.context.constant(0), self.context.constant(1)
 
     @staticmethod
@@ -484,8 +486,9 @@ class Line:
 class Claim:
     """The pieces, and the laws that they satisfy."""
 
-    def __init__(self, cert):
-        self.cert, self.ring = cert, Ring(cert)
+    def __init__(self, cert, ring):
+        self.cert, self.ring = cert, ring
+        need(ring.times == [cert["local"], cert["time"]], "the times have different names")
         self.local, self.time, self.period = cert["local"], cert["time"], self.ring.quotient(cert["period"])
         need(all(type(time) is str and time for time in self.ring.times) and self.local != self.time, "names of times")
         self.has_positive_period()
@@ -498,10 +501,13 @@ class Claim:
         need(all(type(wave) is str and wave for wave in cert["waves"]), "names of waves")
         need(set(claimed) == set(cert["waves"]) and len(cert["waves"]) == len(claimed), "names of waves")
         need(all(len(all_) == self.count for all_ in self.pieces.values()), "pieces are missing")
+        if "observed" in cert:
+            self.check_observed()
+        self.minus = Claim(cert["minus"], ring) if "minus" in cert else None
 
     def has_positive_period(self):
         period = Sum.of(self.ring.number(0), self.period)
-        need(not period.has(*self.ring.times, *self.cert["roots"]), "a period depends on time, or is no rational function")
+        need(not period.has(*self.ring.times, *map(self.ring.names.__getitem__, self.ring.roots)), "a period depends on time, or is no rational function")
         top, below = self.period.top, self.period.below
         if top.is_constant() and below.is_constant():
             return need(number_of(self.period) > 0, "a period is not positive")
@@ -513,6 +519,8 @@ class Claim:
         self.slopes = {wave: [piece.slope(self.local) for piece in all_] for wave, all_ in pieces.items()}
 
     def check(self):
+        if self.minus:
+            self.minus.check()
         need(all(total.is_zero() for total in self.between()), "something begins within a period")
         self.determined()
         end, beginning = self.period, self.ring.number(0)
@@ -558,7 +566,7 @@ class Claim:
     # Values between arrivals.
 
     def seen(self, begin):
-        """The quantity from a time on as a sum in scene time, and when a next piece begins."""
+        """The quantity from a time on as a sum in scene time, less that of a second scene, and when a next piece begins."""
         need(begin >= 0, "the time is before the start")
         period, total, ends = number_of(self.period), self.ring.sum(self.cert["observed"]["forcing"]), []
         for wave, kind, delay, coefficient in self.cert["observed"]["waves"]:
@@ -572,6 +580,13 @@ class Claim:
                 time = Quotient(self.ring, self.ring.symbols[self.time], self.ring.one)
                 local = time + self.ring.number(-delay - n * period)
                 total = total + self.ring.sum(coefficient) * piece.put(self.local, local)
+        if self.minus:
+            less, next_ = self.minus.seen(begin)
+            total, ends = total - less, ends + ([next_] if next_ is not None else [])
+        for index in (index for index, below in self.ring.below.items() if below == -1):
+            root = self.ring.names[index]
+            turned = Quotient(self.ring, -self.ring.symbols[root], self.ring.one)
+            need((total.put(root, turned) - total).is_zero(), "the quantity is not real")
         return total, min(ends, default=None)
 
     def check_observed(self):
@@ -581,53 +596,68 @@ class Claim:
 
 
 def number_of(quotient):
-    need(quotient.top.is_constant() and quotient.below.is_constant(), "a symbol has no value")
-    top = quotient.top.leading_coefficient() if quotient.top != 0 else fmpq(0)
-    return top / quotient.below.leading_coefficient()
+    """A rational number, or a polynomial in roots."""
+    ring, top = quotient.ring, quotient.top
+    need(quotient.below.is_constant(), "a symbol has no value")
+    top = top / quotient.below.leading_coefficient()
+    if top.is_constant():
+        return top.leading_coefficient() if top != 0 else fmpq(0)
+    need(all(degree == 0 or i in ring.roots for i, degree in enumerate(top.degrees())), "a symbol has no value")
+    return top
 
 
 class Numbers:
     """A sum in scene time with numbers: parts (c, r, p) mean p(t) exp(c + r t)."""
 
-    def __init__(self, total, time):
-        self.parts = []
+    def __init__(self, ring, parts):
+        self.ring, self.parts = ring, parts
+
+    @staticmethod
+    def of(total, claim):
+        parts = []
         for exponent, quotient in total.parts.values():
-            linear, powers = exponent.powers(time), quotient.powers(time)
+            linear, powers = exponent.powers(claim.time), quotient.powers(claim.time)
             need(all(power <= 1 for power in linear), "an exponent is not linear in the time")
             c, r = (number_of(linear[power]) if power in linear else fmpq(0) for power in (0, 1))
             p = [number_of(powers[power]) if power in powers else fmpq(0) for power in range(max(powers, default=-1) + 1)]
-            if any(p):
-                self.parts.append((c, r, p))
+            if any(a != 0 for a in p):
+                parts.append((c, r, p))
+        return Numbers(claim.ring, parts)
+
+    def times(self, a, b):
+        """The product of two numbers, with numbers in place of squares of roots."""
+        product = a * b
+        return product if isinstance(product, fmpq) else self.ring.reduced(product)
+
+    def ball(self, number):
+        return acb(number) if isinstance(number, fmpq) else number_in_balls(self.ring, number)
 
     def slope(self):
-        result = Numbers.__new__(Numbers)
-        result.parts = []
+        parts = []
         for c, r, p in self.parts:
-            slope = [r * a + (i + 1) * b for i, (a, b) in enumerate(zip(p, p[1:] + [fmpq(0)]))]
-            if any(slope):
-                result.parts.append((c, r, slope))
-        return result
+            slope = [self.times(r, a) + (i + 1) * b for i, (a, b) in enumerate(zip(p, p[1:] + [fmpq(0)]))]
+            if any(a != 0 for a in slope):
+                parts.append((c, r, slope))
+        return Numbers(self.ring, parts)
 
     def shifted(self, by):
         """The sum plus a number."""
-        result = Numbers.__new__(Numbers)
-        result.parts = self.parts + ([(fmpq(0), fmpq(0), [by])] if by != 0 else [])
-        return result
+        return Numbers(self.ring, self.parts + ([(fmpq(0), fmpq(0), [by])] if by != 0 else []))
 
     def sign(self, time):
-        """Exponentials of different rational numbers are linearly independent over rational numbers."""
+        """Exponentials of different algebraic numbers are linearly independent over algebraic numbers."""
         exact = {}
         for c, r, p in self.parts:
             value = fmpq(0)
             for a in reversed(p):
                 value = value * time + a
-            key = c + r * time
-            exact[key] = exact.get(key, fmpq(0)) + value
-        if not any(exact.values()):
+            x = c + r * time
+            exact[str(x)] = x, exact.get(str(x), (x, fmpq(0)))[1] + value
+        if all(value == 0 for _, value in exact.values()):
             return 0
         for bits in (64, 256, 1024, 4096, 16384, 65536):
             flint.ctx.prec = bits
-            value = sum((arb(x).exp() * arb(a) for x, a in exact.items()), arb(0))
+            value = sum((self.ball(x).exp() * self.ball(a) for x, a in exact.values()), acb(0)).real
             if value > 0 or value < 0:
                 return 1 if value > 0 else -1
         raise Wrong("a sign is not decided")
@@ -635,13 +665,14 @@ class Numbers:
     def series(self, middle, terms):
         """The Taylor coefficients about each point of a ball."""
         flint.ctx.cap = terms
-        total, t = arb_series([0], prec=terms), arb_series([middle, 1], prec=terms)
+        total, t = acb_series([0], prec=terms), acb_series([middle, 1], prec=terms)
         for c, r, p in self.parts:
-            value = arb_series([0], prec=terms)
+            value = acb_series([0], prec=terms)
             for a in reversed(p):
-                value = value * t + arb_series([arb(a)], prec=terms)
-            total = total + value * (arb_series([arb(c)], prec=terms) + arb_series([arb(r)], prec=terms) * t).exp()
-        return [total[k] for k in range(terms)]
+                value = value * t + acb_series([self.ball(a)], prec=terms)
+            exponent = acb_series([self.ball(c)], prec=terms) + acb_series([self.ball(r)], prec=terms) * t
+            total = total + value * exponent.exp()
+        return [total[k].real for k in range(terms)]
 
     def sign_on(self, begin, end):
         """f(m + x) = c_0 + ... + c_(N-1) x^(N-1) + c x^N with c among the N-th coefficients about all points of the interval."""
@@ -654,6 +685,19 @@ class Numbers:
             if about[0] > rest or -about[0] > rest:
                 return 1 if about[0] > 0 else -1
         raise Wrong(f"no sign is seen between {begin} and {end}")
+
+
+def number_in_balls(ring, polynomial):
+    """A polynomial in roots, each of which is the root of an integer."""
+    total = acb(0)
+    for powers, c in polynomial.to_dict().items():
+        term = acb(c)
+        for index in ring.roots:
+            if powers[index]:
+                need(powers[index] == 1, "a square of a root")
+                term *= acb(ring.below[index]).sqrt()
+        total += term
+    return total
 
 
 # Formulas for every n.
@@ -917,10 +961,10 @@ def cells(cert, claim, level):
         total = total - constant(claim.ring, level)
         if order is None:
             need(total.is_zero(), "the quantity is not constant")
-            yield begin, end, Numbers(total, claim.time), order, 0
+            yield begin, end, Numbers.of(total, claim), order, 0
         else:
             need(type(order) is int and 0 <= order <= 64, "an order is no number")
-            numbers = [Numbers(total, claim.time)]
+            numbers = [Numbers.of(total, claim)]
             for _ in range(order):
                 numbers.append(numbers[-1].slope())
             flat = [all(between.sign(at) == 0 for between in numbers[1:-1]) for at in (begin, end)]
@@ -940,8 +984,17 @@ def decimal(cert):
 
 def check_value(cert, claim):
     time, (value, slack) = rational(cert["at"]), decimal(cert)
-    numbers = Numbers(claim.seen(time)[0], claim.time)
+    numbers = Numbers.of(claim.seen(time)[0], claim)
     need(numbers.shifted(slack - value).sign(time) >= 0 >= numbers.shifted(-slack - value).sign(time), "another value")
+
+
+def check_doubles(cert, claim):
+    begin, end, points = rational(cert["from"]), rational(cert["to"]), cert["points"]
+    need(is_index(points) and points == len(cert["values"]) > 0 and begin <= end, "values and times")
+    for i, row in enumerate(cert["values"]):
+        time, (value, off) = begin + (end - begin) * fmpq(i, max(points - 1, 1)), map(rational, row)
+        numbers = Numbers.of(claim.seen(time)[0], claim).shifted(-value)
+        need(numbers.shifted(off).sign(time) >= 0 >= numbers.shifted(-off).sign(time), f"another value at {time}")
 
 
 def check_roots(cert, claim):
@@ -973,27 +1026,30 @@ def check_roots(cert, claim):
 
 
 def check_extremum(cert, claim):
-    need(cert["goal"] in ("largest", "smallest"), "an unknown goal")
-    way, (value, slack), (place, time) = 1 if cert["goal"] == "largest" else -1, decimal(cert), cert["attained"]
-    taken, bound = False, value + way * slack
-    for i, (begin, end, numbers, order, sign) in enumerate(cells(cert, claim, bound)):
-        signs = [sign] if not order else [numbers.sign(begin), numbers.sign(end)]
-        need(all(way * sign <= 0 for sign in signs), f"a value between {begin} and {end} is beyond the extremum")
-        if i == place:
-            at = rational(time)
-            taken = begin <= at <= end and way * numbers.shifted(2 * way * slack).sign(at) >= 0
-    need(taken, "the extremum is not taken where it is said")
+    need(cert["goal"] in ("largest", "smallest", "distance"), "an unknown goal")
+    (value, slack), (place, time), taken = decimal(cert), cert["attained"], []
+    for way, goals in ((1, ("largest", "distance")), (-1, ("smallest", "distance"))):
+        if cert["goal"] not in goals:
+            continue
+        # The distance is the size of the largest value, or of the smallest one.
+        bound = way * (value if cert["goal"] == "distance" else way * value) + way * slack
+        for i, (begin, end, numbers, order, sign) in enumerate(cells(cert, claim, bound)):
+            signs = [sign] if not order else [numbers.sign(begin), numbers.sign(end)]
+            need(all(way * sign <= 0 for sign in signs), f"a value between {begin} and {end} is beyond the extremum")
+            if i == place:
+                at = rational(time)
+                taken.append(begin <= at <= end and way * numbers.shifted(2 * way * slack).sign(at) >= 0)
+    need(any(taken), "the extremum is not taken where it is said")
 
 
 def check(cert):
     version = cert.get("wavestep_certificate")
     need(type(version) is int and version == 1, "a certificate of another version")
     need(isinstance(cert["title"], str) and cert["title"].encode(), "a title is missing")
-    kinds = {"pieces": lambda *_: None, "general": check_general, "value": check_value, "roots": check_roots, "extremum": check_extremum}
+    kinds = {"pieces": lambda *_: None, "general": check_general, "value": check_value, "doubles": check_doubles}
+    kinds |= {"roots": check_roots, "extremum": check_extremum}
     need(cert["kind"] in kinds, f"unknown kind {json.dumps(cert['kind'])}")
-    claim = Claim(cert)
-    if "observed" in cert:
-        claim.check_observed()
+    claim = Claim(cert, Ring(cert))
     claim.check()
     kinds[cert["kind"]](cert, claim)
 

@@ -262,94 +262,118 @@ def whole(form):
     return {(name, kind, int(lag)): c for (name, kind, lag), c in left.items()}
 
 
-# Values: sums of polynomials times exponentials of the time, with rational numbers.
+# Values: sums of polynomials times exponentials of the time, with numbers: rational ones, or sums of such times roots.
+
+
+class Ball:
+    """A complex number: its parts in whole units of 2^-bits, and how many units it is off at most."""
+
+    def __init__(self, bits, real, imaginary=0, off=0):
+        self.bits, self.real, self.imaginary, self.off = bits, real, imaginary, off
+
+    @staticmethod
+    def of(numbers, bits):
+        """A sum of rational numbers times products of roots; each part of it is the root of a rational number."""
+        parts = [0, 0]
+        for monomial, c in numbers.items():
+            below = [ROOTS[s] for s, _ in monomial]
+            size = math.isqrt(int(c * c * abs(math.prod(below)) * (1 << 2 * bits)))
+            parts[-1 in below] += size if c > 0 else -size
+        return Ball(bits, *parts, off=len(numbers))
+
+    def __add__(self, other):
+        return Ball(self.bits, self.real + other.real, self.imaginary + other.imaginary, self.off + other.off)
+
+    def __mul__(self, other):
+        a, b, c, d = self.real, self.imaginary, other.real, other.imaginary
+        off = (abs(a) + abs(b)) * other.off + (abs(c) + abs(d) + other.off) * self.off
+        return Ball(self.bits, (a * c - b * d) >> self.bits, (a * d + b * c) >> self.bits, (off >> self.bits) + 3)
+
+    def over(self, count):
+        return Ball(self.bits, self.real // count, self.imaginary // count, self.off // count + 3)
+
+    def size(self):
+        """A bound of its size, in units."""
+        return abs(self.real) + abs(self.imaginary) + self.off
+
+    def sign(self):
+        """That of its real part, if it is decided."""
+        return 0 if abs(self.real) <= self.off else 1 if self.real > 0 else -1
+
+    def exp(self):
+        """The Taylor sum of x/2^k, squared k times."""
+        halvings = max(0, (self.size() >> self.bits).bit_length() + 1)
+        need(halvings <= 22, "an exponent is too large")
+        y = self.over(1 << halvings)
+        total = term = Ball(self.bits, 1 << self.bits)
+        i = 0
+        while abs(term.real) + abs(term.imaginary) > 4:
+            i += 1
+            term = (term * y).over(i)
+            total += term
+        total.off += 2 * term.size()  # each term is at most half of that before
+        for _ in range(halvings):
+            total *= total
+        return total
 
 
 def number(function):
-    """A rational function without symbols."""
-    tops = [top for top in function.values() if top]
-    need(all(set(top) == {()} for top in tops) and all(not b for b, top in function.items() if top), "a symbol has no value")
-    return sum((top[()] for top in tops), Fraction(0))
+    """A rational function without symbols but roots, from products of roots to rational numbers."""
+    need(not any(below and top for below, top in function.items()), "a symbol has no value")
+    top = function.get((), {})
+    need(all(s in ROOTS for monomial in top for s, _ in monomial), "a symbol has no value")
+    return {monomial: c for monomial, c in top.items() if c}
 
 
 def coefficients(function, t):
     """Those of a polynomial in the time, without other symbols."""
-    powers = [Fraction(0)]
+    powers = [{}]
     for below, m, c, power in terms(function, t):
-        need(not below and m in ((), ((t, power),)), "a symbol has no value")
-        powers += [Fraction(0)] * (power + 1 - len(powers))
-        powers[power] += c
-    return powers
-
-
-def exponential(x, bits):
-    """Two rationals with e^x between them: the Taylor sum of x/2^k, squared k times."""
-    need(abs(x) < 1 << 20, "an exponent is too large")
-    unit, halvings = Fraction(1, 1 << bits), max(0, abs(x).__ceil__().bit_length() + 1)
-    y = x / (1 << halvings)
-    total = term = Fraction(1)
-    i = 0
-    while abs(term) > unit:
-        i += 1
-        term = Fraction(round(term * y / i / unit)) * unit
-        total += term
-    low, high = total - 2 * (i + 2) * unit, total + 2 * (i + 2) * unit
-    for _ in range(halvings):
-        low, high = (low * low // unit) * unit, -(-high * high // unit) * unit
-    return low, high
+        powers += [{} for _ in range(power + 1 - len(powers))]
+        add(powers[power], {below: {tuple(pair for pair in m if pair[0] != t): c}})
+    return [number(power) for power in powers]
 
 
 def sign(expression, t, time):
-    """The sign at a time. Exponentials of different rational numbers are linearly independent over rational numbers."""
+    """The sign at a time of what is real. Exponentials of different algebraic numbers are linearly independent over these."""
     here = put(expression, t, {(): {(): time}})
-    parts = [(number(thawed(x)), number(r)) for x, r in here.items()]
-    for bits in (128, 512, 2048, 8192, 32768) if any(r for _, r in parts) else ():
-        low = high = Fraction(0)
-        for x, r in parts:
-            a, b = sorted(r * e for e in exponential(x, bits))
-            low, high = low + a, high + b
-        if low > 0 or high < 0:
-            return 1 if low > 0 else -1
-    need(not any(r for _, r in parts), "a sign is not decided")
+    parts = [(number(thawed(x)), number(r)) for x, r in here.items() if number(r)]
+    for bits in (128, 512, 2048, 8192, 32768) if parts else ():
+        total = sum((Ball.of(x, bits).exp() * Ball.of(r, bits) for x, r in parts), Ball(bits, 0))
+        if total.sign():
+            return total.sign()
+    need(not parts, "a sign is not decided")
     return 0
 
 
-def taylor(exponent, function, t, m, h, bits):
-    """Of R exp(X) at t = m + h u: the part of X without u, the coefficients of all powers of u in R exp of the rest of X, and
-    a bound of what they leave out for |u| <= 1."""
-    constant, rate = (coefficients(exponent, t) + [Fraction(0)])[:2]
-    need(len(coefficients(exponent, t)) <= 2, "an exponent is not linear in the time")
-    powers, x = coefficients(function, t), rate * h
-    need(abs(x) < 4096, "an interval is too long")
-    series, following = [Fraction(1)], abs(x)
-    while following > Fraction(1, 1 << bits) or 2 * abs(x) > len(series) + 1:  # then what follows is halved each time
-        series.append(series[-1] * x / len(series))
-        following = abs(series[-1] * x / len(series))
-    total = [Fraction(0)] * (len(series) + len(powers) - 1)
-    rest = Fraction(0)
-    for i in range(len(powers)):
-        own = h**i * sum(c * math.comb(j, i) * m ** (j - i) for j, c in enumerate(powers) if j >= i)
-        rest += abs(own) * 2 * following
+def taylor(exponent, function, t, bits):
+    """Of R exp(X): the coefficients of all powers of t, and a bound, in units, of what they leave out for |t| <= 1."""
+    start, rate, *others = coefficients(exponent, t) + [{}]
+    need(not any(others), "an exponent is not linear in the time")
+    factors, x, series = [Ball.of(own, bits) for own in coefficients(function, t)], Ball.of(rate, bits), [Ball.of(start, bits).exp()]
+    need(x.size() >> bits < 4096, "an interval is too long")
+    while abs(series[-1].real) + abs(series[-1].imaginary) > 4 or 2 * x.size() > len(series) << bits:
+        series.append((series[-1] * x).over(len(series)))
+    total = [Ball(bits, 0) for _ in range(len(series) + len(factors) - 1)]
+    for i, own in enumerate(factors):
         for k, factor in enumerate(series):
             total[i + k] += own * factor
-    return constant + rate * m, total, rest
+    return total, sum((own.size() * series[-1].size() >> bits) + 1 for own in factors)  # what follows is halved each time
 
 
 def sign_on(expression, t, begin, end):
-    """The sign on an interval: a value differs from the coefficient of u^0 by the sizes of all others at most."""
-    m, h = (begin + end) / 2, (end - begin) / 2
-    for bits in (128, 512, 2048):
-        bounds, rest = {}, Fraction(0)
-        for exponent, function in expression.items():
-            x, powers, left = taylor(thawed(exponent), function, t, m, h, bits)
-            factor = exponential(x, bits)
-            rest += left * factor[1]
+    """The sign on an interval of what is real: a value differs from that in the middle by the sizes of all other coefficients
+    of a Taylor series at most."""
+    about = put(expression, t, {(): {(): (begin + end) / 2, ((t, 1),): (end - begin) / 2}})
+    for bits in (128, 512, 2048, 8192):
+        total, rest = {}, 0
+        for exponent, function in about.items():
+            powers, left = taylor(thawed(exponent), function, t, bits)
+            rest += left
             for k, power in enumerate(powers):
-                low, high = bounds.get(k, (0, 0))
-                a, b = sorted(power * e for e in factor)
-                bounds[k] = low + a, high + b
-        low, high = bounds.pop(0, (0, 0))
-        rest += sum(max(-a, b) for a, b in bounds.values())
-        if low > rest or high < -rest:
-            return 1 if low > 0 else -1
+                total[k] = total.get(k, Ball(bits, 0)) + power
+        middle = total.pop(0, Ball(bits, 0))
+        middle.off += rest + sum(abs(power.real) + power.off for power in total.values())
+        if middle.sign():
+            return middle.sign()
     raise Wrong(f"no sign is seen between {begin} and {end}")

@@ -7,10 +7,25 @@ use crate::signal::error::EvaluateError;
 use crate::signal::taylor::Taylor;
 use std::cmp::Ordering;
 pub use wavestep_kernels::Limit;
-use wavestep_polynomial::Rational;
+use wavestep_polynomial::{Rational, Symbol};
 
 /// How many derivatives that vanish are told.
 pub(crate) const MAX_FLATNESS: usize = 8;
+
+/// How many derivatives of a function, from that of an order on, are zero at a time.
+pub(crate) fn zeros_of(
+    function: Expression,
+    clock: &Symbol,
+    at: &Fraction,
+    order: usize,
+) -> Result<usize, EvaluateError> {
+    let mut slope = (0..order).fold(function, |slope, _| slope.derivative(clock));
+    let mut count = 0;
+    while count < MAX_FLATNESS && slope.substitute(clock, at)?.is_zero() {
+        (slope, count) = (slope.derivative(clock), count + 1);
+    }
+    Ok(count)
+}
 
 /// Where in a stretch.
 #[derive(Clone, Copy)]

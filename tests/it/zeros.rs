@@ -4,8 +4,11 @@ use wavestep::ball::Ball;
 use wavestep::language::{Source, read_scene};
 use wavestep::network::Network;
 use wavestep::planner::{Purpose, of_scene};
+use wavestep::problem::Simpler;
+use wavestep::scenes::SCENES;
 use wavestep::signal::{At, Limit};
 use wavestep::{Error, Goal, Place, Problem, Root, Value};
+use wavestep_polynomial::Rational;
 
 const DIGITS: usize = 20;
 
@@ -263,4 +266,59 @@ fn polynomials_hold_beyond_their_stretches() {
             assert!(is_small || !is_sharp, "{off}");
         }
     }
+}
+
+/// What is said to vanish at an end of a stretch does, of all observables of the shipped scenes and of their differences from
+/// simpler ones; other derivatives than those do not.
+#[test]
+fn what_is_flat_vanishes() -> Result<(), Error> {
+    const BITS: u64 = 400;
+    let (mut flat, mut told) = (0, 0);
+    for scene in &SCENES {
+        let mut problem = Problem::builtin(scene.name)?;
+        let symbols: Vec<String> = problem.symbols().iter().map(ToString::to_string).collect();
+        for symbol in symbols {
+            problem = problem.with(&symbol, "3/2")?;
+        }
+        let Some(period) = problem.shortest_period() else { continue };
+        let [from, to] = [Rational::default(), period * Rational::from_integer(4.into())];
+        let simpler: Vec<Problem> = ["third", "rigid"]
+            .iter()
+            .filter_map(|simpler| match simpler.parse() {
+                Ok(Simpler::Scene(changes)) => problem.changed(&changes).ok(),
+                _ => None,
+            })
+            .collect();
+        for name in problem.observables() {
+            let wanted = problem.wanted(name)?;
+            let window = [&from, &to];
+            let mut signals = vec![problem.signal_on(&wanted, window, Purpose::Search)?];
+            let differences = simpler.iter().filter_map(|other| {
+                problem.difference_on(other, &wanted, window, Purpose::Search).ok()
+            });
+            signals.extend(differences);
+            for signal in &signals {
+                let Ok(count) = signal.count() else { continue };
+                for stretch in (0..count).take(6).filter(|stretch| !signal.is_instant(*stretch)) {
+                    for (end, order) in
+                        [Limit::Right, Limit::Left].into_iter().flat_map(|end| [(end, 0), (end, 1)])
+                    {
+                        let zeros = signal.flatness(stretch, end, order)?;
+                        told += 1;
+                        flat += usize::from(zeros > 0);
+                        for order in order..order + zeros {
+                            let value = signal.enclose(stretch, order, At::End(end), BITS)?;
+                            assert!(
+                                value.contains_zero(),
+                                "{}: derivative {order} of {name} at {end:?} of {stretch}",
+                                scene.name
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(flat > 100 && told > 500, "{flat} of {told}");
+    Ok(())
 }

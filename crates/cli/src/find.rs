@@ -1,6 +1,7 @@
 //! `find`: certified roots and extrema in a window.
 
 use super::arguments::Find;
+use super::compared::{self, Compared};
 use super::failure::{ACCURACY, Failure};
 use super::find_equal;
 use super::found::{self, Told};
@@ -9,9 +10,8 @@ use super::output::plural;
 use super::progress;
 use super::validity;
 use num_rational::BigRational;
-use wavestep::language::ChangeError;
 use wavestep::planner::Purpose;
-use wavestep::problem::{Against, Other, Problem, ProblemError, Simpler, Size};
+use wavestep::problem::Size;
 use wavestep::signal::{Search, Value};
 
 pub fn run(options: &Find) -> Result<String, Failure> {
@@ -19,7 +19,7 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     if options.equal.is_some() {
         return find_equal::run(options);
     }
-    let (problem, other) = scenes(options)?;
+    let (problem, other) = compared::scenes(&options.scene, options.minus.as_deref())?;
     if let Some(name) = &options.distance {
         return distances(
             options,
@@ -67,31 +67,6 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     found
 }
 
-/// What is subtracted.
-enum Compared {
-    Scene(Box<input::Asked>),
-    Simpler(Other),
-}
-
-impl Compared {
-    fn problem(&self) -> Option<&Problem> {
-        match self {
-            Compared::Scene(problem) => Some(problem),
-            Compared::Simpler(Other::Problem(problem)) => Some(problem),
-            Compared::Simpler(_) => None,
-        }
-    }
-}
-
-impl<'p> From<&'p Compared> for Against<'p> {
-    fn from(compared: &'p Compared) -> Against<'p> {
-        match compared {
-            Compared::Scene(problem) => Against::Problem(problem),
-            Compared::Simpler(other) => other.into(),
-        }
-    }
-}
-
 /// How far quantities are from those of another answer at most.
 fn distances(
     options: &Find,
@@ -120,37 +95,6 @@ fn distances(
     }
     let (report, undecided) = found::distances(&rows, problem, &window, options);
     settled(report, undecided, "distance")
-}
-
-/// The scene, and what is taken from it: another scene, or this one with something left out. Each has the values that it
-/// has symbols for; a value for a symbol of neither is given to the first, which says so.
-fn scenes(options: &Find) -> Result<(input::Asked, Option<Compared>), Failure> {
-    let Some(minus) = &options.minus else { return Ok((input::problem(&options.scene)?, None)) };
-    if minus.trim().is_empty() {
-        let remedy = "name a scene or a simplification, such as `third`";
-        return Err(Failure::usage("`--minus` is empty", remedy));
-    }
-    let scene = &options.scene.scene;
-    if !input::is_scene(minus) {
-        let simpler: Simpler = minus.parse().map_err(|error| match error {
-            ChangeError::Unknown(_) if !minus.contains([':', '+']) => {
-                input::unread(minus, &std::io::ErrorKind::NotFound.into())
-            }
-            error => ProblemError::from(error).into(),
-        })?;
-        let problem = input::problem(&options.scene)?;
-        let other = Compared::Simpler(problem.simpler(&simpler)?);
-        return Ok((problem, Some(other)));
-    }
-    let values = input::values(&options.scene.set)?;
-    let [own, other] = [scene, minus].map(|scene| input::problem_with(scene, &Default::default()));
-    let (own, other) = (own?, other?);
-    let of = |problem: &input::Asked, name: &str| problem.symbols().contains(&name);
-    let (mut owns, mut others) = (values.clone(), values);
-    owns.retain(|name, _| of(&own, name) || !of(&other, name));
-    others.retain(|name, _| of(&other, name));
-    let other = Compared::Scene(Box::new(input::problem_with(minus, &others)?));
-    Ok((input::problem_with(scene, &owns)?, Some(other)))
 }
 
 /// What was found, as a failure where some of it stays undecided.

@@ -11,7 +11,7 @@ use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::Observation;
 use crate::signal::error::EvaluateError;
 use crate::signal::signal::{
-    At, EchoCount, Effort, Instant, Known, Limit, MAX_FLATNESS, Point, Signal, last_begun,
+    At, EchoCount, Effort, Instant, Known, Limit, Point, Signal, last_begun, zeros_of,
 };
 use crate::signal::silence::Silence;
 use crate::signal::taylor::Taylor;
@@ -252,27 +252,14 @@ impl<'a> ClosedSignal<'a> {
         Ok(made.get_or_init(|| echoes))
     }
 
-    /// Whether the derivative in the limit at an end is known to be exactly zero, of an observable that sees no
-    /// derivatives and no function of time itself.
-    fn slope_is_zero(&self, stretch: usize, end: Limit) -> Result<bool, EvaluateError> {
+    /// Whether the derivative in the limit at an end is known to be exactly zero, of an observable of a recurrence that sees
+    /// no derivatives and no function of time itself.
+    fn slope_is_zero(&self, stretch: usize, end: Limit) -> bool {
+        let Source::Recurrence { echoes, value } = &self.source else { return false };
         let at = self.scaled(stretch, At::End(end));
-        let value = match &self.source {
-            Source::Recurrence { echoes, value } => {
-                let Some((slope, at)) = slope_of(value).zip(at.as_constant()) else {
-                    return Ok(false);
-                };
-                let zero = Known::Rational(Rational::default());
-                return Ok(echoes.point(&slope, &at, end).is_ok_and(|point| point.known == zero));
-            }
-            Source::Scene { network, value, unit, .. } => {
-                let Some(slope) = slope_of(value) else { return Ok(false) };
-                let Ok(echoes) = SceneEchoes::new(network, &at) else { return Ok(false) };
-                echoes
-                    .point(&slope, unit, &at, end)
-                    .and_then(|point| point.value(FEW_DIGITS, SIGN_BITS))
-            }
-        };
-        Ok(matches!(value, Ok(Value::Exact(value)) if value == Rational::default()))
+        let Some((slope, at)) = slope_of(value).zip(at.as_constant()) else { return false };
+        let zero = Known::Rational(Rational::default());
+        echoes.point(&slope, &at, end).is_ok_and(|point| point.known == zero)
     }
 }
 
@@ -526,11 +513,11 @@ impl Signal for ClosedSignal<'_> {
         self.exact_value(&self.scaled(stretch, at), side)
     }
 
-    /// By the exact function of the stretch, where that is known, else by the value or the slope alone.
+    /// By the exact function of the stretch, where that is known; else by the value alone, or the slope of a recurrence.
     fn flatness(&self, stretch: usize, end: Limit, order: usize) -> Result<usize, EvaluateError> {
         let is_zero = match order {
             0 => self.exact(stretch, At::End(end))? == Some(Rational::default()),
-            1 => self.slope_is_zero(stretch, end)?,
+            1 => self.slope_is_zero(stretch, end),
             _ => false,
         };
         let least = usize::from(is_zero);
@@ -539,12 +526,7 @@ impl Signal for ClosedSignal<'_> {
         let own = self.exact_at(stretch, &Fraction::symbol(time), Effort::Much);
         let Some(own) = own else { return Ok(least) };
         let at = self.scaled(stretch, At::End(end));
-        let mut slope = (0..order).fold(own, |slope, _| slope.derivative(time));
-        let mut count = 0;
-        while count < MAX_FLATNESS && slope.substitute(time, &at)?.is_zero() {
-            (slope, count) = (slope.derivative(time), count + 1);
-        }
-        Ok(count.max(least))
+        Ok(zeros_of(own, time, &at, order)?.max(least))
     }
 
     /// A real function `Σ_λ e^{λx} Σ_j c_j x^j/j!` with N coefficients, of which the value is one, solves

@@ -206,7 +206,12 @@ impl Rule for Balanced<'_> {
         self.of.exact_at(stretch, at, effort)
     }
 
-    fn flatness(&self, places: &[usize], end: Limit, order: usize) -> Outcome<usize> {
+    fn flatness(
+        &self,
+        places: &[usize],
+        (_, end): (&Mark<'_>, Limit),
+        order: usize,
+    ) -> Outcome<usize> {
         let stretch = self.stretch(places[0], end);
         match order.checked_sub(1) {
             Some(order) => self.flow.flatness(stretch, end, order),

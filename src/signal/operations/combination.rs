@@ -3,7 +3,7 @@
 //! Derivatives of products are those of Leibniz, `(fg)^(n) = Σ_k C(n,k) f^(k) g^(n−k)`. Values are
 //! handled as Taylor polynomials with one term.
 
-use super::{Mark, Outcome, Rule, Scale, value_at};
+use super::{Mark, Outcome, Rule, Scale, flatness_of, value_at};
 use crate::ball::{Arithmetic as _, Ball};
 use crate::expression::{Expression, Fraction};
 use crate::signal::{EchoCount, Effort, Enclosure, Known, Limit, MAX_FLATNESS, Signal, Taylor};
@@ -143,9 +143,10 @@ impl Rule for Combination<'_> {
 
     /// A sum is as flat as the least flat of its products. A product vanishes as often as its factors together; one
     /// without a zero is a constant and more, as far as every factor is.
-    fn flatness(&self, places: &[usize], end: Limit, order: usize) -> Outcome<usize> {
-        let of =
-            |operand: &usize, order| self.operands[*operand].flatness(places[*operand], end, order);
+    fn flatness(&self, places: &[usize], at: (&Mark<'_>, Limit), order: usize) -> Outcome<usize> {
+        let of = |operand: &usize, order| {
+            flatness_of(&*self.operands[*operand], places[*operand], at, order, &self.scale)
+        };
         let mut least = MAX_FLATNESS + order;
         for Product { factors, .. } in &self.products {
             let mut zeros = 0;

@@ -53,7 +53,7 @@ impl Rule for Constant<'_> {
         Some(self.value.clone().into())
     }
 
-    fn flatness(&self, _: &[usize], _: Limit, order: usize) -> Outcome<usize> {
+    fn flatness(&self, _: &[usize], _: (&Mark<'_>, Limit), order: usize) -> Outcome<usize> {
         Ok(if order > 0 || self.value.is_zero() { MAX_FLATNESS } else { 0 })
     }
 

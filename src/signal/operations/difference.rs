@@ -3,15 +3,17 @@
 //! Each scene has a scale of its own. A delay of the second is told in the scale of the first where it holds but numbers,
 //! `pi` and square roots, which mean the same everywhere; so what happens in both scenes at once is one break.
 
-use super::{Mark, Outcome, Rule, Scale, value_at};
+use super::{Mark, Outcome, Rule, Scale, flatness_of, value_at};
 use crate::ball::{Arithmetic as _, Ball};
 use crate::expression::{Expression, Fraction};
 use crate::network::Network;
 use crate::scene::PI;
-use crate::signal::{At, EchoCount, Effort, Enclosure, Instant, Known, Limit, Signal, Taylor};
+use crate::signal::{
+    At, EchoCount, Effort, Enclosure, Instant, Known, Limit, Signal, Taylor, zeros_of,
+};
 use std::ops::Range;
 use std::rc::Rc;
-use wavestep_polynomial::Rational;
+use wavestep_polynomial::{Rational, Symbol};
 
 /// # Invariants
 /// - both operands have the window of the difference, and values in one unit.
@@ -25,7 +27,7 @@ pub(crate) struct Difference<'a> {
 }
 
 impl<'a> Difference<'a> {
-    /// Whether a number means the same in both scenes: it holds square roots, `pi`, and constants with one name and one
+    /// Whether a number means the same in both scenes: it holds the time, square roots, `pi`, and constants with one name and one
     /// definition, as all those that they may rest on have.
     fn is_common(&self, number: &Fraction) -> bool {
         let [own, other] = self.networks.map(|network| &network.model().constants);
@@ -33,7 +35,8 @@ impl<'a> Difference<'a> {
         let shared: Vec<_> = shared.map(|(own, _)| &own.symbol).collect();
         let symbols = Expression::from(number.clone()).symbols();
         symbols.iter().all(|symbol| {
-            symbol.square().is_some() || symbol.name() == PI || shared.contains(&symbol)
+            let is_clock = self.scales.iter().all(|scale| scale.clock == symbol);
+            is_clock || symbol.square().is_some() || symbol.name() == PI || shared.contains(&symbol)
         })
     }
 
@@ -125,25 +128,36 @@ impl Rule for Difference<'_> {
         Ok(own.subtract(&other, bits))
     }
 
-    /// Numbers alone mean the same in both scenes.
+    /// Where all that the second one holds means the same in the scene of the first one, its time as well; at all times at
+    /// once also what is constant in both.
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {
-        // At all times at once only what is constant in both is a number.
-        let all = |scale: &Scale<'_>| Fraction::symbol(scale.clock);
-        let times = match *at == all(&self.scales[0]) {
-            true => self.scales.each_ref().map(|scale| all(scale)),
-            false => [at.clone(), self.rescaled(at, [0, 1])?],
-        };
-        let number = |operand: usize| {
-            let value = &self.operands[operand];
-            value.exact_at(places[operand], &times[operand], effort)?.as_constant()
-        };
-        Some(Expression::constant(&(number(0)? - number(1)?)))
+        let [clock, others] = self.scales.each_ref().map(|scale| Fraction::symbol(scale.clock));
+        let time = self.rescaled(at, [0, 1]);
+        let is_common = time.is_some();
+        let time = time.or_else(|| (*at == clock).then_some(others))?;
+        let own = self.operands[0].exact_at(places[0], at, effort)?;
+        let other = self.operands[1].exact_at(places[1], &time, effort)?;
+        if let (Some(own), Some(other)) = (own.as_constant(), other.as_constant()) {
+            return Some(Expression::constant(&(own - other)));
+        }
+        let means_the_same = |symbol: &Symbol| self.is_common(&Fraction::symbol(symbol));
+        (is_common && other.symbols().iter().all(means_the_same)).then(|| &own + &-&other)
     }
 
-    fn flatness(&self, places: &[usize], end: Limit, order: usize) -> Outcome<usize> {
-        let [own, other] =
-            self.both(places, |operand, place| operand.flatness(place, end, order))?;
-        Ok(own.min(other))
+    /// By the exact function of both, where that is known; else both are as flat.
+    fn flatness(
+        &self,
+        places: &[usize],
+        at @ (mark, _): (&Mark<'_>, Limit),
+        order: usize,
+    ) -> Outcome<usize> {
+        let all = Fraction::symbol(self.scales[0].clock);
+        let function = self.exact_at(places, &all, Effort::Much);
+        if let (Some(function), Some(delay)) = (function, mark.delay()) {
+            return zeros_of(function, self.scales[0].clock, delay, order);
+        }
+        let of = |i: usize| flatness_of(&*self.operands[i], places[i], at, order, &self.scales[i]);
+        Ok(of(0)?.min(of(1)?))
     }
 
     fn point(&self, at: &Rational, side: Limit) -> Outcome<(Known, Enclosure<'_>, u64)> {

@@ -27,8 +27,8 @@ use crate::expression::{Assumptions, Expression, Fraction, Root};
 use crate::network::Network;
 use crate::recurrence::Recurrence;
 use crate::signal::{
-    At, ClosedForm, EchoCount, Effort, Enclosure, EvaluateError, Instant, Known, Limit, Point,
-    Signal, Taylor, last_begun,
+    At, ClosedForm, EchoCount, Effort, Enclosure, EvaluateError, Instant, Known, Limit,
+    MAX_FLATNESS, Point, Signal, Taylor, last_begun, zeros_of,
 };
 use num_traits::{Signed as _, Zero as _};
 use std::cell::{OnceCell, RefCell};
@@ -170,6 +170,11 @@ impl<'m> Mark<'m> {
         }
     }
 
+    /// The time of the scene, where it rests on no event.
+    fn delay(&self) -> Option<&Fraction> {
+        self.instant.as_ref().filter(|own| own.event.is_none()).map(|own| &own.delay)
+    }
+
     /// Which of two times is earlier.
     fn compare(&self, other: &Mark<'_>) -> Outcome<Ordering> {
         if self.instant.is_some() && self.instant == other.instant {
@@ -196,6 +201,33 @@ impl<'m> Mark<'m> {
 /// The stretch that holds a time; at a break `side` decides.
 fn locate(signal: &dyn Signal, at: &Mark<'_>, side: Limit) -> Outcome<usize> {
     last_begun(signal.count()?, side, |stretch| Mark::of(signal, stretch).compare(at))
+}
+
+/// How flat an operand is where a stretch of an operation begins or ends: one of its own, or else within one, where its exact
+/// function tells it.
+fn flatness_of(
+    signal: &dyn Signal,
+    stretch: usize,
+    (at, end): (&Mark<'_>, Limit),
+    order: usize,
+    scale: &Scale<'_>,
+) -> Outcome<usize> {
+    if signal.is_zero(stretch) {
+        return Ok(MAX_FLATNESS);
+    }
+    let own = match end {
+        Limit::Right => Mark::of(signal, stretch),
+        Limit::Left if stretch + 1 < signal.count()? => Mark::of(signal, stretch + 1),
+        Limit::Left => scale.mark(signal.window()[1]),
+    };
+    if own.compare(at).is_ok_and(Ordering::is_eq) {
+        return signal.flatness(stretch, end, order);
+    }
+    let all = Fraction::symbol(scale.clock);
+    match (signal.exact_at(stretch, &all, Effort::Much), at.delay()) {
+        (Some(function), Some(at)) => Ok(zeros_of(function, scale.clock, at, order)?),
+        _ => Ok(0),
+    }
 }
 
 /// An enclosure of a derivative of an operand at a time that may be known by enclosures alone: there the
@@ -266,8 +298,8 @@ pub(crate) trait Rule {
     /// As [`Signal::exact_at`].
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression>;
 
-    /// As [`Signal::flatness`].
-    fn flatness(&self, _: &[usize], _: Limit, _: usize) -> Outcome<usize> {
+    /// As [`Signal::flatness`], at the mark of the end.
+    fn flatness(&self, _: &[usize], _: (&Mark<'_>, Limit), _: usize) -> Outcome<usize> {
         Ok(0)
     }
 
@@ -553,7 +585,9 @@ impl<R: Rule> Signal for Operation<'_, R> {
     fn flatness(&self, stretch: usize, end: Limit, order: usize) -> Outcome<usize> {
         let is_zero =
             order == 0 && self.exact(stretch, At::End(end))?.is_some_and(|value| value.is_zero());
-        Ok(self.rule.flatness(&self.step(stretch).places, end, order)?.max(usize::from(is_zero)))
+        let at = self.mark(stretch, At::End(end));
+        let known = self.rule.flatness(&self.step(stretch).places, (&at, end), order)?;
+        Ok(known.max(usize::from(is_zero)))
     }
 
     /// Known where the exact function of the stretch is the constant.

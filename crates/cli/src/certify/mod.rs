@@ -5,30 +5,38 @@ mod window;
 mod writer;
 
 use super::arguments::Certify;
+use super::compared;
 use super::failure::Failure;
 use super::input;
 use super::progress;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use serde_json::{Map, Value as Json, json};
+use wavestep::answer::Accuracy;
 use wavestep::ball::Decimal;
 use wavestep::expression::{Constant, Definition};
 use wavestep::limits::VALUE_BITS;
 use wavestep::planner::has_periods;
-use wavestep::problem::{Derived, Digits, Form, Orders, Problem, Symbols, ToDerive, Wanted};
+use wavestep::problem::{
+    Derived, Digits, Form, Orders, Problem, Symbols, ToDerive, Wanted, evenly_spaced,
+};
 use wavestep::recurrence::Observation;
 use wavestep::signal::{Goal, Limit, Value};
+use window::Asked;
 use writer::Writer;
 
 /// The version of the layout, which docs/certificates.md describes.
 const VERSION: u32 = 1;
+
+/// The most doubles in one certificate.
+const MOST_DOUBLES: usize = 10_000;
 
 /// The last period without --through.
 const LAST: usize = 3;
 
 pub fn run(options: &Certify) -> Result<String, Failure> {
     input::digits(options.digits)?;
-    let problem = input::problem(&options.scene)?;
+    let (problem, minus) = compared::scenes(&options.scene, options.minus.as_deref())?;
     let document = match (&options.quantity, &options.at, goal(options)) {
         (Some(name), Some(at), _) => {
             let at = problem.time("--at", at.as_str())?;
@@ -36,29 +44,46 @@ pub fn run(options: &Certify) -> Result<String, Failure> {
         }
         (.., Some((goal, name))) => {
             let window = input::window(&problem, &options.from, options.to.as_deref())?;
-            window::certificate(&problem, name.trim(), goal, &window, options.digits)?
+            let other = minus.as_ref().map(|own| own.problem().ok_or_else(without_laws));
+            let other = other.transpose()?;
+            let of = Quantity { problem: &problem, minus: other, name: name.trim() };
+            window::certificate(&of, goal, &window, options.digits)?
         }
+        (Some(name), None, None) => doubles(&problem, name.trim(), options)?,
         _ if options.general => general(&problem)?,
-        _ => pieces(&problem, options.through.unwrap_or(LAST))?.0,
+        _ => pieces(&problem, options.through.unwrap_or(LAST))?,
     };
     Ok(written(document))
 }
 
+fn without_laws() -> Failure {
+    let message = "modes and arrivals are not the solution of a scene, so there is no certificate";
+    Failure::usage(message, "subtract a scene, or simplify this one")
+}
+
+/// A quantity, or how far it is from that of another scene.
+struct Quantity<'a> {
+    problem: &'a Problem,
+    minus: Option<&'a Problem>,
+    name: &'a str,
+}
+
 /// The certificate of the first pieces.
 pub fn of_pieces(problem: &Problem) -> Result<String, Failure> {
-    Ok(written(pieces(problem, LAST)?.0))
+    Ok(written(pieces(problem, LAST)?))
 }
 
 fn written(document: Map<String, Json>) -> String {
     format!("{}\n", Json::Object(document))
 }
 
-/// What is asked about a window: an extremum, or else roots; and of which quantity.
-fn goal(options: &Certify) -> Option<(Option<Goal>, &str)> {
+/// What is asked about a window, and of which quantity.
+fn goal(options: &Certify) -> Option<(Asked, &str)> {
     let goals = [
-        (Some(Goal::Largest), &options.max),
-        (Some(Goal::Smallest), &options.min),
-        (None, &options.zero),
+        (Asked::Extremum(Goal::Largest), &options.max),
+        (Asked::Extremum(Goal::Smallest), &options.min),
+        (Asked::Distance, &options.distance),
+        (Asked::Roots, &options.zero),
     ];
     goals.into_iter().find_map(|(goal, name)| Some((goal, name.as_deref()?)))
 }
@@ -84,7 +109,6 @@ fn stated(problem: &Problem, writer: &mut Writer) -> Result<Map<String, Json>, F
     }
     let mut document = Map::new();
     let mut insert = |key: &str, value: Json| document.insert(key.into(), value);
-    insert("wavestep_certificate", json!(VERSION));
     insert("constants", json!(problem.constants(None)?));
     insert("title", json!(problem.title()));
     insert("waves", json!(problem.waves()));
@@ -106,10 +130,23 @@ fn stated(problem: &Problem, writer: &mut Writer) -> Result<Map<String, Json>, F
     Ok(document)
 }
 
-/// The pieces of all waves through a period; the writer has met the square roots among the symbols.
-fn pieces(problem: &Problem, last: usize) -> Result<(Map<String, Json>, Writer), Failure> {
+/// The pieces of all waves through a period.
+fn pieces(problem: &Problem, last: usize) -> Result<Map<String, Json>, Failure> {
     let mut writer = Writer::default();
-    let mut document = stated(problem, &mut writer)?;
+    let mut document = derived(problem, last, &mut writer)?;
+    document.insert("wavestep_certificate".into(), json!(VERSION));
+    document.insert("kind".into(), json!("pieces"));
+    document.insert("roots".into(), writer.told_roots());
+    Ok(document)
+}
+
+/// What a scene states, and the pieces of all waves through a period.
+fn derived(
+    problem: &Problem,
+    last: usize,
+    writer: &mut Writer,
+) -> Result<Map<String, Json>, Failure> {
+    let mut document = stated(problem, writer)?;
     let progress = progress::spinner("deriving");
     let derived = problem.functions(ToDerive::Waves, Orders::Through(0, last), Form::Period)?;
     drop(progress);
@@ -119,11 +156,9 @@ fn pieces(problem: &Problem, last: usize) -> Result<(Map<String, Json>, Writer),
         (own.name, pieces.collect())
     });
     let written: Map<String, Json> = written.collect();
-    document.insert("kind".into(), json!("pieces"));
     document.insert("through".into(), json!(last));
     document.insert("pieces".into(), Json::Object(written));
-    document.insert("roots".into(), writer.told_roots());
-    Ok((document, writer))
+    Ok(document)
 }
 
 /// The forms of all waves for every period.
@@ -137,6 +172,7 @@ fn general(problem: &Problem) -> Result<Map<String, Json>, Failure> {
         let form = solution.general(wave).expect("it has a formula");
         forms.insert(name.into(), writer.general(form));
     }
+    document.insert("wavestep_certificate".into(), json!(VERSION));
     document.insert("kind".into(), json!("general"));
     document.insert("general".into(), Json::Object(forms));
     document.insert("roots".into(), writer.told_roots());
@@ -150,17 +186,54 @@ fn value(
     at: &BigRational,
     digits: usize,
 ) -> Result<Map<String, Json>, Failure> {
-    let wanted = problem.wanted(name)?;
-    let observation = observation(problem, &wanted)?;
     let asked =
         Digits { count: digits, max_bits: VALUE_BITS, limit: Limit::Right, count_echoes: false };
+    let wanted = problem.wanted(name)?;
     let found = problem.proven(&wanted, std::slice::from_ref(at), asked, &|| ())?;
     let (decimal, last_place) = rounded(&found.values[0], digits);
-    let (mut document, _) = observed(problem, name, &observation, at)?;
+    let (mut document, _) = Quantity { problem, minus: None, name }.seen(at)?;
     document.insert("kind".into(), json!("value"));
     document.insert("at".into(), json!(at.to_string()));
     document.insert("value".into(), json!(decimal.to_string()));
     document.insert("last_place".into(), json!(last_place));
+    Ok(document)
+}
+
+/// Doubles at evenly spaced times, each with a bound of its error: that of the method, and half a unit in the last place.
+fn doubles(problem: &Problem, name: &str, options: &Certify) -> Result<Map<String, Json>, Failure> {
+    let count = options.points.unwrap_or(0);
+    if count == 0 || count > MOST_DOUBLES {
+        let message = match options.points {
+            None => format!("it is not said when {name} is asked for"),
+            Some(count) => format!("{count} doubles do not go into one certificate"),
+        };
+        let remedy = format!("give --at T, or --points N with 1 to {MOST_DOUBLES} points");
+        return Err(Failure::usage(message, remedy));
+    }
+    let accuracy = match (&options.method, &options.tol) {
+        (Some(method), _) => Accuracy::Method(super::doubles::method(method)?, None),
+        (None, Some(tolerance)) => Accuracy::Within(super::doubles::tolerance(tolerance)?),
+        (None, None) => Accuracy::Digits,
+    };
+    let [from, to] = input::window(problem, &options.from, options.to.as_deref())?;
+    let times = evenly_spaced(&from, &to, count);
+    let found = problem.doubles(name, &times, Limit::Right, accuracy)?;
+    let (mut document, _) = Quantity { problem, minus: None, name }.seen(&to)?;
+    let bound = found.bound.and_then(BigRational::from_float).ok_or_else(|| {
+        let message = format!("the errors of {} have no proven bound", found.method);
+        Failure::usage(message, "leave --method out, or give `certified` or `compiled`")
+    })?;
+    let rows = found.values.iter().map(|&value| {
+        let exact = BigRational::from_float(value).expect("values are finite");
+        let unit = BigRational::from_float(value.abs().next_up() - value.abs());
+        let off = &bound + unit.expect("it is finite") / BigRational::from_integer(2.into());
+        json!([exact.to_string(), off.to_string()])
+    });
+    document.insert("kind".into(), json!("doubles"));
+    document.insert("from".into(), json!(from.to_string()));
+    document.insert("to".into(), json!(to.to_string()));
+    document.insert("points".into(), json!(count));
+    document.insert("values".into(), rows.collect());
     Ok(document)
 }
 
@@ -187,13 +260,32 @@ fn observation(problem: &Problem, wanted: &Wanted) -> Result<Observation, Failur
     }
 }
 
-/// The same with all pieces that it is made of until a time, and the times at which new pieces may begin.
+impl Quantity<'_> {
+    /// All pieces that it is made of until a time, and the times at which new ones may begin.
+    fn seen(&self, to: &BigRational) -> Result<(Map<String, Json>, Vec<BigRational>), Failure> {
+        let mut writer = Writer::default();
+        let (mut document, mut begins) = observed(self.problem, self.name, to, &mut writer)?;
+        if let Some(other) = self.minus {
+            let (others, more) = observed(other, self.name, to, &mut writer)?;
+            document.insert("minus".into(), Json::Object(others));
+            begins.extend(more);
+        }
+        document.insert("wavestep_certificate".into(), json!(VERSION));
+        document.insert("quantity".into(), json!(self.name));
+        document.insert("roots".into(), writer.told_roots());
+        Ok((document, begins))
+    }
+}
+
+/// What a quantity of a scene is made of until a time, and the times at which new pieces may begin.
 fn observed(
     problem: &Problem,
     name: &str,
-    observation: &Observation,
     to: &BigRational,
+    writer: &mut Writer,
 ) -> Result<(Map<String, Json>, Vec<BigRational>), Failure> {
+    let wanted = problem.wanted(name)?;
+    let observation = observation(problem, &wanted)?;
     let period = problem.shortest_period().expect("what has values has a period of known length");
     // The clocks of waves differ: what is seen may be of a later period than its time.
     let delays: Vec<BigRational> =
@@ -202,10 +294,7 @@ fn observed(
     let last = delays.iter().map(periods).max().unwrap_or_default().max(BigInt::ZERO);
     let last = usize::try_from(last)
         .map_err(|_| Failure::usage("the time is too late", "ask for an earlier time"))?;
-    let (mut document, mut writer) = pieces(problem, last)?;
-    if !writer.roots.is_empty() {
-        return Err(refused("whose formulas hold square roots"));
-    }
+    let mut document = derived(problem, last, writer)?;
     let recurrence = problem.recurrence()?;
     let is_told = |wave: usize| document["pieces"].get(recurrence.wave_name(wave)).is_some();
     if !observation.waves.iter().all(|seen| is_told(seen.wave)) {
@@ -219,7 +308,6 @@ fn observed(
     });
     let waves: Vec<Json> = waves.collect();
     let forcing = writer.expression(&observation.forcing);
-    document.insert("quantity".into(), json!(name));
     document.insert("observed".into(), json!({ "waves": waves, "forcing": forcing }));
     let count = |n: usize| BigRational::from_integer(n.into());
     let begins = delays.iter().flat_map(|delay| (0..=last).map(move |n| (delay, count(n))));

@@ -1,14 +1,14 @@
 //! Certificates of all roots of a quantity in a window, or of its largest or smallest value there.
 
-use super::{observation, observed, rounded};
+use super::{Quantity, rounded};
 use crate::failure::{ACCURACY, Failure};
 use crate::progress;
 use num_rational::BigRational;
+use num_traits::Signed as _;
 use serde_json::{Map, Value as Json, json};
 use wavestep::ball::Ball;
 use wavestep::limits::SEARCH_BITS;
 use wavestep::planner::Purpose;
-use wavestep::problem::Problem;
 use wavestep::signal::{Extremum, Goal, Limit, Place, Root, Search, Signal, Value};
 
 /// The terms of Taylor polynomials.
@@ -25,41 +25,74 @@ const MARGIN_BITS: i64 = 20;
 
 type Window = [BigRational; 2];
 
+/// What is asked about a window.
+#[derive(Clone, Copy)]
+pub enum Asked {
+    Roots,
+    Extremum(Goal),
+    /// The largest absolute value.
+    Distance,
+}
+
 pub fn certificate(
-    problem: &Problem,
-    name: &str,
-    goal: Option<Goal>,
+    of: &Quantity<'_>,
+    asked: Asked,
     window: &Window,
     digits: usize,
 ) -> Result<Map<String, Json>, Failure> {
-    let wanted = problem.wanted(name)?;
-    let observation = observation(problem, &wanted)?;
-    let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?;
-    let (mut document, begins) = observed(problem, name, &observation, &window[1])?;
+    let wanted = of.problem.wanted(of.name)?;
+    let ends = window.each_ref();
+    let signal = match of.minus {
+        None => of.problem.signal_on(&wanted, ends, Purpose::Search)?,
+        Some(other) => of.problem.difference_on(other, &wanted, ends, Purpose::Search)?,
+    };
+    let (mut document, begins) = of.seen(&window[1])?;
     let _progress = progress::spinner("searching");
     let search = Search::new(&*signal)?.half_open();
     let mut insert = |key: &str, value: Json| document.insert(key.into(), value);
     let mut cover = Cover::of(&*signal, digits);
     let cuts = cuts(&*signal, begins)?;
-    if let Some(goal) = goal {
-        let found = search.extremum(goal, digits, SEARCH_BITS)?;
-        if matches!(found.value, Value::Enclosed(_)) {
-            return Err(undecided("a digit of the extremum"));
-        }
-        let (decimal, last_place) = rounded(&found.value, digits);
-        let half = power_of_ten(last_place) / BigRational::from_integer(2.into());
-        cover.level = match goal {
-            Goal::Largest => decimal.to_rational() + half,
-            Goal::Smallest => decimal.to_rational() - half,
+    let extremum = |goal, least: Option<&BigRational>| {
+        let Some(found) = search.extremum_beyond(goal, least, digits, SEARCH_BITS)? else {
+            return Ok(None);
         };
+        let (decimal, last_place) = rounded(&found.value, digits);
+        match found.value {
+            Value::Enclosed(_) => Err(undecided("a digit of the extremum")),
+            _ => Ok(Some((decimal, last_place, found))),
+        }
+    };
+    let found = match asked {
+        Asked::Roots => None,
+        Asked::Extremum(goal) => extremum(goal, None)?,
+        Asked::Distance => {
+            let least = search.largest(&BigRational::default())?;
+            let both = [Goal::Largest, Goal::Smallest].map(|goal| extremum(goal, Some(&least[0])));
+            let [most, least] = both;
+            let found = most?.into_iter().chain(least?).max_by_key(|own| own.0.to_rational().abs());
+            Some(found.ok_or_else(|| undecided("the largest difference"))?)
+        }
+    };
+    if let Some((decimal, last_place, found)) = found {
+        let half = power_of_ten(last_place) / BigRational::from_integer(2.into());
+        let (value, told) = (decimal.to_rational(), decimal.to_string());
+        let (goal, told, levels) = match asked {
+            Asked::Extremum(Goal::Smallest) => ("smallest", &*told, vec![value - half]),
+            Asked::Distance => {
+                let bound = value.abs() + half;
+                ("distance", told.trim_start_matches('-'), vec![-&bound, bound])
+            }
+            _ => ("largest", &*told, vec![value + half]),
+        };
+        cover.levels = levels;
         cover.run(&cuts)?;
         insert("kind", json!("extremum"));
-        insert("goal", json!(if goal == Goal::Largest { "largest" } else { "smallest" }));
-        insert("value", json!(decimal.to_string()));
+        insert("goal", json!(goal));
+        insert("value", json!(told));
         insert("last_place", json!(last_place));
         insert("attained", cover.attained(&found, digits)?);
     } else {
-        let found = search.roots(&cover.level, digits, SEARCH_BITS)?;
+        let found = search.roots(&BigRational::default(), digits, SEARCH_BITS)?;
         cover.run(&cuts)?;
         let roots: Vec<Option<Window>> =
             found.all.iter().map(|root| place(root, digits)).collect::<Result<_, Failure>>()?;
@@ -116,7 +149,7 @@ fn place(root: &Root, digits: usize) -> Result<Option<Window>, Failure> {
     })
 }
 
-/// A part of the window on which a derivative has one sign: of order 0 the quantity less a level; of order k > 1 where
+/// A part of the window on which a derivative has one sign: of order 0 the quantity less each level; of order k > 1 where
 /// those of the orders 1 … k - 1 vanish at one end; without one the quantity is the level itself.
 struct Cell {
     from: BigRational,
@@ -127,7 +160,7 @@ struct Cell {
 /// Cells that cover the window, so that a checker need not look for them.
 struct Cover<'a> {
     signal: &'a dyn Signal,
-    level: BigRational,
+    levels: Vec<BigRational>,
     bits: u64,
     cells: Vec<Cell>,
 }
@@ -135,7 +168,7 @@ struct Cover<'a> {
 impl<'a> Cover<'a> {
     fn of(signal: &'a dyn Signal, digits: usize) -> Cover<'a> {
         let bits = SPARE_BITS + 4 * digits as u64;
-        Cover { signal, level: BigRational::default(), bits, cells: Vec::new() }
+        Cover { signal, levels: vec![BigRational::default()], bits, cells: Vec::new() }
     }
 
     fn run(&mut self, cuts: &[BigRational]) -> Result<(), Failure> {
@@ -173,7 +206,9 @@ impl<'a> Cover<'a> {
         to: &BigRational,
     ) -> Result<Option<Option<usize>>, Failure> {
         let bounds = [from.clone(), to.clone()];
-        if self.signal.equals(stretch, &self.level, &bounds, self.bits)? {
+        if let [level] = &self.levels[..]
+            && self.signal.equals(stretch, level, &bounds, self.bits)?
+        {
             return Ok(Some(None));
         }
         let mut orders = vec![0, 1];
@@ -200,14 +235,16 @@ impl<'a> Cover<'a> {
         let two = BigRational::from_integer(2.into());
         let place = ((from + to) / &two, (to - from) / two);
         let taylor = self.signal.taylor(stretch, order, (&place.0, &place.1), TERMS, self.bits)?;
-        let mut middle = taylor.coefficient(0);
-        if order == 0 {
-            middle = middle.subtract(&Ball::from_rational(&self.level, self.bits), self.bits);
-        }
         let rest = (1..TERMS)
             .fold(taylor.remainder, |rest, k| rest.add(&taylor.coefficient(k).magnitude()));
         let rest = rest.add(&rest.scale(-MARGIN_BITS));
-        Ok(middle.widened(&rest).sign().is_some_and(|sign| sign.is_ne()))
+        let level = |level| Ball::from_rational(level, self.bits);
+        let zero = BigRational::default();
+        let levels = if order == 0 { &self.levels[..] } else { std::slice::from_ref(&zero) };
+        Ok(levels.iter().all(|own| {
+            let middle = taylor.coefficient(0).subtract(&level(own), self.bits);
+            middle.widened(&rest).sign().is_some_and(|sign| sign.is_ne())
+        }))
     }
 
     /// The number of a cell and a time there, at which the extremum is taken or approached.

@@ -16,17 +16,19 @@ fn certified() -> impl Iterator<Item = &'static str> {
 }
 
 /// Values of waves and of observables, with delays, forcing, roots and slopes among them.
-const VALUES: [&str; 6] = [
+const VALUES: [&str; 8] = [
     "rigid-mass --set mu=1/4 --quantity velocity --at 33/10 --digits 30",
     "rigid-mass --set mu=1/4 --quantity f --at 33/10",
     "two-bars --set r=1/2 --quantity force --at 5",
     "pulse-shape --set mu=1 --quantity force --at 3",
     "mass-on-fixed-bar --set mu=1 --quantity strain_fixed --at 4 --digits 50",
     "pushed-bar --quantity velocity --at 7/2",
+    "pile --quantity toe_force --at 20/3 --digits 40",
+    "pile --quantity f --at 2",
 ];
 
 /// Zeros and extrema: simple, exact, on intervals, at arrivals, in limits, in the whole window.
-const WINDOWS: [&str; 8] = [
+const WINDOWS: [&str; 11] = [
     "rigid-mass --set mu=1 --zero strain_impact --from 2 --to 4",
     "rigid-mass --set mu=1/4 --zero velocity --to 6 --digits 30",
     "pulse-shape --set mu=1 --zero force --to 6",
@@ -35,6 +37,24 @@ const WINDOWS: [&str; 8] = [
     "mass-on-fixed-bar --set mu=1/4 --min strain_fixed --to 6 --digits 30",
     "struck-free-bar --set mu=3/2 --max impact_force --from 1/3 --to 5",
     "two-bars --set r=1/2 --min force --to 9",
+    "pile --max toe_force --to 8",
+    "pile --zero ram_velocity --to 8",
+    "mass-on-fixed-bar --set mu=1/10 --zero velocity --minus third --to 1",
+];
+
+/// How far quantities are from those of simpler scenes: without waves, endless, with other numbers.
+const DISTANCES: [&str; 4] = [
+    "mass-on-fixed-bar --set mu=1/10 --distance velocity --minus third --to 1",
+    "mass-on-fixed-bar --set mu=1 --distance strain_impact --minus endless:rod.right --to 4 --digits 6",
+    "pile --distance ram_velocity --minus without:toe --to 4 --digits 6",
+    "struck-free-bar --set mu=1 --max velocity --minus endless:rod.right --to 4 --digits 9",
+];
+
+/// Doubles: correctly rounded, within a tolerance, by a method with a bound of its own.
+const DOUBLES: [&str; 3] = [
+    "rigid-mass --set mu=1 --quantity velocity --to 6 --points 30",
+    "mass-on-fixed-bar --set mu=1/4 --quantity strain_fixed --from 1/3 --to 6 --points 20 --tol 1e-6",
+    "pile --quantity toe_force --to 6 --points 30 --method compiled",
 ];
 
 /// Scenes with formulas for every n: sequences, Laguerre polynomials, sums over earlier periods.
@@ -111,7 +131,8 @@ fn certificates(folder: &Path) -> Vec<String> {
     let pieces = certified().map(|scene| format!("{scene} --through 4"));
     let ratios = RATIOS.map(|ratio| format!("saint-venant --set mu={ratio} --through 6"));
     let general = GENERAL.map(|scene| format!("{scene} --general"));
-    let asked = VALUES.into_iter().chain(WINDOWS).map(str::to_owned);
+    let asked =
+        VALUES.into_iter().chain(WINDOWS).chain(DISTANCES).chain(DOUBLES).map(str::to_owned);
     let lines = pieces.chain(ratios).chain(general).chain(asked).enumerate();
     let written = lines.map(|(i, line)| {
         let file = format!("{i}.json");
@@ -222,8 +243,9 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let stated = ask("rigid-mass --general");
     let velocity = ask(WINDOWS[1]);
     let (roots, largest) = (ask(WINDOWS[0]), ask(WINDOWS[4]));
+    let (rings, distance, doubles) = (ask(VALUES[6]), ask(DISTANCES[0]), ask(DOUBLES[0]));
     type Change = fn(&mut serde_json::Value);
-    let cases: [(&serde_json::Value, Change, &str); 50] = [
+    let cases: [(&serde_json::Value, Change, &str); 60] = [
         (&pieces, |own| own["pieces"]["f"][2][0][1][0][0][0][0] = "7".into(), "period 2"),
         (&pieces, |own| own["continuity"][0]["start"] = json!([]), "continuity 0"),
         (&pieces, |own| own["continuity"] = json!([]), "leaves values open"),
@@ -243,6 +265,23 @@ fn wrong_claims_are_told_by_what_is_wrong() {
         (&general, |own| own["line"][1]["mass"] = own["period"].clone(), "echo"),
         (&sequences, |own| own["general"]["f"]["terms"][1][1] = 1.into(), "equation"),
         (&value, |own| own["value"] = "0.3".into(), "another one"),
+        (&rings, |own| own["value"] = "0.3".into(), "another one"),
+        (
+            &rings,
+            |own| {
+                let i = json!([[[[["1", { "sqrt(-1)": 1 }]], []]]]);
+                own["observed"]["forcing"] = json!([[[], i[0]]]);
+            },
+            "not real",
+        ),
+        (&doubles, |own| own["values"][9][0] = "1/3".into(), "the value at"),
+        (&doubles, |own| own["values"][9][1] = "0".into(), "the value at"),
+        (&doubles, |own| own["to"] = "5".into(), "the value at"),
+        (&distance, |own| own["value"] = "-0.03".into(), "beyond"),
+        (&distance, |own| own["goal"] = "smallest".into(), "beyond the extremum"),
+        (&distance, |own| drop(own.as_object_mut().unwrap().remove("minus")), "beyond"),
+        (&distance, |own| own["minus"]["time"] = "x".into(), "names"),
+        (&distance, |own| own["minus"]["pieces"]["rod"][0] = json!([]), "equation"),
         (&value, |own| own["at"] = "34/10".into(), "another one"),
         (&value, |own| own["last_place"] = (-3).into(), "more digits than it says"),
         (&roots, |own| own["zeros"] = json!([]), "1 zeros instead of 0"),
@@ -383,7 +422,17 @@ fn what_has_no_certificate_is_told() {
         ("certify pile --general", "no closed form in n"),
         ("certify rigid-mass --at 1", "--quantity"),
         ("certify rigid-mass --zero velocity", "mu has no value"),
-        ("certify pile --max toe_force --to 10", "square roots"),
+        ("certify pile --quantity ram_velocity", "--points N"),
+        ("certify pile --quantity ram_velocity --to 4 --points 0", "0 doubles"),
+        (
+            "certify rigid-mass --set mu=1 --quantity f --points 9 --method stable",
+            "no proven bound",
+        ),
+        (
+            "certify mass-on-fixed-bar --set mu=1 --max velocity --minus modes:3 --to 4",
+            "not the solution of a scene",
+        ),
+        ("certify pile --max ram_velocity --minus third --to 4", "a root that depends"),
     ] {
         let words: Vec<&str> = line.split(' ').collect();
         let (code, out, errors) = run(&folder, &words);
