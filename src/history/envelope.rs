@@ -6,7 +6,7 @@
 //! alike are compared as nearly as the curvature over the symbol allows.
 
 use crate::ball::{Arithmetic as _, Ball, Magnitude};
-use crate::history::family::OnStep;
+use crate::history::on_step::OnStep;
 use crate::limits::MAX_SYMBOL_BITS as BITS;
 use crate::signal::{Taylor, middle_and_half};
 use num_traits::{One as _, ToPrimitive as _, Zero as _};

@@ -9,10 +9,11 @@ use super::over::OverSymbol;
 use crate::ball::{Arithmetic, Ball, BallError, Magnitude, Number};
 use crate::enclosure::EnclosureError;
 use crate::expression::{Fraction, NotAUnit, Root};
+use crate::history::on_step::OnStep;
 use crate::history::passivity::{Block, Passivity, StateError};
 use crate::limits::{MAX_STEPS_OVER_SYMBOL, MAX_SYMBOL_BITS as BITS};
 use crate::network::{
-    ElementLaw, Elements, Field, Lump, Measured, MeasuredValue, Node, Reading, ScaledScene,
+    ElementLaw, Elements, Energy, Field, Lump, Measured, MeasuredValue, Node, Reading, ScaledScene,
     Section, Side, System, Term, common_measure, dot,
 };
 use crate::scene::Drive;
@@ -30,8 +31,8 @@ pub enum NotOverSymbol {
     Contacts,
     #[error("`{0}` is not supported over a symbol: it is not a constant force")]
     Load(String),
-    #[error("energies, momenta and displacements are not supported over a symbol")]
-    Integral,
+    #[error("what an endless bar holds is not supported over a symbol")]
+    Endless,
     #[error("the travel times have no common divisor for all values of the symbol")]
     NoCommonMeasure,
     #[error("more than {MAX_STEPS_OVER_SYMBOL} steps")]
@@ -59,55 +60,25 @@ impl NotOverSymbol {
 
 type Outcome<T> = Result<T, NotOverSymbol>;
 
-/// A function of time on a step, `P(x) + e(x)` for `0 ≤ x ≤ 1`, with `P(x) = Σ_k c_k x^k`.
-///
-/// # Invariants
-/// `|e(x)| ≤ error` for each value of the symbol. Coefficients have no radii.
-#[derive(Clone, Debug)]
-pub struct OnStep {
-    pub coefficients: Vec<Varying>,
-    pub error: Magnitude,
-}
-
-impl OnStep {
-    fn constant(value: &Varying) -> OnStep {
-        let (value, error) = value.split();
-        OnStep { coefficients: vec![value], error }
-    }
-
-    fn coefficient(&self, k: usize) -> Varying {
-        self.coefficients.get(k).cloned().unwrap_or_else(Varying::zero)
-    }
-
-    /// The difference to another function.
-    pub fn less(&self, other: &OnStep) -> OnStep {
-        OnStep::sum(&[Varying::one(), Varying::one().negate()], [self, other].into_iter())
-    }
-
-    /// A sum with these factors.
-    fn sum<'p>(factors: &[Varying], parts: impl Iterator<Item = &'p OnStep>) -> OnStep {
-        let (factors, parts): (Vec<Varying>, Vec<&OnStep>) =
-            factors.iter().cloned().zip(parts).filter(|(factor, _)| !factor.is_zero()).unzip();
-        let errors = factors.iter().zip(&parts);
-        let errors = errors.map(|(factor, part)| factor.magnitude().multiply(&part.error));
-        let mut error = errors.fold(Magnitude::ZERO, |sum, own| sum.add(&own));
-        let count = parts.iter().map(|part| part.coefficients.len()).max().unwrap_or(0);
-        let coefficient = |k| {
-            let column: Vec<Varying> = parts.iter().map(|part| part.coefficient(k)).collect();
-            let (sum, off) = dot(&factors, &column, BITS).split();
-            error = error.add(&off);
-            sum
-        };
-        OnStep { coefficients: (0..count).map(coefficient).collect(), error }
-    }
-}
-
 /// A scene with a symbol, the values that it takes, and what is observed.
 pub struct Over<'a> {
     scaled: &'a ScaledScene,
     measured: &'a Measured,
-    terms: &'a [Term],
     symbol: OverSymbol<'a>,
+}
+
+/// What an observable is made of.
+enum Course {
+    Now(Reading<usize>),
+    /// Its integral since the start, in steps.
+    SinceStart(Reading<usize>),
+    /// The square of a sum with these factors.
+    Square(Vec<Varying>, Vec<Course>),
+    /// The integral, over the last travel time, of the waves that entered a bar, or of their squares.
+    InBar {
+        bar: usize,
+        of: fn(&OnStep) -> OnStep,
+    },
 }
 
 impl<'a> Over<'a> {
@@ -133,11 +104,8 @@ impl<'a> Over<'a> {
         }
         let measured = scaled.measures.iter().find(|own| own.name == name);
         let measured = measured.ok_or_else(|| NotOverSymbol::Unknown(name.to_owned()))?;
-        let MeasuredValue::Linear(terms) = &measured.value else {
-            return Err(NotOverSymbol::Integral);
-        };
         let symbol = OverSymbol { symbol, between, constants: &model.constants };
-        Ok(Over { scaled, measured, terms, symbol })
+        Ok(Over { scaled, measured, symbol })
     }
 
     /// A step that suits these scenes: the largest common measure of their travel times and of the delays of what is
@@ -149,7 +117,11 @@ impl<'a> Over<'a> {
         let times = all.iter().flat_map(|own| {
             let model = own.scaled.model();
             let travels = model.bars.values().filter_map(|bar| bar.travel.as_ref());
-            let times = travels.chain(own.terms.iter().flat_map(|term| term.of.delays()));
+            let terms = match &own.measured.value {
+                MeasuredValue::Linear(terms) => &terms[..],
+                MeasuredValue::Energy(_) => &[],
+            };
+            let times = travels.chain(terms.iter().flat_map(|term| term.of.delays()));
             times.map(|time| Root::from(time).times(&model.scale.time))
         });
         let times: Vec<Root> = times.filter(|time| !time.factor().is_zero()).collect();
@@ -190,15 +162,11 @@ impl<'a> Over<'a> {
         if count > MAX_STEPS_OVER_SYMBOL {
             return Err(NotOverSymbol::TooManySteps);
         }
-        let (factors, readings): (Vec<_>, Vec<_>) = self.readings(step)?.into_iter().unzip();
+        let (factors, courses): (Vec<_>, Vec<_>) = self.observed(step)?.into_iter().unzip();
         let mut motion =
             Motion { bars: self.bars(step)?, places: self.places(step)?, known: Vec::new() };
         motion.follow(count);
-        let observed = |now| {
-            let parts: Vec<OnStep> = readings.iter().map(|own| motion.reading(own, now)).collect();
-            OnStep::sum(&factors, parts.iter())
-        };
-        Ok((0..count).map(observed).collect())
+        Ok(motion.sum(&factors, &courses))
     }
 
     /// The step in the scale of the scene.
@@ -265,44 +233,105 @@ impl<'a> Over<'a> {
         self.scaled.layout.nodes.iter().map(place).collect()
     }
 
-    /// What is observed as readings with factors, their delays in steps.
-    fn readings(&self, step: &Root) -> Outcome<Vec<(Varying, Reading<usize>)>> {
+    /// What is observed, with factors in the user's unit.
+    fn observed(&self, step: &Root) -> Outcome<Vec<(Varying, Course)>> {
         let unit = self.symbol.root(&self.measured.unit)?;
-        let (model, layout) = (self.scaled.model(), &self.scaled.layout);
-        let (mut readings, mut left) = (Vec::new(), self.terms.to_vec());
-        while let Some(Term { coefficient, of }) = left.pop() {
-            let mut factor = self.symbol.fraction(&coefficient)?.multiply(&unit, BITS);
-            let of = match of {
-                Reading::Force(lump) => {
-                    let terms = Elements { model, layout }.force(lump);
-                    left.extend(terms.ok_or(NotOverSymbol::Contacts)?.into_iter().map(|term| {
-                        Term { coefficient: &coefficient * &term.coefficient, of: term.of }
-                    }));
-                    continue;
+        let mut parts = Vec::new();
+        match &self.measured.value {
+            MeasuredValue::Linear(terms) => {
+                for term in terms {
+                    parts.extend(self.linear(term, step)?);
                 }
-                Reading::Velocity(face) => Reading::Velocity(face),
-                Reading::Compression(lump) => {
-                    let step = self.symbol.root(&self.scaled_step(step)?)?;
-                    factor = factor.multiply(&step, BITS);
-                    Reading::Compression(lump)
-                }
-                Reading::InBar(Field::Displacement, _)
-                | Reading::Displacement(_)
-                | Reading::Momentum(_) => return Err(NotOverSymbol::Integral),
-                Reading::InBar(field, Section { bar, delays: [right, left] }) => {
-                    if field == Field::Force {
-                        let impedance = &model.bars[&layout.bars[bar]].impedance;
-                        factor = factor.multiply(&self.symbol.fraction(impedance)?, BITS);
+            }
+            MeasuredValue::Energy(shares) => {
+                let (model, layout) = (self.scaled.model(), &self.scaled.layout);
+                for (share, element) in shares {
+                    let share = self.symbol.fraction(share)?;
+                    let energy = Elements { model, layout }.energy(*element);
+                    for own in energy.map_err(|_| NotOverSymbol::Contacts)? {
+                        let (factor, of) = match own {
+                            Energy::Square(term) => {
+                                let one = Term { coefficient: Fraction::one(), of: term.of };
+                                let (factors, of) = self.linear(&one, step)?.into_iter().unzip();
+                                let factor = self.symbol.fraction(&term.coefficient)?;
+                                (factor, Course::Square(factors, of))
+                            }
+                            Energy::InBar(bar) => self.held(bar, OnStep::square, step)?,
+                            Energy::Work(..) => return Err(NotOverSymbol::Contacts),
+                        };
+                        parts.push((factor.multiply(&share, BITS), of));
                     }
-                    let lag = |delay: Option<Fraction>| {
-                        delay.map(|delay| self.lag(&delay, step)).transpose()
-                    };
-                    Reading::InBar(field, Section { bar, delays: [lag(right)?, lag(left)?] })
                 }
-            };
-            readings.push((factor, of));
+            }
         }
-        Ok(readings)
+        Ok(parts.into_iter().map(|(factor, of)| (factor.multiply(&unit, BITS), of)).collect())
+    }
+
+    /// What a bar holds, `Z ∫ (w₊ + w₋) dt` or the same of squares.
+    fn held(
+        &self,
+        bar: usize,
+        of: fn(&OnStep) -> OnStep,
+        step: &Root,
+    ) -> Outcome<(Varying, Course)> {
+        let own = &self.scaled.model().bars[&self.scaled.layout.bars[bar]];
+        if own.travel.is_none() {
+            return Err(NotOverSymbol::Endless);
+        }
+        let impedance = self.symbol.fraction(&own.impedance)?;
+        let step = self.symbol.root(&self.scaled_step(step)?)?;
+        Ok((impedance.multiply(&step, BITS), Course::InBar { bar, of }))
+    }
+
+    /// What is linear in the motion, with its delays in steps.
+    fn linear(&self, term: &Term, step: &Root) -> Outcome<Vec<(Varying, Course)>> {
+        let (model, layout) = (self.scaled.model(), &self.scaled.layout);
+        let mut factor = self.symbol.fraction(&term.coefficient)?;
+        let in_steps = || self.symbol.root(&self.scaled_step(step)?).map_err(NotOverSymbol::from);
+        let of = match &term.of {
+            Reading::Force(lump) => {
+                let terms = Elements { model, layout }.force(*lump);
+                let mut parts = Vec::new();
+                for own in terms.ok_or(NotOverSymbol::Contacts)? {
+                    let coefficient = &term.coefficient * &own.coefficient;
+                    parts.extend(self.linear(&Term { coefficient, of: own.of }, step)?);
+                }
+                return Ok(parts);
+            }
+            Reading::Velocity(face) => Course::Now(Reading::Velocity(*face)),
+            Reading::Displacement(face) => {
+                factor = factor.multiply(&in_steps()?, BITS);
+                Course::SinceStart(Reading::Velocity(*face))
+            }
+            Reading::Compression(lump) => {
+                factor = factor.multiply(&in_steps()?, BITS);
+                Course::Now(Reading::Compression(*lump))
+            }
+            Reading::Momentum(bar) => {
+                let (held, of) = self.held(*bar, OnStep::clone, step)?;
+                factor = factor.multiply(&held, BITS);
+                of
+            }
+            Reading::InBar(field, Section { bar, delays: [right, left] }) => {
+                let lag = |delay: &Option<Fraction>| {
+                    delay.as_ref().map(|delay| self.lag(delay, step)).transpose()
+                };
+                let section = Section { bar: *bar, delays: [lag(right)?, lag(left)?] };
+                match field {
+                    Field::Displacement => {
+                        factor = factor.multiply(&in_steps()?, BITS);
+                        Course::SinceStart(Reading::InBar(Field::Velocity, section))
+                    }
+                    Field::Force => {
+                        let impedance = &model.bars[&layout.bars[*bar]].impedance;
+                        factor = factor.multiply(&self.symbol.fraction(impedance)?, BITS);
+                        Course::Now(Reading::InBar(*field, section))
+                    }
+                    _ => Course::Now(Reading::InBar(*field, section)),
+                }
+            }
+        };
+        Ok(vec![(factor, of)])
     }
 }
 
@@ -411,6 +440,59 @@ impl Motion {
             (Some(node), Some(step)) => self.known[step][node].leaving[1 - direction].clone(),
             _ => own.before[direction].clone(),
         }
+    }
+
+    /// A sum of these on all steps.
+    fn sum(&self, factors: &[Varying], courses: &[Course]) -> Vec<OnStep> {
+        let courses: Vec<Vec<OnStep>> = courses.iter().map(|own| self.course(own)).collect();
+        let sum = |now| OnStep::sum(factors, courses.iter().map(|own: &Vec<OnStep>| &own[now]));
+        (0..self.known.len()).map(sum).collect()
+    }
+
+    fn course(&self, of: &Course) -> Vec<OnStep> {
+        let steps = 0..self.known.len();
+        match of {
+            Course::Now(reading) => steps.map(|now| self.reading(reading, now)).collect(),
+            Course::SinceStart(rate) => {
+                let one = [Varying::one(), Varying::one()];
+                let mut before = OnStep::constant(&Varying::zero());
+                let next = |now| {
+                    let own = self.reading(rate, now).antiderivative();
+                    let own = OnStep::sum(&one, [&before, &own].into_iter());
+                    before = own.at_end();
+                    own
+                };
+                steps.map(next).collect()
+            }
+            Course::Square(factors, of) => {
+                self.sum(factors, of).iter().map(OnStep::square).collect()
+            }
+            Course::InBar { bar, of } => self.held(*bar, *of),
+        }
+    }
+
+    /// What entered a bar during its last travel time: from a part of the step so many steps before until now.
+    fn held(&self, bar: usize, of: fn(&OnStep) -> OnStep) -> Vec<OnStep> {
+        let lag = self.bars[bar].lag.expect("an endless bar is refused before");
+        let entered = |direction: usize| {
+            let before = self.bars[bar].before[direction].clone();
+            let after =
+                (0..self.known.len()).map(|now| self.entered((bar, direction), Some(0), now));
+            let all = std::iter::repeat_n(before, lag).chain(after);
+            let all = all.map(|own| of(&own).antiderivative());
+            all.map(|own| (own.at_end(), own)).collect::<Vec<(OnStep, OnStep)>>()
+        };
+        let both = [0, 1].map(entered);
+        let held = |now: usize| {
+            let parts = both.iter().flat_map(|all| {
+                let (whole, first) = &all[now];
+                let between = all[now + 1..now + lag].iter().map(|(whole, _)| whole.clone());
+                between.chain([whole.less(first), all[now + lag].1.clone()])
+            });
+            let parts: Vec<OnStep> = parts.collect();
+            OnStep::sum(&vec![Varying::one(); parts.len()], parts.iter())
+        };
+        (0..self.known.len()).map(held).collect()
     }
 
     /// What is read on a step, of a bar in units of its impedance.

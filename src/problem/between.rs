@@ -6,7 +6,8 @@
 use super::enough_map::{MapRequest, short};
 use super::{Problem, Simpler};
 use crate::history::envelope::{Ends, Envelope, StepsOf};
-use crate::history::family::{NotOverSymbol, OnStep, Over};
+use crate::history::family::{NotOverSymbol, Over};
+use crate::history::on_step::OnStep;
 use crate::language;
 use crate::limits::MAX_PARTS_OVER_SYMBOL;
 use crate::network::ScaledScene;

@@ -3,7 +3,8 @@
 use wavestep::Problem;
 use wavestep::ball::{Arithmetic, Ball, Magnitude};
 use wavestep::history::envelope::{Envelope, StepsOf};
-use wavestep::history::family::{NotOverSymbol, OnStep, Over};
+use wavestep::history::family::{NotOverSymbol, Over};
+use wavestep::history::on_step::OnStep;
 use wavestep::planner::Purpose;
 use wavestep::problem::{MapRequest, Simpler, Size, SymbolRange};
 use wavestep::signal::{Limit, Varying, value};
@@ -208,7 +209,7 @@ fn enclosures_over_a_symbol_hold_single_values() {
                 let over = match over {
                     Ok(over) => [over],
                     Err(error) => {
-                        assert_eq!(error, NotOverSymbol::Integral, "{name}: {quantity}");
+                        assert_eq!(error, NotOverSymbol::Endless, "{name}: {quantity}");
                         continue;
                     }
                 };
@@ -219,7 +220,7 @@ fn enclosures_over_a_symbol_hold_single_values() {
                     Ok(told) => told,
                     Err(error) => {
                         assert!(
-                            error.is_of_width() || error == NotOverSymbol::Integral,
+                            error.is_of_width() || error == NotOverSymbol::Endless,
                             "{name}: {quantity}: {error}"
                         );
                         continue;
@@ -248,9 +249,14 @@ fn enclosures_over_a_symbol_hold_single_values() {
                             let exact = value(&*signal, &time, Limit::Right, 30, 1 << 10).unwrap();
                             let parameter = &place * rational(2, 1) - rational(1, 1);
                             let mut here = of_step(on_step, &x, &parameter);
+                            // Of what bars hold, integrals of waves, less is known.
+                            let is_held =
+                                ["energy", "momentum"].iter().any(|own| quantity.contains(own));
+                            let most = if is_held { 100 } else { 1000 };
                             assert!(
-                                *here.radius() <= Magnitude::from_rational(&rational(1, 1000)),
-                                "{name}: {quantity}"
+                                *here.radius() <= Magnitude::from_rational(&rational(1, most)),
+                                "{name}: {quantity} {:?}",
+                                here.radius().to_double()
                             );
                             if other.title() == "Units" {
                                 here = here.widened(&Magnitude::power_of_two(-60));
@@ -400,6 +406,13 @@ fn what_is_not_followed_over_a_symbol_is_told() {
         bar two { impedance = 2, travel = 1 }
         line free - one - two - fixed
         observe force = force(two.right)";
+    let gone = "scene \"Gone\"
+        symbol a > 0
+        mass hammer { mass = a, velocity = 1 }
+        bar block { impedance = 1, travel = 1 }
+        bar rod { impedance = 1 }
+        line free - hammer - block - rod - endless
+        observe held = momentum(rod)";
     let apart = || scene(apart);
     let builtin = |name| Problem::builtin(name).unwrap();
     type Window<'a> =
@@ -421,14 +434,7 @@ fn what_is_not_followed_over_a_symbol_is_told() {
             &zero_to_two,
             "arrivals are counted at single values",
         ),
-        (
-            builtin("mass-on-fixed-bar"),
-            "mu",
-            "energy",
-            "third",
-            &zero_to_two,
-            "energies, momenta and displacements",
-        ),
+        (scene(gone), "a", "held", "rigid:block", &zero_to_two, "an endless bar holds"),
         (
             builtin("mass-on-fixed-bar"),
             "mu",
