@@ -382,7 +382,8 @@ def check_scenes(cert):
     """The scene with its pieces, and the one that is subtracted, if any: it has the same time."""
     scenes = [(cert, check_pieces(cert))]
     if "minus" in cert:
-        need(cert["minus"]["time"] == cert["time"], "the times have different names")
+        need(all(cert["minus"][time] == cert[time] for time in ("time", "local")), "the times have different names")
+        need("minus" not in cert["minus"], "a third scene")
         scenes.append((cert["minus"], check_pieces(cert["minus"])))
     return scenes
 
@@ -527,11 +528,12 @@ def check(cert):
     need(type(cert["wavestep_certificate"]) is int and cert["wavestep_certificate"] == 1, "a certificate of another version")
     ROOTS.clear()
     ROOTS.update({symbol: read_square(square) for symbol, square in cert["roots"].items()})
-    need(len(set(ROOTS.values())) == len(ROOTS), "two roots of one number")
+    need(len(set(ROOTS.values())) == len(ROOTS) <= 16, "two roots of one number, or too many")
     kinds = {"pieces": check_pieces, "general": check_general, "value": check_value, "doubles": check_doubles}
     kinds |= {"roots": check_roots, "extremum": check_extremum}
     need(type(cert["title"]) is str and cert["title"].encode(), "a title is missing")
     need(cert["kind"] in kinds, f"unknown kind {json.dumps(cert['kind'])}")
+    need("minus" not in cert or "observed" in cert["minus"] and cert["kind"] not in ("pieces", "general"), "a second scene for nothing")
     kinds[cert["kind"]](cert)
 
 

@@ -169,11 +169,11 @@ def read_function(rows):
         key = ()
         for factor, power in below:
             need(is_count(power) and power > 0, "a power is no positive integer, or too large")
-            divisor = read_polynomial(factor)
             # Roots of -1 and of primes are independent: nothing but zero divides zero.
-            need(reduced(divisor), "a divisor is zero")
+            divisor = reduced(read_polynomial(factor))
+            need(divisor, "a divisor is zero")
             key, _ = product(key, ((tuple(sorted(divisor.items())), power),))
-        add(function, {key: read_polynomial(top)})
+        add(function, {key: reduced(read_polynomial(top))})
     return function
 
 
@@ -321,7 +321,7 @@ def number(function):
     """A rational function without symbols but roots, from products of roots to rational numbers."""
     need(not any(below and top for below, top in function.items()), "a symbol has no value")
     top = function.get((), {})
-    need(all(s in ROOTS for monomial in top for s, _ in monomial), "a symbol has no value")
+    need(all(s in ROOTS and p == 1 for monomial in top for s, p in monomial), "a symbol has no value")
     return {monomial: c for monomial, c in top.items() if c}
 
 
@@ -338,7 +338,7 @@ def sign(expression, t, time):
     """The sign at a time of what is real. Exponentials of different algebraic numbers are linearly independent over these."""
     here = put(expression, t, {(): {(): time}})
     parts = [(number(thawed(x)), number(r)) for x, r in here.items() if number(r)]
-    for bits in (128, 512, 2048, 8192, 32768) if parts else ():
+    for bits in (128, 512, 2048, 8192, 32768, 131072) if parts else ():
         total = sum((Ball.of(x, bits).exp() * Ball.of(r, bits) for x, r in parts), Ball(bits, 0))
         if total.sign():
             return total.sign()

@@ -31,8 +31,6 @@ pub enum NotOverSymbol {
     Contacts,
     #[error("`{0}` is not supported over a symbol: it is not a constant force")]
     Load(String),
-    #[error("what an endless bar holds is not supported over a symbol")]
-    Endless,
     #[error("the travel times have no common divisor for all values of the symbol")]
     NoCommonMeasure,
     #[error("more than {MAX_STEPS_OVER_SYMBOL} steps")]
@@ -275,9 +273,6 @@ impl<'a> Over<'a> {
         step: &Root,
     ) -> Outcome<(Varying, Course)> {
         let own = &self.scaled.model().bars[&self.scaled.layout.bars[bar]];
-        if own.travel.is_none() {
-            return Err(NotOverSymbol::Endless);
-        }
         let impedance = self.symbol.fraction(&own.impedance)?;
         let step = self.symbol.root(&self.scaled_step(step)?)?;
         Ok((impedance.multiply(&step, BITS), Course::InBar { bar, of }))
@@ -339,6 +334,18 @@ impl<'a> Over<'a> {
 fn constant(value: &Root) -> Outcome<Rational> {
     let value = value.exact().and_then(|value| value.as_constant());
     value.ok_or(NotOverSymbol::NoCommonMeasure)
+}
+
+/// The integral of a function since the start.
+fn since_start(rate: impl Iterator<Item = OnStep>) -> Vec<OnStep> {
+    let mut before = OnStep::constant(&Varying::zero());
+    let next = |rate: OnStep| {
+        let parts = [&before, &rate.antiderivative()];
+        let own = OnStep::sum(&[Varying::one(), Varying::one()], parts.into_iter());
+        before = own.at_end();
+        own
+    };
+    rate.map(next).collect()
 }
 
 struct Bar {
@@ -453,17 +460,7 @@ impl Motion {
         let steps = 0..self.known.len();
         match of {
             Course::Now(reading) => steps.map(|now| self.reading(reading, now)).collect(),
-            Course::SinceStart(rate) => {
-                let one = [Varying::one(), Varying::one()];
-                let mut before = OnStep::constant(&Varying::zero());
-                let next = |now| {
-                    let own = self.reading(rate, now).antiderivative();
-                    let own = OnStep::sum(&one, [&before, &own].into_iter());
-                    before = own.at_end();
-                    own
-                };
-                steps.map(next).collect()
-            }
+            Course::SinceStart(rate) => since_start(steps.map(|now| self.reading(rate, now))),
             Course::Square(factors, of) => {
                 self.sum(factors, of).iter().map(OnStep::square).collect()
             }
@@ -471,9 +468,14 @@ impl Motion {
         }
     }
 
-    /// What entered a bar during its last travel time: from a part of the step so many steps before until now.
+    /// What entered a bar during its last travel time: from a part of the step so many steps before until now. An endless
+    /// bar keeps all; one that holds something at the start is refused when its scene is read.
     fn held(&self, bar: usize, of: fn(&OnStep) -> OnStep) -> Vec<OnStep> {
-        let lag = self.bars[bar].lag.expect("an endless bar is refused before");
+        let Some(lag) = self.bars[bar].lag else {
+            let end = usize::from(self.bars[bar].ends[0].is_none());
+            let entered = |now| of(&self.entered((bar, end), Some(0), now));
+            return since_start((0..self.known.len()).map(entered));
+        };
         let entered = |direction: usize| {
             let before = self.bars[bar].before[direction].clone();
             let after =

@@ -22,6 +22,7 @@ use wavestep::problem::{
 };
 use wavestep::recurrence::Observation;
 use wavestep::signal::{Goal, Limit, Value};
+use wavestep_polynomial::Symbol;
 use window::Asked;
 use writer::Writer;
 
@@ -104,7 +105,7 @@ fn stated(problem: &Problem, writer: &mut Writer) -> Result<Map<String, Json>, F
         );
         return Err(Failure::usage(
             message,
-            "certificates are written where all rates are rational in the numbers of the scene",
+            "certificates are written where all rates are rational, or roots of rational numbers",
         ));
     }
     let mut document = Map::new();
@@ -270,6 +271,11 @@ impl Quantity<'_> {
             document.insert("minus".into(), Json::Object(others));
             begins.extend(more);
         }
+        let is_time =
+            |own: &&Symbol| [&document["time"], &document["local"]].contains(&&json!(own.name()));
+        if let Some(number) = writer.others.iter().find(|own| !is_time(own)) {
+            return Err(refused(&format!("whose formulas hold the number {number}")));
+        }
         document.insert("wavestep_certificate".into(), json!(VERSION));
         document.insert("quantity".into(), json!(self.name));
         document.insert("roots".into(), writer.told_roots());
@@ -286,7 +292,11 @@ fn observed(
 ) -> Result<(Map<String, Json>, Vec<BigRational>), Failure> {
     let wanted = problem.wanted(name)?;
     let observation = observation(problem, &wanted)?;
-    let period = problem.shortest_period().expect("what has values has a period of known length");
+    if let Some(symbol) = problem.symbols().first() {
+        let remedy = format!("give a number for it, as in --set {symbol}=1/4");
+        return Err(Failure::usage(format!("the symbol {symbol} has no value"), remedy));
+    }
+    let period = problem.shortest_period().expect("without symbols its length is known");
     // The clocks of waves differ: what is seen may be of a later period than its time.
     let delays: Vec<BigRational> =
         observation.waves.iter().filter_map(|seen| seen.delay.as_constant()).collect();

@@ -66,7 +66,7 @@ pub fn certificate(
         Asked::Roots => None,
         Asked::Extremum(goal) => extremum(goal, None)?,
         Asked::Distance => {
-            let least = search.largest(&BigRational::default())?;
+            let least = search.largest(&power_of_ten(-(digits as i64)))?;
             let both = [Goal::Largest, Goal::Smallest].map(|goal| extremum(goal, Some(&least[0])));
             let [most, least] = both;
             let found = most?.into_iter().chain(least?).max_by_key(|own| own.0.to_rational().abs());
@@ -135,6 +135,9 @@ fn cuts(signal: &dyn Signal, begins: Vec<BigRational>) -> Result<Vec<BigRational
 fn place(root: &Root, digits: usize) -> Result<Option<Window>, Failure> {
     let exact = |time: &Value| time.exact().cloned().ok_or_else(|| undecided("the time of a root"));
     Ok(match root {
+        Root::Simple { time, .. } if matches!(time, Value::Enclosed(_)) => {
+            return Err(undecided("a digit of the time of a root"));
+        }
         Root::Simple { time, .. } => {
             let (decimal, place) = rounded(time, digits);
             let (time, unit) = (decimal.to_rational(), power_of_ten(place));

@@ -8,17 +8,22 @@ use wavestep::recurrence::{LinearForm, Recurrence};
 use wavestep::solution::{Family, GeneralForm};
 use wavestep_polynomial::{Polynomial, Symbol};
 
-/// Writes expressions as lists, and keeps the square roots that it met.
+/// Writes expressions as lists, and keeps the symbols that it met.
 #[derive(Default)]
 pub struct Writer {
-    pub roots: BTreeSet<Symbol>,
+    /// Those that stand for square roots.
+    roots: BTreeSet<Symbol>,
+    pub others: BTreeSet<Symbol>,
 }
 
 impl Writer {
     /// `[[coefficient, {symbol: power}], …]`.
     fn polynomial(&mut self, polynomial: &Polynomial) -> Json {
         let symbols = polynomial.symbols();
-        self.roots.extend(symbols.iter().filter(|symbol| symbol.square().is_some()).cloned());
+        for symbol in symbols {
+            let kind = if symbol.square().is_some() { &mut self.roots } else { &mut self.others };
+            kind.insert(symbol.clone());
+        }
         let term = |(exponents, coefficient): (&[u32], BigRational)| {
             let powers = symbols.iter().zip(exponents).filter(|(_, power)| **power > 0);
             let powers: Map<String, Json> =

@@ -245,7 +245,7 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let (roots, largest) = (ask(WINDOWS[0]), ask(WINDOWS[4]));
     let (rings, distance, doubles) = (ask(VALUES[6]), ask(DISTANCES[0]), ask(DOUBLES[0]));
     type Change = fn(&mut serde_json::Value);
-    let cases: [(&serde_json::Value, Change, &str); 60] = [
+    let cases: [(&serde_json::Value, Change, &str); 65] = [
         (&pieces, |own| own["pieces"]["f"][2][0][1][0][0][0][0] = "7".into(), "period 2"),
         (&pieces, |own| own["continuity"][0]["start"] = json!([]), "continuity 0"),
         (&pieces, |own| own["continuity"] = json!([]), "leaves values open"),
@@ -274,6 +274,33 @@ fn wrong_claims_are_told_by_what_is_wrong() {
             },
             "not real",
         ),
+        // A power of a root is no root: √3³ is not 1.73.
+        (
+            &value,
+            |own| {
+                own["roots"] = json!({ "q": "3" });
+                own["observed"]["waves"] = json!([]);
+                own["observed"]["forcing"] = json!([[[], [[[["1", { "q": 3 }]], []]]]]);
+                (own["value"], own["last_place"]) = ("1.73".into(), (-2).into());
+            },
+            "another one",
+        ),
+        // A root whose name is that of a number: e^√3 is not e^3.
+        (
+            &value,
+            |own| {
+                own["roots"] = json!({ "3": "3" });
+                own["observed"]["waves"] = json!([]);
+                let root = json!([[[[["1", { "3": 1 }]], []]], [[[["1", {}]], []]]]);
+                let number = json!([[[[["3", {}]], []]], [[[["-1", {}]], []]]]);
+                own["observed"]["forcing"] = json!([root, number]);
+                (own["value"], own["last_place"]) = ("0".into(), (-1).into());
+            },
+            "another one",
+        ),
+        (&pieces, |own| own["minus"] = json!({ "observed": {} }), "for nothing"),
+        (&distance, |own| own["minus"]["minus"] = own["minus"].clone(), "a third scene"),
+        (&distance, |own| own["minus"]["local"] = "x".into(), "names"),
         (&doubles, |own| own["values"][9][0] = "1/3".into(), "the value at"),
         (&doubles, |own| own["values"][9][1] = "0".into(), "the value at"),
         (&doubles, |own| own["to"] = "5".into(), "the value at"),
@@ -409,7 +436,16 @@ fn what_has_no_certificate_is_told() {
     let rings = "scene \"Rings\"\nmass ram { mass = 5/(3*pi), velocity = 1 }\nspring pad { stiffness = 32/(3*pi) }\n\
                  bar rod { impedance = 1, travel = 1 }\nline free - ram | pad - rod - fixed\n";
     std::fs::write(folder.join("rings.wave"), rings).unwrap();
+    let pi = "scene \"Pi\"\nmass ram { mass = 1, velocity = pi }\nbar rod { impedance = 1, travel = 1 }\n\
+              line free - ram - rod - fixed\nobserve v = velocity(ram)\n";
+    std::fs::write(folder.join("pi.wave"), pi).unwrap();
     for (line, message) in [
+        ("certify pi.wave --quantity v --at 1", "hold the number"),
+        ("certify mass-on-fixed-bar --max velocity --to 1", "mu has no value"),
+        (
+            "certify mass-on-fixed-bar --set mu=1/4 --zero velocity --to 3 --digits 2000",
+            "a digit of",
+        ),
         ("certify rates.wave", "a root that depends on other numbers"),
         ("certify rings.wave", "a root that depends on other numbers"),
         ("certify incommensurate", "incommensurable"),
