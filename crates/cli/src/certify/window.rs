@@ -135,7 +135,7 @@ fn cuts(signal: &dyn Signal, begins: Vec<BigRational>) -> Result<Vec<BigRational
 fn place(root: &Root, digits: usize) -> Result<Option<Window>, Failure> {
     let exact = |time: &Value| time.exact().cloned().ok_or_else(|| undecided("the time of a root"));
     Ok(match root {
-        Root::Simple { time, .. } if matches!(time, Value::Enclosed(_)) => {
+        Root::Simple { time: Value::Enclosed(_), .. } => {
             return Err(undecided("a digit of the time of a root"));
         }
         Root::Simple { time, .. } => {
