@@ -144,8 +144,9 @@ impl Rule for Combination<'_> {
     /// A sum is as flat as the least flat of its products. A product vanishes as often as its factors together; one
     /// without a zero is a constant and more, as far as every factor is.
     fn flatness(&self, places: &[usize], at: (&Mark<'_>, Limit), order: usize) -> Outcome<usize> {
+        let time = (&*self.scale, at.0.delay());
         let of = |operand: &usize, order| {
-            flatness_of(&*self.operands[*operand], places[*operand], at, order, &self.scale)
+            flatness_of(&*self.operands[*operand], places[*operand], at, order, time)
         };
         let mut least = MAX_FLATNESS + order;
         for Product { factors, .. } in &self.products {

@@ -156,7 +156,12 @@ impl Rule for Difference<'_> {
         if let (Some(function), Some(delay)) = (function, mark.delay()) {
             return zeros_of(function, self.scales[0].clock, delay, order);
         }
-        let of = |i: usize| flatness_of(&*self.operands[i], places[i], at, order, &self.scales[i]);
+        let theirs = mark.delay().and_then(|delay| self.rescaled(delay, [0, 1]));
+        let delays = [mark.delay(), theirs.as_ref()];
+        let of = |i: usize| {
+            let time = (&*self.scales[i], delays[i]);
+            flatness_of(&*self.operands[i], places[i], at, order, time)
+        };
         Ok(of(0)?.min(of(1)?))
     }
 

@@ -204,13 +204,13 @@ fn locate(signal: &dyn Signal, at: &Mark<'_>, side: Limit) -> Outcome<usize> {
 }
 
 /// How flat an operand is where a stretch of an operation begins or ends: one of its own, or else within one, where its exact
-/// function tells it.
+/// function tells it at a time that is known in its scale.
 fn flatness_of(
     signal: &dyn Signal,
     stretch: usize,
     (at, end): (&Mark<'_>, Limit),
     order: usize,
-    scale: &Scale<'_>,
+    (scale, delay): (&Scale<'_>, Option<&Fraction>),
 ) -> Outcome<usize> {
     if signal.is_zero(stretch) {
         return Ok(MAX_FLATNESS);
@@ -224,8 +224,8 @@ fn flatness_of(
         return signal.flatness(stretch, end, order);
     }
     let all = Fraction::symbol(scale.clock);
-    match (signal.exact_at(stretch, &all, Effort::Much), at.delay()) {
-        (Some(function), Some(at)) => Ok(zeros_of(function, scale.clock, at, order)?),
+    match (signal.exact_at(stretch, &all, Effort::Much), delay) {
+        (Some(function), Some(at)) => zeros_of(function, scale.clock, at, order),
         _ => Ok(0),
     }
 }
