@@ -74,7 +74,9 @@ pub fn of_pieces(problem: &Problem) -> Result<String, Failure> {
     Ok(written(pieces(problem, LAST)?))
 }
 
-fn written(document: Map<String, Json>) -> String {
+/// As text, the version first.
+fn written(mut document: Map<String, Json>) -> String {
+    document.shift_insert(0, "wavestep_certificate".into(), json!(VERSION));
     format!("{}\n", Json::Object(document))
 }
 
@@ -135,7 +137,6 @@ fn stated(problem: &Problem, writer: &mut Writer) -> Result<Map<String, Json>, F
 fn pieces(problem: &Problem, last: usize) -> Result<Map<String, Json>, Failure> {
     let mut writer = Writer::default();
     let mut document = derived(problem, last, &mut writer)?;
-    document.insert("wavestep_certificate".into(), json!(VERSION));
     document.insert("kind".into(), json!("pieces"));
     document.insert("roots".into(), writer.told_roots());
     Ok(document)
@@ -173,7 +174,6 @@ fn general(problem: &Problem) -> Result<Map<String, Json>, Failure> {
         let form = solution.general(wave).expect("it has a formula");
         forms.insert(name.into(), writer.general(form));
     }
-    document.insert("wavestep_certificate".into(), json!(VERSION));
     document.insert("kind".into(), json!("general"));
     document.insert("general".into(), Json::Object(forms));
     document.insert("roots".into(), writer.told_roots());
@@ -276,7 +276,6 @@ impl Quantity<'_> {
         if let Some(number) = writer.others.iter().find(|own| !is_time(own)) {
             return Err(refused(&format!("whose formulas hold the number {number}")));
         }
-        document.insert("wavestep_certificate".into(), json!(VERSION));
         document.insert("quantity".into(), json!(self.name));
         document.insert("roots".into(), writer.told_roots());
         Ok((document, begins))

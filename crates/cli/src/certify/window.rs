@@ -49,62 +49,81 @@ pub fn certificate(
     let (mut document, begins) = of.seen(&window[1])?;
     let _progress = progress::spinner("searching");
     let search = Search::new(&*signal)?.half_open();
-    let mut insert = |key: &str, value: Json| document.insert(key.into(), value);
     let mut cover = Cover::of(&*signal, digits);
     let cuts = cuts(&*signal, begins)?;
-    let extremum = |goal, least: Option<&BigRational>| {
+    let claimed = match asked {
+        Asked::Roots => roots(&search, &mut cover, &cuts, digits)?,
+        Asked::Extremum(goal) => extremum(&search, Some(goal), &mut cover, &cuts, digits)?,
+        Asked::Distance => extremum(&search, None, &mut cover, &cuts, digits)?,
+    };
+    let Json::Object(claimed) = claimed else { unreachable!("claims have names") };
+    document.extend(claimed);
+    document.insert("from".into(), json!(window[0].to_string()));
+    document.insert("to".into(), json!(window[1].to_string()));
+    let told = |cell: &Cell| json!([cell.from.to_string(), cell.to.to_string(), cell.order]);
+    document.insert("cells".into(), cover.cells.iter().map(told).collect());
+    Ok(document)
+}
+
+fn roots(
+    search: &Search<'_>,
+    cover: &mut Cover<'_>,
+    cuts: &[BigRational],
+    digits: usize,
+) -> Result<Json, Failure> {
+    let found = search.roots(&BigRational::default(), digits, SEARCH_BITS)?;
+    cover.run(cuts)?;
+    let places: Vec<Option<Window>> =
+        found.all.iter().map(|root| place(root, digits)).collect::<Result<_, Failure>>()?;
+    let told = |[from, to]: Window| json!([from.to_string(), to.to_string()]);
+    let zeros: Json = places.into_iter().flatten().map(told).collect();
+    Ok(json!({ "kind": "roots", "zeros": zeros }))
+}
+
+/// The largest or smallest value; without a goal the largest size.
+fn extremum(
+    search: &Search<'_>,
+    goal: Option<Goal>,
+    cover: &mut Cover<'_>,
+    cuts: &[BigRational],
+    digits: usize,
+) -> Result<Json, Failure> {
+    let beyond = |goal, least: Option<&BigRational>| {
         let Some(found) = search.extremum_beyond(goal, least, digits, SEARCH_BITS)? else {
             return Ok(None);
         };
-        let (decimal, last_place) = rounded(&found.value, digits);
         match found.value {
             Value::Enclosed(_) => Err(undecided("a digit of the extremum")),
-            _ => Ok(Some((decimal, last_place, found))),
+            _ => Ok(Some((rounded(&found.value, digits), found))),
         }
     };
-    let found = match asked {
-        Asked::Roots => None,
-        Asked::Extremum(goal) => extremum(goal, None)?,
-        Asked::Distance => {
-            let least = search.largest(&power_of_ten(-(digits as i64)))?;
-            let both = [Goal::Largest, Goal::Smallest].map(|goal| extremum(goal, Some(&least[0])));
+    let found = match goal {
+        Some(goal) => beyond(goal, None)?,
+        None => {
+            let [least, _] = search.largest(&power_of_ten(-(digits as i64)))?;
+            let both = [Goal::Largest, Goal::Smallest].map(|goal| beyond(goal, Some(&least)));
             let [most, least] = both;
-            let found = most?.into_iter().chain(least?).max_by_key(|own| own.0.to_rational().abs());
-            Some(found.ok_or_else(|| undecided("the largest difference"))?)
+            most?.into_iter().chain(least?).max_by_key(|((own, _), _)| own.to_rational().abs())
         }
     };
-    if let Some((decimal, last_place, found)) = found {
-        let half = power_of_ten(last_place) / BigRational::from_integer(2.into());
-        let (value, told) = (decimal.to_rational(), decimal.to_string());
-        let (goal, told, levels) = match asked {
-            Asked::Extremum(Goal::Smallest) => ("smallest", &*told, vec![value - half]),
-            Asked::Distance => {
-                let bound = value.abs() + half;
-                ("distance", told.trim_start_matches('-'), vec![-&bound, bound])
-            }
-            _ => ("largest", &*told, vec![value + half]),
-        };
-        cover.levels = levels;
-        cover.run(&cuts)?;
-        insert("kind", json!("extremum"));
-        insert("goal", json!(goal));
-        insert("value", json!(told));
-        insert("last_place", json!(last_place));
-        insert("attained", cover.attained(&found, digits)?);
-    } else {
-        let found = search.roots(&BigRational::default(), digits, SEARCH_BITS)?;
-        cover.run(&cuts)?;
-        let roots: Vec<Option<Window>> =
-            found.all.iter().map(|root| place(root, digits)).collect::<Result<_, Failure>>()?;
-        let told = |[from, to]: Window| json!([from.to_string(), to.to_string()]);
-        insert("kind", json!("roots"));
-        insert("zeros", roots.into_iter().flatten().map(told).collect());
-    }
-    insert("from", json!(window[0].to_string()));
-    insert("to", json!(window[1].to_string()));
-    let told = |cell: &Cell| json!([cell.from.to_string(), cell.to.to_string(), cell.order]);
-    insert("cells", cover.cells.iter().map(told).collect());
-    Ok(document)
+    let ((decimal, last_place), found) = found.ok_or_else(|| undecided("the extremum"))?;
+    let half = power_of_ten(last_place) / BigRational::from_integer(2.into());
+    let (value, told) = (decimal.to_rational(), decimal.to_string());
+    let (goal, told, levels) = match goal {
+        Some(Goal::Largest) => ("largest", &*told, vec![value + half]),
+        Some(Goal::Smallest) => ("smallest", &*told, vec![value - half]),
+        None => {
+            let bound = value.abs() + half;
+            ("distance", told.trim_start_matches('-'), vec![-&bound, bound])
+        }
+    };
+    cover.levels = levels;
+    cover.run(cuts)?;
+    let attained = cover.attained(&found, digits)?;
+    Ok(json!({
+        "kind": "extremum", "goal": goal, "value": told, "last_place": last_place,
+        "attained": attained,
+    }))
 }
 
 fn undecided(what: &str) -> Failure {
