@@ -11,8 +11,8 @@
 //! contacts are true, `closed_form` for instants in closed form, `series` for the arithmetic, `cells` and `memory` for
 //! what is kept of it, `pressing` and `power` for local contacts, `resting` for those that press evenly, `passivity` and
 //! `passive` for what becomes of errors, at a node and in the line, `energy` for what a wave holds, `body` for energies
-//! and momenta of bodies and for why they never meet again. `family`, `on_step`, `over` and `envelope` follow closed
-//! contacts for all values of a symbol at once.
+//! and momenta of bodies and for why they never meet again. `family` follows closed contacts for all values of a symbol at
+//! once.
 
 mod body;
 pub mod cells;
@@ -21,7 +21,6 @@ mod contacts;
 pub mod crossing;
 pub mod energy;
 mod engine;
-pub mod envelope;
 mod error;
 pub mod family;
 #[expect(clippy::module_inception, reason = "the module is named after what it tells")]
@@ -32,8 +31,6 @@ mod memory;
 pub mod moment;
 pub mod motion;
 mod observe;
-pub mod on_step;
-mod over;
 mod part;
 pub mod passive;
 pub mod passivity;

@@ -4,25 +4,31 @@
 //! on a step left another node so many steps before, as in the method of steps for one value, but every coefficient
 //! of a polynomial in time is a polynomial in the symbol, too. What both leave out is bounded by the energy of each node,
 //! as in `passivity`: its matrices hold for all values at once.
+//!
+//! Here a scene is made ready; `motion` follows it, with functions on one step (`on_step`) whose coefficients are values over
+//! the symbol (`symbol`), and `envelope` tells how large they are.
 
-use super::over::OverSymbol;
-use crate::ball::{Arithmetic, Ball, BallError, Magnitude, Number};
+pub mod envelope;
+mod motion;
+pub mod on_step;
+mod symbol;
+
+use crate::ball::{Arithmetic as _, BallError};
 use crate::enclosure::EnclosureError;
 use crate::expression::{Fraction, NotAUnit, Root};
-use crate::history::on_step::OnStep;
-use crate::history::passivity::{Block, Passivity, StateError};
+use crate::history::passivity::Passivity;
 use crate::limits::{MAX_STEPS_OVER_SYMBOL, MAX_SYMBOL_BITS as BITS};
 use crate::network::{
-    ElementLaw, Elements, Energy, Field, Lump, Measured, MeasuredValue, Node, Reading, ScaledScene,
-    Section, Side, System, Term, common_measure, dot,
+    ElementLaw, Elements, Energy, Field, Measured, MeasuredValue, Node, Reading, ScaledScene,
+    Section, System, Term, common_measure,
 };
 use crate::scene::Drive;
 use crate::signal::Varying;
+use motion::{Bar, Course, Motion, NodeState, Place};
 use num_traits::{One as _, ToPrimitive as _, Zero as _};
+use on_step::OnStep;
+use symbol::OverSymbol;
 use wavestep_polynomial::{Rational, Symbol};
-
-/// So many powers of time are kept on a step, on which no rate of a node is above two.
-const TERMS: usize = 20;
 
 /// Why motions are not followed over a symbol.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
@@ -51,8 +57,11 @@ impl NotOverSymbol {
     /// Whether fewer values at once may be followed.
     pub fn is_of_width(&self) -> bool {
         use EnclosureError::NotReal;
-        use NotOverSymbol::{Ball, Unresisted, Value};
-        matches!(self, Unresisted | Ball(_) | Value(EnclosureError::Ball(_) | NotReal))
+        use NotOverSymbol::{Ball, TooManySteps, Unresisted, Value};
+        matches!(
+            self,
+            TooManySteps | Unresisted | Ball(_) | Value(EnclosureError::Ball(_) | NotReal)
+        )
     }
 }
 
@@ -63,20 +72,6 @@ pub struct Over<'a> {
     scaled: &'a ScaledScene,
     measured: &'a Measured,
     symbol: OverSymbol<'a>,
-}
-
-/// What an observable is made of.
-enum Course {
-    Now(Reading<usize>),
-    /// Its integral since the start, in steps.
-    SinceStart(Reading<usize>),
-    /// The square of a sum with these factors.
-    Square(Vec<Varying>, Vec<Course>),
-    /// The integral, over the last travel time, of the waves that entered a bar, or of their squares.
-    InBar {
-        bar: usize,
-        of: fn(&OnStep) -> OnStep,
-    },
 }
 
 impl<'a> Over<'a> {
@@ -152,19 +147,17 @@ impl<'a> Over<'a> {
         Ok([Rational::from(&low).max(Rational::zero()), Rational::from(&high)])
     }
 
-    /// What is observed on the first steps, in the user's unit.
+    /// The first steps, and what is observed on them in the user's unit.
     ///
     /// # Errors
     /// [`NotOverSymbol`].
-    pub fn follow(&self, step: &Root, count: usize) -> Outcome<Vec<OnStep>> {
+    pub fn follow(&self, step: &Root, count: usize) -> Outcome<Followed> {
         if count > MAX_STEPS_OVER_SYMBOL {
             return Err(NotOverSymbol::TooManySteps);
         }
-        let (factors, courses): (Vec<_>, Vec<_>) = self.observed(step)?.into_iter().unzip();
-        let mut motion =
-            Motion { bars: self.bars(step)?, places: self.places(step)?, known: Vec::new() };
-        motion.follow(count);
-        Ok(motion.sum(&factors, &courses))
+        let (factors, courses) = self.observed(step)?.into_iter().unzip();
+        let motion = Motion::of(self.bars(step)?, self.places(step)?, count);
+        Ok(Followed { motion, factors, courses })
     }
 
     /// The step in the scale of the scene.
@@ -172,10 +165,18 @@ impl<'a> Over<'a> {
         Ok(step.over(&self.scaled.model().scale.time)?)
     }
 
-    fn lag(&self, time: &Fraction, step: &Root) -> Outcome<usize> {
+    /// A time in the scale of the scene that is a whole number of steps.
+    ///
+    /// # Errors
+    /// [`NotOverSymbol::NoCommonMeasure`] where it is not.
+    pub fn whole_steps(&self, time: &Fraction, step: &Root) -> Outcome<i64> {
         let count = constant(&Root::from(time).over(&self.scaled_step(step)?)?)?;
-        let whole = count.is_integer().then(|| count.to_usize()).flatten();
+        let whole = count.is_integer().then(|| count.to_i64()).flatten();
         whole.ok_or(NotOverSymbol::NoCommonMeasure)
+    }
+
+    fn lag(&self, time: &Fraction, step: &Root) -> Outcome<usize> {
+        self.whole_steps(time, step)?.try_into().map_err(|_| NotOverSymbol::NoCommonMeasure)
     }
 
     /// The bars, and the waves in them before the start, `(V ± X_0/Z)/2`.
@@ -330,261 +331,30 @@ impl<'a> Over<'a> {
     }
 }
 
+/// A scene on some steps.
+pub struct Followed {
+    motion: Motion,
+    factors: Vec<Varying>,
+    courses: Vec<Course>,
+}
+
+impl Followed {
+    /// What is observed on each step.
+    pub fn observed(&self) -> Vec<OnStep> {
+        self.motion.sum(&self.factors, &self.courses)
+    }
+
+    /// The same where the function of one of the steps goes on to the end.
+    ///
+    /// # Errors
+    /// [`NotOverSymbol::TooManySteps`].
+    pub fn observed_after(&mut self, last: usize) -> Outcome<Vec<OnStep>> {
+        self.motion.sum_after(last, &self.factors, &self.courses)
+    }
+}
+
 /// A value that is one number, whatever the symbol is.
 fn constant(value: &Root) -> Outcome<Rational> {
     let value = value.exact().and_then(|value| value.as_constant());
     value.ok_or(NotOverSymbol::NoCommonMeasure)
-}
-
-/// The integral of a function since the start.
-fn since_start(rate: impl Iterator<Item = OnStep>) -> Vec<OnStep> {
-    let mut before = OnStep::constant(&Varying::zero());
-    let next = |rate: OnStep| {
-        let parts = [&before, &rate.antiderivative()];
-        let own = OnStep::sum(&[Varying::one(), Varying::one()], parts.into_iter());
-        before = own.at_end();
-        own
-    };
-    rate.map(next).collect()
-}
-
-struct Bar {
-    /// The waves to the right and to the left before the start.
-    before: [OnStep; 2],
-    /// How many steps they take; none where the bar is endless.
-    lag: Option<usize>,
-    /// The nodes at its ends.
-    ends: [Option<usize>; 2],
-}
-
-/// What a node does on a step.
-struct Solved {
-    /// The state, then what acts on it.
-    both: Vec<OnStep>,
-    velocities: Vec<OnStep>,
-    /// What leaves at its left and at its right.
-    leaving: [OnStep; 2],
-    end: NodeState,
-}
-
-/// The state of a node at an instant, and the error of each of its blocks.
-struct NodeState {
-    values: Vec<Varying>,
-    errors: Vec<StateError>,
-}
-
-impl NodeState {
-    /// At the start nothing is compressed, and what strikes each other goes on with its momentum.
-    fn at_start(
-        node: &Node<Varying>,
-        system: &System<Varying>,
-        passivity: &Passivity,
-    ) -> Outcome<NodeState> {
-        let mut values = Vec::new();
-        for group in &system.heavy {
-            let runs = (0..node.runs()).filter(|run| system.group[*run] == *group);
-            let (mut mass, mut momentum) = (Varying::zero(), Varying::zero());
-            for own in runs.flat_map(|run| node.attached(run)) {
-                if let ElementLaw::Mass { mass: own, velocity } = &own.law {
-                    mass = mass.add(own, BITS);
-                    momentum = momentum.add(&own.multiply(velocity, BITS), BITS);
-                }
-            }
-            let inverse = mass.reciprocal(BITS)?;
-            values.push(momentum.multiply(&inverse, BITS));
-        }
-        values.resize(system.states(), Varying::zero());
-        let (values, off): (Vec<Varying>, Vec<Magnitude>) =
-            values.iter().map(Varying::split).unzip();
-        let off = off.iter().map(|off| Number::Enclosed(Ball::zero().widened(off)));
-        Ok(NodeState { values, errors: passivity.errors(&off.collect::<Vec<_>>()) })
-    }
-}
-
-/// A node, and its state at the start.
-struct Place {
-    node: Node<Varying>,
-    system: System<Varying>,
-    passivity: Passivity,
-    start: NodeState,
-    driven: Vec<OnStep>,
-}
-
-struct Motion {
-    bars: Vec<Bar>,
-    places: Vec<Place>,
-    /// What the nodes do, step by step.
-    known: Vec<Vec<Solved>>,
-}
-
-impl Motion {
-    /// Follows all nodes for so many steps.
-    fn follow(&mut self, count: usize) {
-        for now in 0..count {
-            let solve = |(number, place): (usize, &Place)| {
-                let state = self.known.last().map_or(&place.start, |before| &before[number].end);
-                let arriving = [(place.node.left, 0), (place.node.right, 1)];
-                let arriving = arriving.map(|(side, direction)| match side {
-                    Side::Bar(bar) => self.entered((bar, direction), self.bars[bar].lag, now),
-                    _ => OnStep::constant(&Varying::zero()),
-                });
-                place.solve(state, &arriving)
-            };
-            let solved = self.places.iter().enumerate().map(solve).collect();
-            self.known.push(solved);
-        }
-    }
-
-    /// A wave that entered its bar so many steps before: before the first it was what it was at the start.
-    fn entered(
-        &self,
-        (bar, direction): (usize, usize),
-        delay: Option<usize>,
-        now: usize,
-    ) -> OnStep {
-        let own = &self.bars[bar];
-        match (own.ends[direction], delay.and_then(|delay| now.checked_sub(delay))) {
-            (Some(node), Some(step)) => self.known[step][node].leaving[1 - direction].clone(),
-            _ => own.before[direction].clone(),
-        }
-    }
-
-    /// A sum of these on all steps.
-    fn sum(&self, factors: &[Varying], courses: &[Course]) -> Vec<OnStep> {
-        let courses: Vec<Vec<OnStep>> = courses.iter().map(|own| self.course(own)).collect();
-        let sum = |now| OnStep::sum(factors, courses.iter().map(|own: &Vec<OnStep>| &own[now]));
-        (0..self.known.len()).map(sum).collect()
-    }
-
-    fn course(&self, of: &Course) -> Vec<OnStep> {
-        let steps = 0..self.known.len();
-        match of {
-            Course::Now(reading) => steps.map(|now| self.reading(reading, now)).collect(),
-            Course::SinceStart(rate) => since_start(steps.map(|now| self.reading(rate, now))),
-            Course::Square(factors, of) => {
-                self.sum(factors, of).iter().map(OnStep::square).collect()
-            }
-            Course::InBar { bar, of } => self.held(*bar, *of),
-        }
-    }
-
-    /// What entered a bar during its last travel time: from a part of the step so many steps before until now. An endless
-    /// bar keeps all; one that holds something at the start is refused when its scene is read.
-    fn held(&self, bar: usize, of: fn(&OnStep) -> OnStep) -> Vec<OnStep> {
-        let Some(lag) = self.bars[bar].lag else {
-            let end = usize::from(self.bars[bar].ends[0].is_none());
-            let entered = |now| of(&self.entered((bar, end), Some(0), now));
-            return since_start((0..self.known.len()).map(entered));
-        };
-        let entered = |direction: usize| {
-            let before = self.bars[bar].before[direction].clone();
-            let after =
-                (0..self.known.len()).map(|now| self.entered((bar, direction), Some(0), now));
-            let all = std::iter::repeat_n(before, lag).chain(after);
-            let all = all.map(|own| of(&own).antiderivative());
-            all.map(|own| (own.at_end(), own)).collect::<Vec<(OnStep, OnStep)>>()
-        };
-        let both = [0, 1].map(entered);
-        let held = |now: usize| {
-            let parts = both.iter().flat_map(|all| {
-                let (whole, first) = &all[now];
-                let between = all[now + 1..now + lag].iter().map(|(whole, _)| whole.clone());
-                between.chain([whole.less(first), all[now + lag].1.clone()])
-            });
-            let parts: Vec<OnStep> = parts.collect();
-            OnStep::sum(&vec![Varying::one(); parts.len()], parts.iter())
-        };
-        (0..self.known.len()).map(held).collect()
-    }
-
-    /// What is read on a step, of a bar in units of its impedance.
-    fn reading(&self, of: &Reading<usize>, now: usize) -> OnStep {
-        match of {
-            Reading::Velocity(face) => {
-                let node = face.lump().node;
-                let run = self.places[node].node.run_beside(*face);
-                self.known[now][node].velocities[run].clone()
-            }
-            Reading::Compression(Lump { node, place }) => {
-                match self.places[*node].system.kept[*place] {
-                    Some(kept) => self.known[now][*node].both[kept].clone(),
-                    None => OnStep::constant(&Varying::zero()),
-                }
-            }
-            Reading::InBar(field, Section { bar, delays: [right, left] }) => {
-                let waves = [(0, right), (1, left)]
-                    .map(|(side, delay)| self.entered((*bar, side), *delay, now));
-                let left = match field {
-                    Field::Force => Varying::one().negate(),
-                    _ => Varying::one(),
-                };
-                OnStep::sum(&[Varying::one(), left], waves.iter())
-            }
-            _ => unreachable!("other readings are refused before"),
-        }
-    }
-}
-
-impl Place {
-    /// What the node does on a step that begins with this state.
-    ///
-    /// `P` solves `y' = A y + B u` up to a residual `ρ`, what is rounded and what the last term leaves. So the error
-    /// `e = y − P` obeys `e' = A e + B e_u + ρ`: where it begins with `|e| ≤ ε`, it is `ε + ∫|ρ| + |B e_u| ∫|e^(Ax)|` at most.
-    fn solve(&self, start: &NodeState, arriving: &[OnStep; 2]) -> Solved {
-        let (system, blocks) = (&self.system, &self.passivity.blocks);
-        let acting: Vec<&OnStep> = arriving.iter().chain(&self.driven).collect();
-        debug_assert!(acting.iter().all(|own| own.coefficients.len() <= TERMS));
-        let sizes = |left: &[Magnitude]| -> Vec<Magnitude> {
-            blocks.iter().map(|own| own.size(own.members.iter().map(|i| left[*i]))).collect()
-        };
-        // ∫|ρ| + |B e_u| ∫|e^(Ax)| of each block.
-        let arrived: Vec<Magnitude> = acting.iter().map(|own| own.error).collect();
-        let step = Number::one();
-        let drive = |own: &Block| own.push(&arrived).multiply(&own.memory(&step.magnitude()));
-        let mut added: Vec<Magnitude> = blocks.iter().map(drive).collect();
-        let mut columns = vec![start.values.clone()];
-        for k in 0..TERMS {
-            let given = acting.iter().map(|own| own.coefficient(k));
-            let both: Vec<Varying> = columns[k].iter().cloned().chain(given).collect();
-            let next =
-                system.change.iter().map(|row| dot(row, &both, BITS).over(k as u64 + 1, BITS));
-            let (next, left): (Vec<Varying>, Vec<Magnitude>) = match k + 1 < TERMS {
-                true => next.map(|own| own.split()).unzip(),
-                false => next.map(|own| (Varying::zero(), own.magnitude())).unzip(),
-            };
-            added = added.iter().zip(sizes(&left)).map(|(sum, own)| sum.add(&own)).collect();
-            columns.push(next);
-        }
-        columns.truncate(TERMS);
-        let mut own =
-            vec![OnStep { coefficients: Vec::new(), error: Magnitude::ZERO }; system.states()];
-        for (i, own) in own.iter_mut().enumerate() {
-            own.coefficients = columns.iter().map(|column| column[i].clone()).collect();
-        }
-        let at_end = own.iter().map(|own| {
-            own.coefficients.iter().fold(Varying::zero(), |sum, c| sum.add(c, BITS)).split()
-        });
-        let (values, rounded): (Vec<Varying>, Vec<Magnitude>) = at_end.unzip();
-        let mut errors = Vec::with_capacity(blocks.len());
-        let each = blocks.iter().zip(&start.errors).zip(added.iter().zip(sizes(&rounded)));
-        for ((block, error), (added, rounded)) in each {
-            let most = error.size().add(added);
-            for (place, member) in block.members.iter().enumerate() {
-                own[*member].error = block.entry(place, &most);
-            }
-            errors.push(error.clone().after(&step, &added.add(&rounded), block));
-        }
-        let both: Vec<OnStep> = own.into_iter().chain(acting.into_iter().cloned()).collect();
-        let runs = system.group.len();
-        let velocities =
-            system.output[..runs].iter().map(|row| OnStep::sum(row, both.iter())).collect();
-        // What arrives is taken off before it is rounded and bounded.
-        let leaving = [(0, 0), (1, runs - 1)].map(|(side, run)| {
-            let mut row = system.output[run].clone();
-            let own = &mut row[system.states() + side];
-            *own = own.subtract(&Varying::one(), BITS);
-            OnStep::sum(&row, both.iter())
-        });
-        Solved { both, velocities, leaving, end: NodeState { values, errors } }
-    }
 }

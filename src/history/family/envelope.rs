@@ -5,8 +5,8 @@
 //! than the same mean of two bounds, and no smaller than that of two sizes that are reached at one instant. So sizes that change
 //! alike are compared as nearly as the curvature over the symbol allows.
 
+use super::on_step::OnStep;
 use crate::ball::{Arithmetic as _, Ball, Magnitude};
-use crate::history::on_step::OnStep;
 use crate::limits::MAX_SYMBOL_BITS as BITS;
 use crate::signal::{Taylor, middle_and_half};
 use num_traits::{One as _, ToPrimitive as _, Zero as _};

@@ -1,0 +1,370 @@
+//! The motion of a scene over a symbol, step by step, and what is observed of it.
+//!
+//! The function of a step is analytic, so it goes on beyond the end of the step: the nodes obey the same equations, and
+//! what arrives at them is the function of an earlier step, gone on by as much.
+
+use super::on_step::OnStep;
+use super::{NotOverSymbol, Outcome};
+use crate::ball::{Arithmetic as _, Ball, Magnitude, Number};
+use crate::history::passivity::{Block, Passivity, StateError};
+use crate::limits::{MAX_STEPS_OVER_SYMBOL, MAX_SYMBOL_BITS as BITS};
+use crate::network::{ElementLaw, Field, Lump, Node, Reading, Section, Side, System, dot};
+use crate::signal::Varying;
+use std::collections::{BTreeMap, BTreeSet};
+use wavestep_polynomial::Rational;
+
+/// So many powers of time are kept on a step, on which no rate of a node is above two.
+const TERMS: usize = 20;
+
+/// What an observable is made of.
+pub(super) enum Course {
+    Now(Reading<usize>),
+    /// Its integral since the start, in steps.
+    SinceStart(Reading<usize>),
+    /// The square of a sum with these factors.
+    Square(Vec<Varying>, Vec<Course>),
+    /// The integral, over the last travel time, of the waves that entered a bar, or of their squares.
+    InBar {
+        bar: usize,
+        of: fn(&OnStep) -> OnStep,
+    },
+}
+
+pub(super) struct Bar {
+    /// The waves to the right and to the left before the start.
+    pub(super) before: [OnStep; 2],
+    /// How many steps they take; none where the bar is endless.
+    pub(super) lag: Option<usize>,
+    /// The nodes at its ends.
+    pub(super) ends: [Option<usize>; 2],
+}
+
+/// What a node does on a step.
+struct Solved {
+    /// The state, then what acts on it.
+    both: Vec<OnStep>,
+    velocities: Vec<OnStep>,
+    /// What leaves at its left and at its right.
+    leaving: [OnStep; 2],
+    end: NodeState,
+}
+
+/// The state of a node at an instant, and the error of each of its blocks.
+pub(super) struct NodeState {
+    values: Vec<Varying>,
+    errors: Vec<StateError>,
+}
+
+impl NodeState {
+    /// At the start nothing is compressed, and what strikes each other goes on with its momentum.
+    pub(super) fn at_start(
+        node: &Node<Varying>,
+        system: &System<Varying>,
+        passivity: &Passivity,
+    ) -> Outcome<NodeState> {
+        let mut values = Vec::new();
+        for group in &system.heavy {
+            let runs = (0..node.runs()).filter(|run| system.group[*run] == *group);
+            let (mut mass, mut momentum) = (Varying::zero(), Varying::zero());
+            for own in runs.flat_map(|run| node.attached(run)) {
+                if let ElementLaw::Mass { mass: own, velocity } = &own.law {
+                    mass = mass.add(own, BITS);
+                    momentum = momentum.add(&own.multiply(velocity, BITS), BITS);
+                }
+            }
+            let inverse = mass.reciprocal(BITS)?;
+            values.push(momentum.multiply(&inverse, BITS));
+        }
+        values.resize(system.states(), Varying::zero());
+        let (values, off): (Vec<Varying>, Vec<Magnitude>) =
+            values.iter().map(Varying::split).unzip();
+        let off = off.iter().map(|off| Number::Enclosed(Ball::zero().widened(off)));
+        Ok(NodeState { values, errors: passivity.errors(&off.collect::<Vec<_>>()) })
+    }
+}
+
+/// A node, and its state at the start.
+pub(super) struct Place {
+    pub(super) node: Node<Varying>,
+    pub(super) system: System<Varying>,
+    pub(super) passivity: Passivity,
+    pub(super) start: NodeState,
+    pub(super) driven: Vec<OnStep>,
+}
+
+/// The function of a step, gone on by so many steps.
+#[derive(Clone, Copy)]
+struct GoneOn {
+    step: usize,
+    by: usize,
+}
+
+impl GoneOn {
+    fn not(step: usize) -> GoneOn {
+        GoneOn { step, by: 0 }
+    }
+}
+
+pub(super) struct Motion {
+    bars: Vec<Bar>,
+    places: Vec<Place>,
+    /// What the nodes do, step by step.
+    known: Vec<Vec<Solved>>,
+    /// What they do as the function of a step goes on, by one step, by two, and so on.
+    gone_on: BTreeMap<usize, Vec<Vec<Solved>>>,
+}
+
+impl Motion {
+    /// All nodes for so many steps.
+    pub(super) fn of(bars: Vec<Bar>, places: Vec<Place>, count: usize) -> Motion {
+        let mut motion = Motion { bars, places, known: Vec::new(), gone_on: BTreeMap::new() };
+        for step in 0..count {
+            let solved = motion.solve(GoneOn::not(step));
+            motion.known.push(solved);
+        }
+        motion
+    }
+
+    /// A sum of these on all steps.
+    pub(super) fn sum(&self, factors: &[Varying], courses: &[Course]) -> Vec<OnStep> {
+        let path: Vec<GoneOn> = (0..self.known.len()).map(GoneOn::not).collect();
+        self.sum_along(&path, factors, courses)
+    }
+
+    /// The same where the function of a step goes on to the end.
+    pub(super) fn sum_after(
+        &mut self,
+        last: usize,
+        factors: &[Varying],
+        courses: &[Course],
+    ) -> Outcome<Vec<OnStep>> {
+        let beyond = self.known.len() - (last + 1);
+        let lags: BTreeSet<usize> = self.bars.iter().filter_map(|own| own.lag).collect();
+        let mut delays = BTreeSet::from([0]);
+        courses.iter().for_each(|own| self.add_delays(own, &mut delays));
+        // The steps whose functions are needed, each after those from which its waves arrive.
+        let mut needed: BTreeSet<usize> =
+            delays.iter().filter_map(|delay| last.checked_sub(*delay)).collect();
+        let mut latest = needed.last().copied();
+        while let Some(step) = latest {
+            needed.extend(lags.iter().filter_map(|lag| step.checked_sub(*lag)));
+            latest = needed.range(..step).next_back().copied();
+        }
+        if needed.len().saturating_mul(beyond) > MAX_STEPS_OVER_SYMBOL {
+            return Err(NotOverSymbol::TooManySteps);
+        }
+        for step in needed {
+            let known = self.gone_on.get(&step).map_or(0, Vec::len);
+            for by in known + 1..=beyond {
+                let solved = self.solve(GoneOn { step, by });
+                self.gone_on.entry(step).or_default().push(solved);
+            }
+        }
+        let before = (0..last).map(GoneOn::not);
+        let path = before.chain((0..=beyond).map(|by| GoneOn { step: last, by }));
+        Ok(self.sum_along(&path.collect::<Vec<GoneOn>>(), factors, courses))
+    }
+
+    /// What the nodes do, from the end of the step before.
+    fn solve(&self, at: GoneOn) -> Vec<Solved> {
+        let before = match at.by.checked_sub(1) {
+            Some(by) => Some(GoneOn { by, ..at }),
+            None => at.step.checked_sub(1).map(GoneOn::not),
+        };
+        let solve = |(number, place): (usize, &Place)| {
+            let state = before.map_or(&place.start, |before| &self.solved(before)[number].end);
+            let arriving = [(place.node.left, 0), (place.node.right, 1)];
+            let arriving = arriving.map(|(side, direction)| match side {
+                Side::Bar(bar) => self.entered((bar, direction), self.bars[bar].lag, at),
+                _ => OnStep::constant(&Varying::zero()),
+            });
+            place.solve(state, &arriving)
+        };
+        self.places.iter().enumerate().map(solve).collect()
+    }
+
+    fn solved(&self, GoneOn { step, by }: GoneOn) -> &[Solved] {
+        match by.checked_sub(1) {
+            Some(more) => &self.gone_on[&step][more],
+            None => &self.known[step],
+        }
+    }
+
+    /// A wave that entered its bar so many steps before: before the first it was what it was at the start.
+    fn entered(
+        &self,
+        (bar, direction): (usize, usize),
+        delay: Option<usize>,
+        at: GoneOn,
+    ) -> OnStep {
+        let own = &self.bars[bar];
+        match (own.ends[direction], delay.and_then(|delay| at.step.checked_sub(delay))) {
+            (Some(node), Some(step)) => {
+                self.solved(GoneOn { step, ..at })[node].leaving[1 - direction].clone()
+            }
+            _ => own.before[direction].clone(),
+        }
+    }
+
+    /// A sum of these on the steps of a path.
+    fn sum_along(&self, path: &[GoneOn], factors: &[Varying], courses: &[Course]) -> Vec<OnStep> {
+        let courses: Vec<Vec<OnStep>> = courses.iter().map(|own| self.course(own, path)).collect();
+        let sum = |now| OnStep::sum(factors, courses.iter().map(|own: &Vec<OnStep>| &own[now]));
+        (0..path.len()).map(sum).collect()
+    }
+
+    fn course(&self, of: &Course, path: &[GoneOn]) -> Vec<OnStep> {
+        match of {
+            Course::Now(reading) => path.iter().map(|at| self.reading(reading, *at)).collect(),
+            Course::SinceStart(rate) => {
+                let start = OnStep::constant(&Varying::zero());
+                integral(start, path.iter().map(|at| self.reading(rate, *at)))
+            }
+            Course::Square(factors, of) => {
+                self.sum_along(path, factors, of).iter().map(OnStep::square).collect()
+            }
+            Course::InBar { bar, of } => self.held(*bar, *of, path),
+        }
+    }
+
+    /// The delays of the waves that are read.
+    fn add_delays(&self, of: &Course, delays: &mut BTreeSet<usize>) {
+        match of {
+            Course::Now(reading) | Course::SinceStart(reading) => {
+                if let Reading::InBar(_, section) = reading {
+                    delays.extend(section.delays.iter().flatten());
+                }
+            }
+            Course::Square(_, of) => of.iter().for_each(|own| self.add_delays(own, delays)),
+            Course::InBar { bar, .. } => delays.extend(self.bars[*bar].lag),
+        }
+    }
+
+    /// What a bar holds: at the start what its waves bring in a travel time, then what enters less what arrives. An
+    /// endless bar keeps all; one that holds something at the start is refused when its scene is read.
+    fn held(&self, bar: usize, of: fn(&OnStep) -> OnStep, path: &[GoneOn]) -> Vec<OnStep> {
+        let own = &self.bars[bar];
+        let waves: Vec<(usize, usize)> = (0..2)
+            .filter(|direction| own.ends[*direction].is_some() || own.lag.is_some())
+            .map(|direction| (bar, direction))
+            .collect();
+        let lag = Varying::constant(&Rational::from_integer(own.lag.unwrap_or(0).into()), BITS);
+        let before: Vec<OnStep> = waves.iter().map(|wave| of(&own.before[wave.1])).collect();
+        let start = OnStep::sum(&vec![lag; waves.len()], before.iter());
+        let signs = [Varying::one(), Varying::one().negate()];
+        let rate = |at: &GoneOn| {
+            let parts = waves.iter().flat_map(|wave| {
+                let entered = of(&self.entered(*wave, Some(0), *at));
+                let arrived = own.lag.map(|_| of(&self.entered(*wave, own.lag, *at)));
+                std::iter::once(entered).chain(arrived).zip(&signs)
+            });
+            let (parts, signs): (Vec<OnStep>, Vec<Varying>) =
+                parts.map(|(part, sign)| (part, sign.clone())).unzip();
+            OnStep::sum(&signs, parts.iter())
+        };
+        integral(start, path.iter().map(rate))
+    }
+
+    /// What is read on a step, of a bar in units of its impedance.
+    fn reading(&self, of: &Reading<usize>, at: GoneOn) -> OnStep {
+        match of {
+            Reading::Velocity(face) => {
+                let node = face.lump().node;
+                let run = self.places[node].node.run_beside(*face);
+                self.solved(at)[node].velocities[run].clone()
+            }
+            Reading::Compression(Lump { node, place }) => {
+                match self.places[*node].system.kept[*place] {
+                    Some(kept) => self.solved(at)[*node].both[kept].clone(),
+                    None => OnStep::constant(&Varying::zero()),
+                }
+            }
+            Reading::InBar(field, Section { bar, delays: [right, left] }) => {
+                let waves = [(0, right), (1, left)]
+                    .map(|(side, delay)| self.entered((*bar, side), *delay, at));
+                let left = match field {
+                    Field::Force => Varying::one().negate(),
+                    _ => Varying::one(),
+                };
+                OnStep::sum(&[Varying::one(), left], waves.iter())
+            }
+            _ => unreachable!("other readings are refused before"),
+        }
+    }
+}
+
+impl Place {
+    /// What the node does on a step that begins with this state.
+    ///
+    /// `P` solves `y' = A y + B u` up to a residual `ρ`, what is rounded and what the last term leaves. So the error
+    /// `e = y − P` obeys `e' = A e + B e_u + ρ`: where it begins with `|e| ≤ ε`, it is `ε + ∫|ρ| + |B e_u| ∫|e^(Ax)|` at most.
+    fn solve(&self, start: &NodeState, arriving: &[OnStep; 2]) -> Solved {
+        let (system, blocks) = (&self.system, &self.passivity.blocks);
+        let acting: Vec<&OnStep> = arriving.iter().chain(&self.driven).collect();
+        debug_assert!(acting.iter().all(|own| own.coefficients.len() <= TERMS));
+        let sizes = |left: &[Magnitude]| -> Vec<Magnitude> {
+            blocks.iter().map(|own| own.size(own.members.iter().map(|i| left[*i]))).collect()
+        };
+        // ∫|ρ| + |B e_u| ∫|e^(Ax)| of each block.
+        let arrived: Vec<Magnitude> = acting.iter().map(|own| own.error).collect();
+        let step = Number::one();
+        let drive = |own: &Block| own.push(&arrived).multiply(&own.memory(&step.magnitude()));
+        let mut added: Vec<Magnitude> = blocks.iter().map(drive).collect();
+        let mut columns = vec![start.values.clone()];
+        for k in 0..TERMS {
+            let given = acting.iter().map(|own| own.coefficient(k));
+            let both: Vec<Varying> = columns[k].iter().cloned().chain(given).collect();
+            let next =
+                system.change.iter().map(|row| dot(row, &both, BITS).over(k as u64 + 1, BITS));
+            let (next, left): (Vec<Varying>, Vec<Magnitude>) = match k + 1 < TERMS {
+                true => next.map(|own| own.split()).unzip(),
+                false => next.map(|own| (Varying::zero(), own.magnitude())).unzip(),
+            };
+            added = added.iter().zip(sizes(&left)).map(|(sum, own)| sum.add(&own)).collect();
+            columns.push(next);
+        }
+        columns.truncate(TERMS);
+        let mut own =
+            vec![OnStep { coefficients: Vec::new(), error: Magnitude::ZERO }; system.states()];
+        for (i, own) in own.iter_mut().enumerate() {
+            own.coefficients = columns.iter().map(|column| column[i].clone()).collect();
+        }
+        let at_end = own.iter().map(|own| {
+            own.coefficients.iter().fold(Varying::zero(), |sum, c| sum.add(c, BITS)).split()
+        });
+        let (values, rounded): (Vec<Varying>, Vec<Magnitude>) = at_end.unzip();
+        let mut errors = Vec::with_capacity(blocks.len());
+        let each = blocks.iter().zip(&start.errors).zip(added.iter().zip(sizes(&rounded)));
+        for ((block, error), (added, rounded)) in each {
+            let most = error.size().add(added);
+            for (place, member) in block.members.iter().enumerate() {
+                own[*member].error = block.entry(place, &most);
+            }
+            errors.push(error.clone().after(&step, &added.add(&rounded), block));
+        }
+        let both: Vec<OnStep> = own.into_iter().chain(acting.into_iter().cloned()).collect();
+        let runs = system.group.len();
+        let velocities =
+            system.output[..runs].iter().map(|row| OnStep::sum(row, both.iter())).collect();
+        // What arrives is taken off before it is rounded and bounded.
+        let leaving = [(0, 0), (1, runs - 1)].map(|(side, run)| {
+            let mut row = system.output[run].clone();
+            let own = &mut row[system.states() + side];
+            *own = own.subtract(&Varying::one(), BITS);
+            OnStep::sum(&row, both.iter())
+        });
+        Solved { both, velocities, leaving, end: NodeState { values, errors } }
+    }
+}
+
+/// The integral of a function from the start on, and what is there at the start.
+fn integral(start: OnStep, rate: impl Iterator<Item = OnStep>) -> Vec<OnStep> {
+    let mut before = start;
+    let next = |rate: OnStep| {
+        let parts = [&before, &rate.antiderivative()];
+        let own = OnStep::sum(&[Varying::one(), Varying::one()], parts.into_iter());
+        before = own.at_end();
+        own
+    };
+    rate.map(next).collect()
+}
