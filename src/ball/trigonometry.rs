@@ -3,6 +3,9 @@
 //! The argument is brought near zero by a multiple of π/2, and one Taylor sum in integers gives
 //! both functions there.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, ToPrimitive, Zero};
@@ -34,8 +37,26 @@ fn arctan_of_reciprocal(n: u64, working: u64) -> (BigInt, u64) {
     (sum, 3 * count + 2)
 }
 
-/// `(P, ε)` with `|π·2^w − P| ≤ ε`, by Machin's formula `π = 16 arctan(1/5) − 4 arctan(1/239)`.
+/// So many precisions of π are kept at once.
+const MAX_KEPT: usize = 32;
+
+thread_local! {
+    /// π by the bits of its precision, as [`pi_scaled`] gives it.
+    static KEPT: RefCell<BTreeMap<u64, (BigInt, u64)>> = const { RefCell::new(BTreeMap::new()) };
+}
+
+/// `(P, ε)` with `|π·2^w − P| ≤ ε`. It is kept: a sum of cosines asks for it once a term.
 fn pi_scaled(working: u64) -> (BigInt, u64) {
+    KEPT.with_borrow_mut(|kept| {
+        if kept.len() >= MAX_KEPT && !kept.contains_key(&working) {
+            kept.clear();
+        }
+        kept.entry(working).or_insert_with(|| machin(working)).clone()
+    })
+}
+
+/// The same by Machin's formula `π = 16 arctan(1/5) − 4 arctan(1/239)`.
+fn machin(working: u64) -> (BigInt, u64) {
     let (fifth, fifth_error) = arctan_of_reciprocal(5, working);
     let (other, other_error) = arctan_of_reciprocal(239, working);
     (fifth * 16 - other * 4, 16 * fifth_error + 4 * other_error)

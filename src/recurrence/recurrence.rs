@@ -23,6 +23,15 @@ pub struct Recurrence {
     steps: Vec<Step>,
     hidden: usize,
     coupled: Vec<Coupled>,
+    growth: Growth,
+}
+
+/// Estimates from above of degrees.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Growth {
+    at_start: u64,
+    /// What each period may bring.
+    each: u64,
 }
 
 impl Recurrence {
@@ -41,7 +50,8 @@ impl Recurrence {
         }
         let Ordered { steps, hidden, naming, coupled } = ordering::order(&statement)?;
         (statement.constants, statement.assumptions) = (naming.constants, naming.assumptions);
-        Ok(Recurrence { statement, steps, hidden, coupled })
+        let growth = Growth::of(&statement, &steps);
+        Ok(Recurrence { statement, steps, hidden, coupled, growth })
     }
 
     pub fn statement(&self) -> &Statement {
@@ -98,25 +108,10 @@ impl Recurrence {
         self.statement.quadratics.iter().find(|own| own.name == name)
     }
 
-    /// An estimate from above of the degree of pieces and echoes of an order: on each period every
-    /// step may bring the degree of a coefficient, an integration, and a substitution of the
-    /// period.
+    /// An estimate from above of the degree of pieces and echoes of an order.
     pub(crate) fn degree_estimate(&self, order: usize) -> u64 {
-        let Statement { period, continuity, .. } = &self.statement;
-        let period = degree_of_fraction(period).max(1);
-        let mut growth = 0;
-        let mut forcing = 0;
-        for step in &self.steps {
-            let start = step.start.as_ref();
-            let forms =
-                || [Some(&step.equation), start.map(|s| &s.continuous)].into_iter().flatten();
-            growth += forms().map(coefficient_degree).max().unwrap_or(0);
-            growth += start.map_or(0, |_| period);
-            forcing +=
-                forms().flat_map(|f| f.forcing_terms().values()).map(degree).max().unwrap_or(0);
-        }
-        let start = continuity.iter().map(|rule| degree(&rule.start)).max().unwrap_or(0);
-        start + forcing * period + (order as u64 + 1).saturating_mul(growth)
+        let Growth { at_start, each } = self.growth;
+        at_start + (order as u64 + 1).saturating_mul(each)
     }
 
     /// The wave or the observable called `name`, as an observation.
@@ -170,6 +165,26 @@ fn check_forms(statement: &Statement) -> Result<(), InvalidRecurrence> {
     match continuity.iter().position(bad) {
         Some(i) => refuse(Clause::Continuity(i)),
         None => Ok(()),
+    }
+}
+
+impl Growth {
+    /// On each period every step may bring the degree of a coefficient, an integration, and a substitution of the period.
+    fn of(statement: &Statement, steps: &[Step]) -> Growth {
+        let Statement { period, continuity, .. } = statement;
+        let period = degree_of_fraction(period).max(1);
+        let (mut each, mut forcing) = (0, 0);
+        for step in steps {
+            let start = step.start.as_ref();
+            let forms =
+                || [Some(&step.equation), start.map(|s| &s.continuous)].into_iter().flatten();
+            each += forms().map(coefficient_degree).max().unwrap_or(0);
+            each += start.map_or(0, |_| period);
+            forcing +=
+                forms().flat_map(|f| f.forcing_terms().values()).map(degree).max().unwrap_or(0);
+        }
+        let start = continuity.iter().map(|rule| degree(&rule.start)).max().unwrap_or(0);
+        Growth { at_start: start + forcing * period, each }
     }
 }
 

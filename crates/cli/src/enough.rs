@@ -104,12 +104,15 @@ impl Told<'_> {
             let how = if open.is_empty() { "for the whole range" } else { "at both ends" };
             let range = format!("{} <= {symbol} <= {}", in_decimals(from), in_decimals(to));
             text += &format!("{range}  {what}, proven {how}\n");
-            for (place, Unproven { why, undecided }) in open {
+            // What is open for the same reason stands in one line.
+            for alike in open.chunk_by(|(_, one), (_, other)| one == other) {
+                let Unproven { why, undecided } = &alike[0].1;
                 let between = undecided.as_deref().map_or(String::new(), |[from, to]| {
                     format!(" from {} to {}", in_decimals(from), in_decimals(to))
                 });
-                text +=
-                    &format!("  undecided in between, for {}: {why}{between}\n", self.name(*place));
+                let names: Vec<String> = alike.iter().map(|(place, _)| self.name(*place)).collect();
+                let names = names.join(", ");
+                text += &format!("  undecided in between, for {names}: {why}{between}\n");
             }
         }
         text
