@@ -5,9 +5,12 @@ use num_traits::{Signed as _, ToPrimitive as _};
 use wavestep::answer::Accuracy;
 use wavestep::ball::{Ball, Magnitude, Number};
 use wavestep::history::series::{CellNorm, Roughness, Series, Truncation};
-use wavestep::signal::Limit;
+use wavestep::planner::Purpose;
+use wavestep::signal::{Limit, value as digits_at};
 use wavestep::{Goal, Method, Place, Problem, Root, Value};
 use wavestep_polynomial::Rational;
+
+const MAX_BITS: u64 = 1 << 11;
 
 fn problem(text: &str) -> Problem {
     Problem::read("test.wave", format!("scene \"A\"\n{text}")).unwrap()
@@ -16,6 +19,25 @@ fn problem(text: &str) -> Problem {
 fn value(problem: &Problem, name: &str, time: &str, digits: usize) -> String {
     let value = problem.signal(name).unwrap().at(time, digits).unwrap();
     value.to_text(digits)
+}
+
+/// The same at many times, from one history.
+fn values(problem: &Problem, name: &str, times: &[&str], digits: usize) -> Vec<String> {
+    let times: Vec<Rational> =
+        times.iter().map(|time| problem.time("time", *time).unwrap()).collect();
+    let wanted = problem.wanted(name).unwrap();
+    let window = [&times[0], &times[times.len() - 1]];
+    let signal = problem.signal_on(&wanted, window, Purpose::Values { digits }).unwrap();
+    let text = |time| digits_at(&*signal, time, Limit::Right, digits, MAX_BITS).unwrap();
+    times.iter().map(|time| text(time).to_text(digits)).collect()
+}
+
+/// By collocation, for which tests alone speak.
+fn solved(problem: &Problem, name: &str, times: &[f64]) -> Vec<f64> {
+    let times: Vec<Rational> =
+        times.iter().map(|time| Rational::from_float(*time).unwrap()).collect();
+    let accuracy = Accuracy::Method(Method::Steps { tolerance: 1e-13 }, None);
+    problem.doubles(name, &times, Limit::Right, accuracy).unwrap().values
 }
 
 /// A steel ball between two bars, one of them with a mass, all of unlike impedances.
@@ -111,9 +133,8 @@ fn values_are_those_of_collocation() {
         let local = problem(&text.replace("TIP", &format!("hertz tip {{ {law} }}")));
         let proven: f64 =
             value(&local, "force", time, 15).split(' ').next().unwrap().parse().unwrap();
-        let accuracy = Accuracy::Method(Method::Steps { tolerance: 1e-13 }, None);
-        let exact = local.time("time", time).unwrap();
-        let tested = local.doubles("force", &[exact], Limit::Right, accuracy).unwrap().values[0];
+        let exact = local.time("time", time).unwrap().to_f64().unwrap();
+        let tested = solved(&local, "force", &[exact])[0];
         assert!((proven - tested).abs() < 1e-11, "{law}: {proven} and {tested}");
     }
 }
@@ -132,14 +153,10 @@ fn a_contact_is_pressed_by_another() {
              observe all = energy(line)",
             exponents[0], exponents[1],
         ));
-        let solved = |name: &str, time: Rational| {
-            let accuracy = Accuracy::Method(Method::Steps { tolerance: 1e-13 }, None);
-            problem.doubles(name, &[time], Limit::Right, accuracy).unwrap().values[0]
-        };
-        for time in ["1/8", "1/4"] {
-            let proven: f64 = value(&problem, "force", time, 13).parse().unwrap();
-            let tested = solved("force", problem.time("time", time).unwrap());
-            assert!((proven - tested).abs() < 1e-11, "{time}: {proven} and {tested}");
+        let proven = values(&problem, "force", &["1/8", "1/4"], 13);
+        for (proven, tested) in proven.iter().zip(solved(&problem, "force", &[0.125, 0.25])) {
+            let proven: f64 = proven.parse().unwrap();
+            assert!((proven - tested).abs() < 1e-11, "{proven} and {tested}");
         }
         assert_eq!(value(&problem, "all", "1/8", 6), "0.250000");
         let history = problem.events_until("3/2", 6).unwrap();
@@ -149,9 +166,8 @@ fn a_contact_is_pressed_by_another() {
         assert_eq!(opened.len(), 2, "{:?}", history.events);
         for (event, name) in opened.iter().zip(["before", "behind"]) {
             let time = event.time.to_f64();
-            let [earlier, later] = [time - 1e-5, time + 1e-5]
-                .map(|time| solved(name, Rational::from_float(time).unwrap()));
-            assert!(earlier > 0.0 && later < 0.0, "{name} at {time}: {earlier} and {later}");
+            let beside = solved(&problem, name, &[time - 1e-5, time + 1e-5]);
+            assert!(beside[0] > 0.0 && beside[1] < 0.0, "{name} at {time}: {beside:?}");
         }
     }
 }
@@ -164,20 +180,15 @@ fn a_second_contact_is_that_of_collocation() {
          bar b { impedance = 6/5, travel = 1 }\nline free - a - tip - b - fixed\n\
          observe force = force(tip)\nobserve compression = compression(tip)",
     );
-    let solved = |name: &str, time: Rational| {
-        let accuracy = Accuracy::Method(Method::Steps { tolerance: 1e-13 }, None);
-        problem.doubles(name, &[time], Limit::Right, accuracy).unwrap().values[0]
-    };
     let history = problem.events_until("9/4", 13).unwrap();
     let [_, parted, met] = &history.events[..] else { panic!("{:?}", history.events) };
-    for event in [parted, met] {
-        let time = event.time.to_f64();
-        let [before, after] = [time - 1e-12, time + 1e-12]
-            .map(|time| solved("compression", Rational::from_float(time).unwrap()));
-        assert!(before * after < 0.0, "{time}: {before} and {after}");
+    let instants = [parted, met].map(|event| event.time.to_f64());
+    let beside = instants.map(|time| [time - 1e-12, time + 1e-12]).concat();
+    for pair in solved(&problem, "compression", &beside).chunks(2) {
+        assert!(pair[0] * pair[1] < 0.0, "{instants:?}: {pair:?}");
     }
     let proven = value(&problem, "force", "9/4", 14).parse::<f64>().unwrap();
-    let tested = solved("force", Rational::new(9.into(), 4.into()));
+    let tested = solved(&problem, "force", &[2.25])[0];
     assert!((proven - tested).abs() < 1e-12 * 0.5, "{proven} and {tested}");
 }
 
@@ -193,32 +204,26 @@ fn a_second_contact_of_steel_bars_is_that_of_collocation() {
          line free - striker - nose - struck - fixed\n\
          observe force = force(nose)\nobserve compression = compression(nose)",
     );
-    let solved = |name: &str, time: f64| {
-        let accuracy = Accuracy::Method(Method::Steps { tolerance: 1e-13 }, None);
-        let times = [Rational::from_float(time).unwrap()];
-        problem.doubles(name, &times, Limit::Right, accuracy).unwrap().values[0]
-    };
     let events = problem.events_until("600us", 15).unwrap().events;
     let [_, parted, met, apart] = &events[..] else { panic!("{events:?}") };
-    for event in [parted, met, apart] {
-        let time = event.time.to_f64();
-        let [before, after] = [time - 1e-16, time + 1e-16].map(|time| solved("compression", time));
-        assert!(before * after < 0.0, "{time}: {before} and {after}");
+    let instants = [parted, met, apart].map(|event| event.time.to_f64());
+    let beside = instants.map(|time| [time - 1e-16, time + 1e-16]).concat();
+    for pair in solved(&problem, "compression", &beside).chunks(2) {
+        assert!(pair[0] * pair[1] < 0.0, "{instants:?}: {pair:?}");
     }
     let signal = problem.signal("force").unwrap();
     let largest = signal.extremum(Goal::Largest, "430us"..="562us", 15).unwrap();
     let wanted = largest.value.to_f64();
     let [Place::Critical(time)] = &largest.places[..] else { panic!("{:?}", largest.places) };
     let time = time.to_f64();
-    close(solved("force", time), wanted, 1e-12);
+    let forces = solved(&problem, "force", &[time, time - 1e-8, time + 1e-8, 500e-6]);
+    close(forces[0], wanted, 1e-12);
     // Nothing near it is larger: a step of 10 ns changes the force by less than 10⁻⁵ of it.
-    for beside in [time - 1e-8, time + 1e-8] {
-        let force = solved("force", beside);
-        assert!(force < wanted && force > wanted * (1.0 - 1e-5), "{beside}: {force}");
+    for force in &forces[1..3] {
+        assert!(*force < wanted && *force > wanted * (1.0 - 1e-5), "{force}");
     }
     let proven = signal.at("500us", 16).unwrap().to_f64();
-    let found = solved("force", 500e-6);
-    assert!((found - proven).abs() <= 1e-12 * wanted, "{found} and {proven}");
+    assert!((forces[3] - proven).abs() <= 1e-12 * wanted, "{} and {proven}", forces[3]);
 }
 
 /// Minus the gap, while the contact is open and after it has closed again, in every way that it is asked for.
@@ -229,22 +234,16 @@ fn a_compression_is_minus_the_gap() {
          bar b { impedance = 6/5, travel = 1 }\nline free - a - tip - b - fixed\n\
          observe compression = compression(tip)\nobserve moved = displacement(a.right) - displacement(b.left)",
     );
-    for time in ["3/2", "7/4", "9/4"] {
-        let [one, other] = ["compression", "moved"].map(|name| value(&problem, name, time, 20));
-        assert_eq!(one, other, "{time}");
-    }
-    let time = problem.time("time", "7/4").unwrap();
-    let doubles = |accuracy| {
-        let times = std::slice::from_ref(&time);
-        problem.doubles("compression", times, Limit::Right, accuracy).unwrap().values[0]
-    };
-    let proven: f64 = value(&problem, "compression", "7/4", 17).parse().unwrap();
+    let times = ["3/2", "7/4", "9/4"];
+    let [one, other] = ["compression", "moved"].map(|name| values(&problem, name, &times, 20));
+    assert_eq!(one, other);
+    let proven: f64 = one[1].parse().unwrap();
     assert!(proven < -0.01, "{proven}");
-    close(doubles(Accuracy::Method(Method::Steps { tolerance: 1e-13 }, None)), proven, 1e-12);
-    for method in [Method::Certified, Method::Compiled] {
-        close(doubles(Accuracy::Method(method, None)), proven, 1e-14);
-    }
+    close(solved(&problem, "compression", &[1.75])[0], proven, 1e-12);
     let signal = problem.signal("compression").unwrap();
+    for method in [Method::Certified, Method::Compiled] {
+        close(signal.values_by(&["7/4"], method).unwrap().values[0], proven, 1e-14);
+    }
     let events = problem.events_until("9/4", 12).unwrap().events;
     let zeros = signal.roots(0..=2, 12).unwrap().all;
     let [Root::End { .. }, Root::Arrival { time, before: true, after: true }] = &zeros[..] else {
@@ -288,11 +287,17 @@ fn a_contact_holds_energy() {
          observe total = energy(a) + energy(tip) + energy(b)\nobserve carried = momentum(b)\n\
          observe force = force(tip)\nobserve compression = compression(tip)",
     );
-    let at = |name: &str, time: &str| local.signal(name).unwrap().at(time, 15).unwrap().to_f64();
-    for time in ["1/64", "1/4", "9/10"] {
-        close(at("all", time), 15.0 / 8.0, 1e-15);
-        close(at("total", time), 15.0 / 8.0, 1e-15);
-        close(at("held", time), at("force", time) * at("compression", time) / 2.5, 1e-14);
+    let times = ["1/64", "1/4", "9/10"];
+    let at = |name: &str| -> Vec<f64> {
+        let values = values(&local, name, &times, 15).into_iter();
+        values.map(|value| value.parse().unwrap()).collect()
+    };
+    for whole in [at("all"), at("total")].concat() {
+        close(whole, 15.0 / 8.0, 1e-15);
+    }
+    let [held, forces, compressions] = ["held", "force", "compression"].map(at);
+    for (held, (force, compression)) in held.iter().zip(forces.iter().zip(&compressions)) {
+        close(*held, force * compression / 2.5, 1e-14);
     }
     let largest = |name: &str| {
         let found = local.signal(name).unwrap().extremum(Goal::Largest, "0"..="9/10", 15).unwrap();
@@ -313,8 +318,8 @@ fn a_contact_holds_energy() {
         sum / 6_000.0
     };
     // No wave has returned, so that the velocity beside it is `X/Z`.
-    close(at("passed", "9/10"), simpson(2), 1e-5);
-    close(at("carried", "9/10"), simpson(1), 1e-5);
+    close(at("passed")[2], simpson(2), 1e-5);
+    close(at("carried")[2], simpson(1), 1e-5);
 }
 
 /// Two endless bars, `α' = 1 − 4 α^{3/2}`: the force `2 α^{3/2}` is 1/4 at `∫ dα/(1 − 4 α^{3/2})` up to 1/4, a series.
