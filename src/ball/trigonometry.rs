@@ -37,26 +37,26 @@ fn arctan_of_reciprocal(n: u64, working: u64) -> (BigInt, u64) {
     (sum, 3 * count + 2)
 }
 
-/// So many precisions of π are kept at once.
-const MAX_KEPT: usize = 32;
+/// What is kept of π is dropped where it is known with more precisions than these.
+const MAX_KEPT_PRECISIONS: usize = 32;
 
 thread_local! {
     /// π by the bits of its precision, as [`pi_scaled`] gives it.
-    static KEPT: RefCell<BTreeMap<u64, (BigInt, u64)>> = const { RefCell::new(BTreeMap::new()) };
+    static KEPT_PI: RefCell<BTreeMap<u64, (BigInt, u64)>> = const { RefCell::new(BTreeMap::new()) };
 }
 
-/// `(P, ε)` with `|π·2^w − P| ≤ ε`. It is kept: a sum of cosines asks for it once a term.
+/// `(P, ε)` with `|π·2^w − P| ≤ ε`, kept by each thread: a sum of cosines asks for it in every term.
 fn pi_scaled(working: u64) -> (BigInt, u64) {
-    KEPT.with_borrow_mut(|kept| {
-        if kept.len() >= MAX_KEPT && !kept.contains_key(&working) {
+    KEPT_PI.with_borrow_mut(|kept| {
+        if kept.len() >= MAX_KEPT_PRECISIONS && !kept.contains_key(&working) {
             kept.clear();
         }
-        kept.entry(working).or_insert_with(|| machin(working)).clone()
+        kept.entry(working).or_insert_with(|| pi_by_machin(working)).clone()
     })
 }
 
 /// The same by Machin's formula `π = 16 arctan(1/5) − 4 arctan(1/239)`.
-fn machin(working: u64) -> (BigInt, u64) {
+fn pi_by_machin(working: u64) -> (BigInt, u64) {
     let (fifth, fifth_error) = arctan_of_reciprocal(5, working);
     let (other, other_error) = arctan_of_reciprocal(239, working);
     (fifth * 16 - other * 4, 16 * fifth_error + 4 * other_error)

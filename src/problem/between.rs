@@ -13,43 +13,53 @@ use crate::history::family::{NotOverSymbol, Over};
 use crate::language;
 use crate::limits::MAX_PARTS_OVER_SYMBOL;
 use crate::network::ScaledScene;
+use crate::recurrence::ObservedWave;
 use crate::signal::Varying;
 use num_traits::{One as _, ToPrimitive as _};
 use std::collections::BTreeSet;
 use wavestep_polynomial::{Rational, Symbol};
 
-/// The ends of a part differ by more than one in so many.
+/// A part is cut no further once its ends differ by less than one in so many.
 const FINEST: i64 = 1 << 18;
 
-/// A bound of the largest value is tried that is above one that is reached by these powers of two of it.
+/// Bounds that are tried for the largest value: what is reached, times `1 + 2^-k`.
 const ABOVE: [i64; 4] = [14, 11, 8, 1];
 
 /// Why something is not proven of all values between two.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Unproven {
     pub why: String,
-    /// Nearly the same values between which it is not decided, where it is not for another reason.
+    /// Where it was tried, the first part of the range that was not decided: of all values below it is proven, and none
+    /// beyond was tried.
     pub undecided: Option<Box<[Rational; 2]>>,
 }
 
-/// What is compared with a scene.
-enum Other<'a> {
-    Scene(&'a ScaledScene),
-    Arrivals(Arrivals),
+impl Unproven {
+    /// For all of a range.
+    pub(super) fn because(why: &str) -> Unproven {
+        Unproven { why: why.to_owned(), undecided: None }
+    }
 }
 
-/// The first arrivals at a place, and that no more come.
-struct Arrivals {
+/// What is compared with a scene.
+enum Compared<'a> {
+    Scene(&'a ScaledScene),
+    FirstArrivals(Arrivals),
+}
+
+/// The first arrivals of a quantity; later ones are left out.
+pub(super) struct Arrivals {
     count: usize,
     /// In the scale of the scene: each wave that is seen arrives once in a period, the first time after its delay.
     period: Fraction,
-    delays: Vec<Fraction>,
+    /// The delay of each, and what it is multiplied with.
+    waves: Vec<(Fraction, Fraction)>,
 }
 
 /// A claim that a simpler answer is enough, or that it is not.
 struct Claim<'a> {
     scene: &'a ScaledScene,
-    other: Other<'a>,
+    other: Compared<'a>,
     symbol: Symbol,
     quantity: String,
     window: [Rational; 2],
@@ -69,18 +79,18 @@ impl Problem {
         [from, to]: [&Rational; 2],
         (simpler, is_enough): (&Simpler, bool),
     ) -> Result<(), Unproven> {
-        let because = |why: &str| Unproven { why: why.to_owned(), undecided: None };
+        let because = Unproven::because;
         let told = |error| because(&super::advise::first_line(&error));
         let changed;
         let other = match simpler {
             Simpler::Scene(changes) => {
                 changed = self.changed(changes).map_err(told)?;
-                Other::Scene(changed.scaled().map_err(told)?)
+                Compared::Scene(changed.scaled().map_err(told)?)
             }
             Simpler::Modes(_) => return Err(because("modes are not followed over a symbol")),
             Simpler::Arrivals(count) => {
                 let arrivals = self.arrivals(asked.quantity, *count).map_err(told)?;
-                Other::Arrivals(
+                Compared::FirstArrivals(
                     arrivals
                         .ok_or_else(|| because("its arrivals are not counted over a symbol"))?,
                 )
@@ -106,32 +116,42 @@ impl Problem {
     }
 
     /// The first arrivals of what is linear in the waves; none where these have more than one period.
-    fn arrivals(&self, quantity: &str, count: usize) -> Result<Option<Arrivals>, ProblemError> {
+    pub(super) fn arrivals(
+        &self,
+        quantity: &str,
+        count: usize,
+    ) -> Result<Option<Arrivals>, ProblemError> {
         let (network, wanted) = (self.network()?, self.wanted(quantity)?);
         let Some(seen) = wanted.observation() else { return Ok(None) };
         if network.lattice().periods().len() != 1 {
             return Ok(None);
         }
         let period = network.recurrence()?.statement().period.clone();
-        let delays = seen.waves.iter().map(|wave| wave.delay.clone()).collect();
-        Ok(Some(Arrivals { count, period, delays }))
+        let wave =
+            |wave: &ObservedWave| Some((wave.delay.clone(), wave.coefficient.as_fraction()?));
+        let waves = seen.waves.iter().map(wave).collect::<Option<Vec<_>>>();
+        Ok(waves.map(|waves| Arrivals { count, period, waves }))
     }
 }
 
 impl Arrivals {
-    /// On which steps of a window something arrives, in order; none where its first time may lie on both sides of such a step.
+    /// Of the first `count` steps those at whose start something arrives, ascending; none where it may be others for some
+    /// value of the symbol: a wave is not seen at all, or the window begins before one of them or after it.
     fn steps(
         &self,
-        over: &Over<'_>,
-        step: &Root,
+        (over, step): (&Over<'_>, &Root),
+        count: usize,
         window: &StepsOf,
     ) -> Result<Option<Vec<usize>>, NotOverSymbol> {
         let period = over.whole_steps(&self.period, step)?;
-        let last = window.count() as i64;
+        let count = i64::try_from(count).map_err(|_| NotOverSymbol::TooManySteps)?;
         let mut steps = BTreeSet::new();
-        for delay in &self.delays {
+        for (delay, factor) in &self.waves {
+            if over.may_be_zero(factor)? {
+                return Ok(None);
+            }
             let mut at = over.whole_steps(delay, step)?;
-            while at <= last {
+            while at < count {
                 steps.insert(at);
                 at += period;
             }
@@ -151,22 +171,21 @@ impl Claim<'_> {
         let mut looked = 0;
         while let Some([from, to]) = left.pop() {
             looked += 1;
-            let proven = self.is_proven([&from, &to]);
-            match &proven {
+            let failure = match self.is_proven([&from, &to]) {
                 Ok(true) => continue,
-                Err(error) if !error.is_of_width() => {
-                    return Err(Unproven { why: error.to_string(), undecided: None });
-                }
-                Ok(false) | Err(_) => {}
-            }
-            match (middle(&from, &to).filter(|_| looked < MAX_PARTS_OVER_SYMBOL), proven) {
+                Ok(false) => None,
+                Err(error) if error.may_pass_if_narrower() => Some(error),
+                Err(error) => return Err(Unproven::because(&error.to_string())),
+            };
+            let cut = middle(&from, &to).filter(|_| looked < MAX_PARTS_OVER_SYMBOL);
+            match (cut, failure) {
                 (Some(middle), _) => left.extend([[middle.clone(), to], [from, middle]]),
-                (None, Err(error @ NotOverSymbol::TooManySteps)) => {
-                    return Err(Unproven { why: error.to_string(), undecided: None });
+                (None, Some(error @ NotOverSymbol::TooManySteps)) => {
+                    return Err(Unproven::because(&error.to_string()));
                 }
                 (None, _) => {
-                    let why = "undecided".to_owned();
-                    return Err(Unproven { why, undecided: Some(Box::new([from, to])) });
+                    let undecided = Some(Box::new([from, to]));
+                    return Err(Unproven { why: "undecided".to_owned(), undecided });
                 }
             }
         }
@@ -177,7 +196,7 @@ impl Claim<'_> {
     fn is_proven(&self, between: [&Rational; 2]) -> Result<bool, NotOverSymbol> {
         let over = |scene| Over::new(scene, &self.quantity, (&self.symbol, between));
         let mut all = vec![over(self.scene)?];
-        if let Other::Scene(other) = &self.other {
+        if let Compared::Scene(other) = &self.other {
             all.push(over(other)?);
         }
         let step = Over::step(&all)?;
@@ -185,19 +204,20 @@ impl Claim<'_> {
         let window = StepsOf { from: from?, to: to? };
         let mut followed = all[0].follow(&step, window.count())?;
         let exact = followed.observed();
-        let (same, other) = match &self.other {
-            Other::Scene(_) => (0, all[1].follow(&step, window.count())?.observed()),
-            Other::Arrivals(own) => {
-                let Some(steps) = own.steps(&all[0], &step, &window)? else { return Ok(false) };
-                match steps[(own.count - 1).min(steps.len())..] {
+        // From a step on both differ, as these functions do.
+        let (first, other) = match &self.other {
+            Compared::Scene(_) => (0, all[1].follow(&step, window.count())?.observed()),
+            Compared::FirstArrivals(own) => {
+                let steps = own.steps((&all[0], &step), exact.len(), &window)?;
+                let Some(steps) = steps else { return Ok(false) };
+                match steps[own.count.saturating_sub(1).min(steps.len())..] {
                     [last, next, ..] => (next, followed.observed_after(last)?),
                     _ => (exact.len(), Vec::new()),
                 }
             }
         };
-        let differences = exact.iter().zip(&other).skip(same).map(|(one, other)| one.less(other));
-        let mut off = vec![OnStep::constant(&Varying::zero()); same];
-        off.extend(differences);
+        let mut off = vec![OnStep::constant(&Varying::zero()); first];
+        off.extend(exact.iter().zip(&other).skip(first).map(|(one, other)| one.less(other)));
         let off = Envelope::of(&off, &window);
         let size = Envelope::of(&exact, &window);
         let Some(reached) = size.reached() else { return Ok(false) };

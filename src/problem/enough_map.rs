@@ -231,9 +231,8 @@ impl Problem {
             for Run { between, state } in &runs {
                 let key = (between.clone(), *state);
                 if !known_open.contains_key(&key) {
-                    let suits = [off_at(&between[0])?, off_at(&between[1])?];
-                    let suits = |place: usize| suits.iter().any(|off| off[place].is_some());
-                    known_open.insert(key.clone(), self.open(asked, &simpler, &key, suits));
+                    let ends = [off_at(&between[0])?, off_at(&between[1])?];
+                    known_open.insert(key.clone(), self.open(asked, &simpler, &key, &ends));
                 }
                 let own = &known_open[&key];
                 // Where it is not decided there may be a border that no value has shown.
@@ -258,31 +257,44 @@ impl Problem {
         Ok(EnoughMap { simpler, columns, runs, open })
     }
 
-    /// What is not proven of all values between two, where this answer is the first that is enough at both.
+    /// What is not proven of all values between two, where this answer is the first that is known to be enough at both; how far
+    /// all are off there.
     fn open(
         &self,
         asked: &MapRequest<'_>,
         simpler: &[Simpler],
         ([from, to], first): &([Rational; 2], Option<usize>),
-        suits: impl Fn(usize) -> bool,
+        ends: &[Vec<Option<[Rational; 2]>>; 2],
     ) -> Vec<(usize, Unproven)> {
-        if from == to {
-            return Vec::new();
-        }
+        let is_unsure = |off: &[Rational; 2]| off[0] <= asked.tolerance && asked.tolerance < off[1];
         let unproven = |place: usize| {
+            if ends.iter().any(|off| off[place].as_ref().is_some_and(is_unsure)) {
+                return Some((
+                    place,
+                    Unproven::because("at an end its difference is not known well enough"),
+                ));
+            }
             let claim = (&simpler[place], *first == Some(place));
             Some((place, self.prove_between(asked, [from, to], claim).err()?))
         };
-        // A scene may suit between where its distance is known at neither end.
-        let is_scene = |place: usize| match &simpler[place] {
+        // What is zero at an end may be none in between.
+        let is_zero = ends.iter().any(|off| off.iter().all(Option::is_none));
+        // An answer may suit between where its distance is known at neither end.
+        let may_suit = |place: usize| match &simpler[place] {
             Simpler::Scene(changes) => {
                 self.changed(changes).is_ok_and(|other| other.wanted(asked.quantity).is_ok())
             }
-            _ => false,
+            Simpler::Arrivals(count) => {
+                self.arrivals(asked.quantity, *count).is_ok_and(|own| own.is_some())
+            }
+            Simpler::Modes(_) => is_zero,
         };
-        let before = 0..first.unwrap_or(simpler.len());
-        let before = before.filter(|place| suits(*place) || is_scene(*place));
-        before.chain(*first).filter_map(unproven).collect()
+        let suits = |place: usize| ends.iter().any(|off| off[place].is_some()) || may_suit(place);
+        let before = (0..first.unwrap_or(simpler.len())).filter(|place| suits(*place));
+        match from == to {
+            true => Vec::new(),
+            false => before.chain(*first).filter_map(unproven).collect(),
+        }
     }
 
     /// How far simpler answers are off, over the largest value.

@@ -26,12 +26,11 @@ pub struct Recurrence {
     growth: Growth,
 }
 
-/// Estimates from above of degrees.
+/// The degree of pieces and echoes of order `n` is at most about `fixed + (n + 1) per_period`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Growth {
-    at_start: u64,
-    /// What each period may bring.
-    each: u64,
+    fixed: u64,
+    per_period: u64,
 }
 
 impl Recurrence {
@@ -110,8 +109,8 @@ impl Recurrence {
 
     /// An estimate from above of the degree of pieces and echoes of an order.
     pub(crate) fn degree_estimate(&self, order: usize) -> u64 {
-        let Growth { at_start, each } = self.growth;
-        at_start + (order as u64 + 1).saturating_mul(each)
+        let Growth { fixed, per_period } = self.growth;
+        (order as u64 + 1).saturating_mul(per_period).saturating_add(fixed)
     }
 
     /// The wave or the observable called `name`, as an observation.
@@ -173,18 +172,18 @@ impl Growth {
     fn of(statement: &Statement, steps: &[Step]) -> Growth {
         let Statement { period, continuity, .. } = statement;
         let period = degree_of_fraction(period).max(1);
-        let (mut each, mut forcing) = (0, 0);
+        let (mut per_period, mut forcing) = (0, 0);
         for step in steps {
             let start = step.start.as_ref();
             let forms =
                 || [Some(&step.equation), start.map(|s| &s.continuous)].into_iter().flatten();
-            each += forms().map(coefficient_degree).max().unwrap_or(0);
-            each += start.map_or(0, |_| period);
+            per_period += forms().map(coefficient_degree).max().unwrap_or(0);
+            per_period += start.map_or(0, |_| period);
             forcing +=
                 forms().flat_map(|f| f.forcing_terms().values()).map(degree).max().unwrap_or(0);
         }
         let start = continuity.iter().map(|rule| degree(&rule.start)).max().unwrap_or(0);
-        Growth { at_start: start + forcing * period, each }
+        Growth { fixed: start + forcing * period, per_period }
     }
 }
 

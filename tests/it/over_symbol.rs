@@ -180,6 +180,19 @@ fn enclosures_over_a_symbol_hold_single_values() {
         bar far { impedance = 1 }
         line free - hammer - rod - block - far - endless
         observe velocity = velocity(block)";
+    let loaded = "scene \"Loaded\"
+        symbol z > 0
+        load blow { force = 3*t - t^2, until = 1 }
+        bar rod { impedance = z, travel = 1 }
+        mass block { mass = 1 }
+        load hold { force = z/2, from = 3/2, until = 5/2 }
+        bar next { impedance = 2, travel = 1/2 }
+        line free - blow - rod - block - hold - next - fixed
+        observe velocity = velocity(block)
+        observe pushed = force(rod.left)
+        observe moved = displacement(rod.left)
+        observe carried = momentum(rod)
+        observe held = energy(next)";
     let builtin = |name| Problem::builtin(name).unwrap();
     let (mut steps, mut observed, mut gone_on) = (0, 0, 0);
     for (problem, symbol, ends, to) in [
@@ -189,6 +202,7 @@ fn enclosures_over_a_symbol_hold_single_values() {
         (builtin("striker-on-long-bar"), "r", [rational(1, 2), rational(5, 8)], rational(6, 1)),
         (builtin("struck-free-bar"), "mu", [rational(2, 1), rational(9, 4)], rational(8, 1)),
         (scene(pushed), "d", [rational(2, 1), rational(9, 4)], rational(9, 1)),
+        (scene(loaded), "z", [rational(1, 2), rational(4, 7)], rational(5, 1)),
         (scene(relayed), "a", [rational(1, 1), rational(7, 5)], rational(4, 1)),
         (scene(units), "k", [rational(1, 1), rational(11, 10)], rational(1, 1000)),
     ] {
@@ -213,7 +227,7 @@ fn enclosures_over_a_symbol_hold_single_values() {
                 let mut followed = match over[0].follow(&step, window.count()) {
                     Ok(followed) => followed,
                     Err(error) => {
-                        assert!(error.is_of_width(), "{name}: {quantity}: {error}");
+                        assert!(error.may_pass_if_narrower(), "{name}: {quantity}: {error}");
                         continue;
                     }
                 };
@@ -376,6 +390,42 @@ fn nothing_is_proven_across_a_border() {
     }
 }
 
+/// At `z = 1` one of two waves is not seen, and what is seen is zero at both ends of a range: other arrivals are the first
+/// there, and what cannot be compared at the ends is not taken for proven between them.
+#[test]
+fn arrivals_that_vanish_are_not_counted() {
+    let mixed = scene(
+        "scene \"Mixed\"
+        symbol z > 0
+        bar s { impedance = 1, travel = 1, velocity = 1 }
+        bar a { impedance = 1, travel = 4 }
+        bar b { impedance = 6/5 }
+        line free - s - a - b - endless
+        observe moved = displacement(a.at(1/2)) + (1-z)/10*velocity(s.at(1/3))
+        observe nothing = (z-1)*(z-2)*velocity(a.at(1/2))",
+    );
+    let window = |_: &Problem| Ok([rational(0, 1), rational(30, 1)]);
+    let range: SymbolRange = "z=1/2..2".parse().unwrap();
+    let request = asked(&range, &[], ("moved", rational(1, 5)), &window);
+    let six: Simpler = "echoes:6".parse().unwrap();
+    let proven = |from, to| mixed.prove_between(&request, [&from, &to], (&six, true));
+    proven(rational(9, 10), rational(99, 100)).unwrap();
+    let [from, to] = *proven(rational(9, 10), rational(11, 10)).unwrap_err().undecided.unwrap();
+    assert!(from < rational(1, 1) && rational(1, 1) <= to && to < rational(1001, 1000));
+    let zero_to = [rational(0, 1), rational(30, 1)];
+    let there = mixed.substituted("z", rational(1, 1)).unwrap();
+    assert!(off(&there, "moved", &six, zero_to.each_ref())[0] > rational(7, 10));
+
+    let range: SymbolRange = "z=1..2".parse().unwrap();
+    let request = MapRequest {
+        points: 2,
+        ..asked(&range, &["echoes:20"], ("nothing", rational(1, 5)), &window)
+    };
+    let map = mixed.map_enough(&request, &|_| {}).unwrap();
+    let states: Vec<_> = map.runs.iter().map(|run| run.state).collect();
+    assert_eq!(states, [None, Some(0), None], "{:?}", map.runs);
+}
+
 /// In each part of a map of which it is proven for all values, the answer it names keeps to the tolerance at values that the
 /// map has not seen, and those before it do not.
 #[test]
@@ -424,10 +474,29 @@ fn what_is_not_followed_over_a_symbol_is_told() {
         line free - one - two - fixed
         observe force = force(two.right)";
     let apart = || scene(apart);
+    let driven = |drive: &str| {
+        scene(&format!(
+            "scene \"Driven\"
+            symbol z > 0
+            load push {{ {drive} }}
+            bar rod {{ impedance = z, travel = 1 }}
+            line free - push - rod - fixed
+            observe force = force(rod.right)"
+        ))
+    };
     let builtin = |name| Problem::builtin(name).unwrap();
     type Window<'a> =
         &'a dyn Fn(&Problem) -> Result<[Rational; 2], wavestep::problem::ProblemError>;
-    let cases: [(Problem, &str, &str, &str, Window<'_>, &str); 6] = [
+    let cases: [(Problem, &str, &str, &str, Window<'_>, &str); 8] = [
+        (
+            driven("force = sin(t)"),
+            "z",
+            "force",
+            "echoes:1",
+            &zero_to_two,
+            "`push` is not supported",
+        ),
+        (driven("velocity = t"), "z", "force", "echoes:1", &zero_to_two, "`push` is not supported"),
         (
             builtin("mass-on-fixed-bar"),
             "mu",

@@ -101,18 +101,14 @@ impl Told<'_> {
             self.map.runs.iter().zip(&self.map.open)
         {
             let what = first.map_or_else(|| "exact".to_owned(), |place| self.name(place));
-            let how = if open.is_empty() { "for the whole range" } else { "at both ends" };
+            let how = if open.is_empty() { "proven for the whole range" } else { "at both ends" };
             let range = format!("{} <= {symbol} <= {}", in_decimals(from), in_decimals(to));
-            text += &format!("{range}  {what}, proven {how}\n");
-            // What is open for the same reason stands in one line.
+            text += &format!("{range}  {what}, {how}\n");
+            // Neighbours that are open for the same reason share a line.
             for alike in open.chunk_by(|(_, one), (_, other)| one == other) {
-                let Unproven { why, undecided } = &alike[0].1;
-                let between = undecided.as_deref().map_or(String::new(), |[from, to]| {
-                    format!(" from {} to {}", in_decimals(from), in_decimals(to))
-                });
-                let names: Vec<String> = alike.iter().map(|(place, _)| self.name(*place)).collect();
-                let names = names.join(", ");
-                text += &format!("  undecided in between, for {names}: {why}{between}\n");
+                let names = alike.iter().map(|(place, _)| self.name(*place));
+                let names = names.collect::<Vec<String>>().join(", ");
+                text += &format!("  open, for {names}: {}\n", reason(&alike[0].1));
             }
         }
         text
@@ -185,5 +181,15 @@ impl Told<'_> {
         let chart =
             chart.level(tolerance, &whole(&self.asked.tolerance))?.ceiling(ALL)?.floor(NOTHING)?;
         Ok(Box::new(chart.borders()))
+    }
+}
+
+/// Why something is open.
+fn reason(Unproven { why, undecided }: &Unproven) -> String {
+    match undecided.as_deref().map(|ends| ends.each_ref().map(in_decimals)) {
+        None => why.clone(),
+        Some([from, to]) => {
+            format!("proven up to {from}, undecided up to {to}, not tried beyond")
+        }
     }
 }

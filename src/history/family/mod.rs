@@ -19,12 +19,12 @@ use crate::expression::{Fraction, NotAUnit, Root};
 use crate::history::passivity::Passivity;
 use crate::limits::{MAX_STEPS_OVER_SYMBOL, MAX_SYMBOL_BITS as BITS};
 use crate::network::{
-    ElementLaw, Elements, Energy, Field, Measured, MeasuredValue, Node, Reading, ScaledScene,
-    Section, System, Term, common_measure,
+    ElementLaw, Elements, Energy, Field, Measured, MeasuredValue, ModelLoad, Node, Reading,
+    ScaledScene, Section, System, Term, common_measure,
 };
-use crate::scene::Drive;
+use crate::scene::{Drive, ElementIndex};
 use crate::signal::Varying;
-use motion::{Bar, Course, Motion, NodeState, Place};
+use motion::{Bar, Course, Loading, Motion, NodeState, Place, TERMS};
 use num_traits::{One as _, ToPrimitive as _, Zero as _};
 use on_step::OnStep;
 use symbol::OverSymbol;
@@ -35,7 +35,7 @@ use wavestep_polynomial::{Rational, Symbol};
 pub enum NotOverSymbol {
     #[error("contacts that open and local contacts are not supported over a symbol")]
     Contacts,
-    #[error("`{0}` is not supported over a symbol: it is not a constant force")]
+    #[error("`{0}` is not supported over a symbol: it is no force that is a polynomial in time")]
     Load(String),
     #[error("the travel times have no common divisor for all values of the symbol")]
     NoCommonMeasure,
@@ -54,8 +54,8 @@ pub enum NotOverSymbol {
 }
 
 impl NotOverSymbol {
-    /// Whether fewer values at once may be followed.
-    pub fn is_of_width(&self) -> bool {
+    /// Whether fewer values of the symbol at once may be followed.
+    pub fn may_pass_if_narrower(&self) -> bool {
         use EnclosureError::NotReal;
         use NotOverSymbol::{Ball, TooManySteps, Unresisted, Value};
         matches!(
@@ -86,15 +86,6 @@ impl<'a> Over<'a> {
         if scene.contacts_open || scaled.local_contact().is_some() {
             return Err(NotOverSymbol::Contacts);
         }
-        for (element, load) in &model.loads {
-            let is_constant = model.lumps[element] == ElementLaw::Load(Drive::Force)
-                && load.from.is_zero()
-                && load.until.is_none()
-                && load.course.as_fraction().is_some_and(|own| !own.contains(&scene.time));
-            if !is_constant {
-                return Err(NotOverSymbol::Load(scene.elements[*element].name.clone()));
-            }
-        }
         let measured = scaled.measures.iter().find(|own| own.name == name);
         let measured = measured.ok_or_else(|| NotOverSymbol::Unknown(name.to_owned()))?;
         let symbol = OverSymbol { symbol, between, constants: &model.constants };
@@ -110,11 +101,14 @@ impl<'a> Over<'a> {
         let times = all.iter().flat_map(|own| {
             let model = own.scaled.model();
             let travels = model.bars.values().filter_map(|bar| bar.travel.as_ref());
+            let loads = model.loads.values();
+            let moments = loads.flat_map(|load| std::iter::once(&load.from).chain(&load.until));
             let terms = match &own.measured.value {
                 MeasuredValue::Linear(terms) => &terms[..],
                 MeasuredValue::Energy(_) => &[],
             };
-            let times = travels.chain(terms.iter().flat_map(|term| term.of.delays()));
+            let delays = terms.iter().flat_map(|term| term.of.delays());
+            let times = travels.chain(moments).chain(delays);
             times.map(|time| Root::from(time).times(&model.scale.time))
         });
         let times: Vec<Root> = times.filter(|time| !time.factor().is_zero()).collect();
@@ -165,7 +159,7 @@ impl<'a> Over<'a> {
         Ok(step.over(&self.scaled.model().scale.time)?)
     }
 
-    /// A time in the scale of the scene that is a whole number of steps.
+    /// How many steps a time in the scale of the scene takes.
     ///
     /// # Errors
     /// [`NotOverSymbol::NoCommonMeasure`] where it is not.
@@ -173,6 +167,14 @@ impl<'a> Over<'a> {
         let count = constant(&Root::from(time).over(&self.scaled_step(step)?)?)?;
         let whole = count.is_integer().then(|| count.to_i64()).flatten();
         whole.ok_or(NotOverSymbol::NoCommonMeasure)
+    }
+
+    /// Whether it may be zero for some value of the symbol.
+    ///
+    /// # Errors
+    /// As [`OverSymbol::root`].
+    pub fn may_be_zero(&self, value: &Fraction) -> Outcome<bool> {
+        Ok(self.symbol.fraction(value)?.range().contains_zero())
     }
 
     fn lag(&self, time: &Fraction, step: &Root) -> Outcome<usize> {
@@ -202,8 +204,8 @@ impl<'a> Over<'a> {
     /// The nodes at the start. With a step as the unit of time a mass is so much lighter, and a spring so much stiffer; then
     /// displacements are measured in steps, too.
     fn places(&self, step: &Root) -> Outcome<Vec<Place>> {
-        let step = self.symbol.root(&self.scaled_step(step)?)?;
-        let inverse = step.reciprocal(BITS)?;
+        let length = self.symbol.root(&self.scaled_step(step)?)?;
+        let inverse = length.reciprocal(BITS)?;
         let place = |exact: &Node<Fraction>| {
             let mut node = exact.map(|value| self.symbol.fraction(value))?;
             for own in &mut node.elements {
@@ -211,7 +213,7 @@ impl<'a> Over<'a> {
                     ElementLaw::Mass { mass, .. } => *mass = mass.multiply(&inverse, BITS),
                     ElementLaw::Spring { stiffness, .. }
                     | ElementLaw::Support { stiffness, .. } => {
-                        *stiffness = stiffness.multiply(&step, BITS);
+                        *stiffness = stiffness.multiply(&length, BITS);
                     }
                     _ => {}
                 }
@@ -221,15 +223,35 @@ impl<'a> Over<'a> {
             let numbers = node.map(|value| Ok::<_, NotOverSymbol>(value.number()))?;
             let passivity = Passivity::of(&numbers, &system.map(Varying::number))?;
             let start = NodeState::at_start(&node, &system, &passivity)?;
-            let driven = node.elements.iter().filter(|own| own.law.is_driven()).map(|own| {
-                let course = self.scaled.model().loads[&own.element].course.as_fraction();
-                let course = course.expect("loads are constant");
-                Ok::<_, NotOverSymbol>(OnStep::constant(&self.symbol.fraction(&course)?))
-            });
+            let driven = node.elements.iter().filter(|own| own.law.is_driven());
+            let driven = driven.map(|own| self.loading(own.element, step));
             let driven = driven.collect::<Outcome<_>>()?;
             Ok(Place { node, system, passivity, start, driven })
         };
         self.scaled.layout.nodes.iter().map(place).collect()
+    }
+
+    /// A load, with a step as the unit of time.
+    fn loading(&self, element: ElementIndex, step: &Root) -> Outcome<Loading> {
+        let (scene, model) = (self.scaled.scene(), self.scaled.model());
+        let refused = || NotOverSymbol::Load(scene.elements[element].name.clone());
+        let ModelLoad { course, from, until } = &model.loads[&element];
+        let force = model.lumps[&element] == ElementLaw::Load(Drive::Force);
+        let mut left = course.as_fraction().filter(|_| force).ok_or_else(refused)?;
+        let length = self.symbol.root(&self.scaled_step(step)?)?;
+        let (mut course, mut power) = (Vec::new(), Varying::one());
+        while !left.is_zero() {
+            if course.len() == TERMS {
+                return Err(refused());
+            }
+            let now = left.substitute(&scene.time, &Fraction::zero())?;
+            course.push(self.symbol.fraction(&now)?.multiply(&power, BITS));
+            let count = course.len() as u64;
+            power = power.multiply(&length, BITS).over(count, BITS);
+            left = left.derivative(&scene.time);
+        }
+        let until = until.as_ref().map(|until| self.lag(until, step)).transpose()?;
+        Ok(Loading { acts: self.lag(from, step)?..until.unwrap_or(usize::MAX), course })
     }
 
     /// What is observed, with factors in the user's unit.
@@ -348,6 +370,9 @@ impl Followed {
     ///
     /// # Errors
     /// [`NotOverSymbol::TooManySteps`].
+    ///
+    /// # Panics
+    /// Where it is none of the steps.
     pub fn observed_after(&mut self, last: usize) -> Outcome<Vec<OnStep>> {
         self.motion.sum_after(last, &self.factors, &self.courses)
     }

@@ -11,10 +11,11 @@ use crate::limits::{MAX_STEPS_OVER_SYMBOL, MAX_SYMBOL_BITS as BITS};
 use crate::network::{ElementLaw, Field, Lump, Node, Reading, Section, Side, System, dot};
 use crate::signal::Varying;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use wavestep_polynomial::Rational;
 
 /// So many powers of time are kept on a step, on which no rate of a node is above two.
-const TERMS: usize = 20;
+pub(super) const TERMS: usize = 20;
 
 /// What an observable is made of.
 pub(super) enum Course {
@@ -23,7 +24,7 @@ pub(super) enum Course {
     SinceStart(Reading<usize>),
     /// The square of a sum with these factors.
     Square(Vec<Varying>, Vec<Course>),
-    /// The integral, over the last travel time, of the waves that entered a bar, or of their squares.
+    /// What a bar holds: the integral of its waves, or of their squares.
     InBar {
         bar: usize,
         of: fn(&OnStep) -> OnStep,
@@ -56,7 +57,7 @@ pub(super) struct NodeState {
 }
 
 impl NodeState {
-    /// At the start nothing is compressed, and what strikes each other goes on with its momentum.
+    /// At the start springs are unloaded, and masses that collide move on with their common momentum.
     pub(super) fn at_start(
         node: &Node<Varying>,
         system: &System<Varying>,
@@ -89,7 +90,38 @@ pub(super) struct Place {
     pub(super) system: System<Varying>,
     pub(super) passivity: Passivity,
     pub(super) start: NodeState,
-    pub(super) driven: Vec<OnStep>,
+    pub(super) driven: Vec<Loading>,
+}
+
+/// A force that acts on some steps.
+pub(super) struct Loading {
+    pub(super) acts: Range<usize>,
+    /// The coefficients of its course, a polynomial in the steps since the start.
+    pub(super) course: Vec<Varying>,
+}
+
+impl Loading {
+    /// It on a step: where it acts, the polynomial about the beginning of that step.
+    fn on(&self, at: GoneOn) -> OnStep {
+        let mut own = OnStep::constant(&Varying::zero());
+        if !self.acts.contains(&at.step) {
+            return own;
+        }
+        let now = Varying::constant(&Rational::from_integer((at.step + at.by).into()), BITS);
+        let mut shifted = self.course.clone();
+        for first in 0..shifted.len() {
+            for k in (first..shifted.len() - 1).rev() {
+                shifted[k] = shifted[k].add(&shifted[k + 1].multiply(&now, BITS), BITS);
+            }
+        }
+        own.coefficients.clear();
+        for coefficient in shifted {
+            let (coefficient, off) = coefficient.split();
+            own.coefficients.push(coefficient);
+            own.error = own.error.add(&off);
+        }
+        own
+    }
 }
 
 /// The function of a step, gone on by so many steps.
@@ -145,17 +177,17 @@ impl Motion {
         // The steps whose functions are needed, each after those from which its waves arrive.
         let mut needed: BTreeSet<usize> =
             delays.iter().filter_map(|delay| last.checked_sub(*delay)).collect();
-        let mut latest = needed.last().copied();
-        while let Some(step) = latest {
-            needed.extend(lags.iter().filter_map(|lag| step.checked_sub(*lag)));
-            latest = needed.range(..step).next_back().copied();
+        for step in (0..=last).rev() {
+            if needed.contains(&step) {
+                needed.extend(lags.iter().filter_map(|lag| step.checked_sub(*lag)));
+            }
         }
         if needed.len().saturating_mul(beyond) > MAX_STEPS_OVER_SYMBOL {
             return Err(NotOverSymbol::TooManySteps);
         }
         for step in needed {
-            let known = self.gone_on.get(&step).map_or(0, Vec::len);
-            for by in known + 1..=beyond {
+            let solved_before = self.gone_on.get(&step).map_or(0, Vec::len);
+            for by in solved_before + 1..=beyond {
                 let solved = self.solve(GoneOn { step, by });
                 self.gone_on.entry(step).or_default().push(solved);
             }
@@ -178,7 +210,8 @@ impl Motion {
                 Side::Bar(bar) => self.entered((bar, direction), self.bars[bar].lag, at),
                 _ => OnStep::constant(&Varying::zero()),
             });
-            place.solve(state, &arriving)
+            let driven = place.driven.iter().map(|own| own.on(at));
+            place.solve(state, arriving.into_iter().chain(driven).collect())
         };
         self.places.iter().enumerate().map(solve).collect()
     }
@@ -241,27 +274,24 @@ impl Motion {
     }
 
     /// What a bar holds: at the start what its waves bring in a travel time, then what enters less what arrives. An
-    /// endless bar keeps all; one that holds something at the start is refused when its scene is read.
+    /// endless bar loses nothing; one that holds something at the start is refused when its scene is read.
     fn held(&self, bar: usize, of: fn(&OnStep) -> OnStep, path: &[GoneOn]) -> Vec<OnStep> {
         let own = &self.bars[bar];
-        let waves: Vec<(usize, usize)> = (0..2)
-            .filter(|direction| own.ends[*direction].is_some() || own.lag.is_some())
-            .map(|direction| (bar, direction))
-            .collect();
-        let lag = Varying::constant(&Rational::from_integer(own.lag.unwrap_or(0).into()), BITS);
-        let before: Vec<OnStep> = waves.iter().map(|wave| of(&own.before[wave.1])).collect();
-        let start = OnStep::sum(&vec![lag; waves.len()], before.iter());
-        let signs = [Varying::one(), Varying::one().negate()];
-        let rate = |at: &GoneOn| {
-            let parts = waves.iter().flat_map(|wave| {
-                let entered = of(&self.entered(*wave, Some(0), *at));
-                let arrived = own.lag.map(|_| of(&self.entered(*wave, own.lag, *at)));
-                std::iter::once(entered).chain(arrived).zip(&signs)
-            });
-            let (parts, signs): (Vec<OnStep>, Vec<Varying>) =
-                parts.map(|(part, sign)| (part, sign.clone())).unzip();
-            OnStep::sum(&signs, parts.iter())
+        let directions = (0..2).filter(|d| own.ends[*d].is_some() || own.lag.is_some());
+        let directions: Vec<usize> = directions.collect();
+        let sum_of = |factor: &Varying, wave: &dyn Fn(usize) -> OnStep| {
+            let parts: Vec<OnStep> = directions.iter().map(|d| of(&wave(*d))).collect();
+            OnStep::sum(&vec![factor.clone(); parts.len()], parts.iter())
         };
+        let passing = |delay: Option<usize>, at: &GoneOn| {
+            sum_of(&Varying::one(), &|direction| self.entered((bar, direction), delay, *at))
+        };
+        let rate = |at: &GoneOn| match own.lag {
+            None => passing(Some(0), at),
+            lag => passing(Some(0), at).less(&passing(lag, at)),
+        };
+        let lag = Varying::constant(&Rational::from_integer(own.lag.unwrap_or(0).into()), BITS);
+        let start = sum_of(&lag, &|direction| own.before[direction].clone());
         integral(start, path.iter().map(rate))
     }
 
@@ -294,13 +324,13 @@ impl Motion {
 }
 
 impl Place {
-    /// What the node does on a step that begins with this state.
+    /// What the node does on a step that begins with this state, where waves arrive from the left and from the right and loads
+    /// act.
     ///
     /// `P` solves `y' = A y + B u` up to a residual `ρ`, what is rounded and what the last term leaves. So the error
     /// `e = y − P` obeys `e' = A e + B e_u + ρ`: where it begins with `|e| ≤ ε`, it is `ε + ∫|ρ| + |B e_u| ∫|e^(Ax)|` at most.
-    fn solve(&self, start: &NodeState, arriving: &[OnStep; 2]) -> Solved {
+    fn solve(&self, start: &NodeState, acting: Vec<OnStep>) -> Solved {
         let (system, blocks) = (&self.system, &self.passivity.blocks);
-        let acting: Vec<&OnStep> = arriving.iter().chain(&self.driven).collect();
         debug_assert!(acting.iter().all(|own| own.coefficients.len() <= TERMS));
         let sizes = |left: &[Magnitude]| -> Vec<Magnitude> {
             blocks.iter().map(|own| own.size(own.members.iter().map(|i| left[*i]))).collect()
@@ -342,11 +372,11 @@ impl Place {
             }
             errors.push(error.clone().after(&step, &added.add(&rounded), block));
         }
-        let both: Vec<OnStep> = own.into_iter().chain(acting.into_iter().cloned()).collect();
+        let both: Vec<OnStep> = own.into_iter().chain(acting).collect();
         let runs = system.group.len();
         let velocities =
             system.output[..runs].iter().map(|row| OnStep::sum(row, both.iter())).collect();
-        // What arrives is taken off before it is rounded and bounded.
+        // What arrives is taken off the row, before rounding.
         let leaving = [(0, 0), (1, runs - 1)].map(|(side, run)| {
             let mut row = system.output[run].clone();
             let own = &mut row[system.states() + side];
