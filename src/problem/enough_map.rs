@@ -274,6 +274,9 @@ impl Problem {
                     Unproven::because("at an end its difference is not known well enough"),
                 ));
             }
+            if from == to {
+                return None;
+            }
             let claim = (&simpler[place], *first == Some(place));
             Some((place, self.prove_between(asked, [from, to], claim).err()?))
         };
@@ -291,10 +294,7 @@ impl Problem {
         };
         let suits = |place: usize| ends.iter().any(|off| off[place].is_some()) || may_suit(place);
         let before = (0..first.unwrap_or(simpler.len())).filter(|place| suits(*place));
-        match from == to {
-            true => Vec::new(),
-            false => before.chain(*first).filter_map(unproven).collect(),
-        }
+        before.chain(*first).filter_map(unproven).collect()
     }
 
     /// How far simpler answers are off, over the largest value.
