@@ -366,7 +366,7 @@ impl Followed {
         self.motion.sum(&self.factors, &self.courses)
     }
 
-    /// The same where the function of one of the steps goes on to the end.
+    /// The same where the function of one of the steps is continued to the end.
     ///
     /// # Errors
     /// [`NotOverSymbol::TooManySteps`].

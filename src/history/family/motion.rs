@@ -1,7 +1,7 @@
 //! The motion of a scene over a symbol, step by step, and what is observed of it.
 //!
-//! The function of a step is analytic, so it goes on beyond the end of the step: the nodes obey the same equations, and
-//! what arrives at them is the function of an earlier step, gone on by as much.
+//! The function of a step is analytic, so it can be continued beyond the end of the step: the nodes obey the same
+//! equations, and what arrives at them is the function of an earlier step, continued as far.
 
 use super::on_step::OnStep;
 use super::{NotOverSymbol, Outcome};
@@ -102,10 +102,9 @@ pub(super) struct Loading {
 
 impl Loading {
     /// It on a step: where it acts, the polynomial about the beginning of that step.
-    fn on(&self, at: GoneOn) -> OnStep {
-        let mut own = OnStep::constant(&Varying::zero());
+    fn on(&self, at: Continued) -> OnStep {
         if !self.acts.contains(&at.step) {
-            return own;
+            return OnStep::constant(&Varying::zero());
         }
         let now = Varying::constant(&Rational::from_integer((at.step + at.by).into()), BITS);
         let mut shifted = self.course.clone();
@@ -114,26 +113,22 @@ impl Loading {
                 shifted[k] = shifted[k].add(&shifted[k + 1].multiply(&now, BITS), BITS);
             }
         }
-        own.coefficients.clear();
-        for coefficient in shifted {
-            let (coefficient, off) = coefficient.split();
-            own.coefficients.push(coefficient);
-            own.error = own.error.add(&off);
-        }
-        own
+        let (coefficients, off): (Vec<Varying>, Vec<Magnitude>) =
+            shifted.iter().map(Varying::split).unzip();
+        OnStep { coefficients, error: off.iter().fold(Magnitude::ZERO, |sum, own| sum.add(own)) }
     }
 }
 
-/// The function of a step, gone on by so many steps.
+/// The function of a step, continued so many steps beyond its own.
 #[derive(Clone, Copy)]
-struct GoneOn {
+struct Continued {
     step: usize,
     by: usize,
 }
 
-impl GoneOn {
-    fn not(step: usize) -> GoneOn {
-        GoneOn { step, by: 0 }
+impl Continued {
+    fn actual(step: usize) -> Continued {
+        Continued { step, by: 0 }
     }
 }
 
@@ -142,16 +137,16 @@ pub(super) struct Motion {
     places: Vec<Place>,
     /// What the nodes do, step by step.
     known: Vec<Vec<Solved>>,
-    /// What they do as the function of a step goes on, by one step, by two, and so on.
-    gone_on: BTreeMap<usize, Vec<Vec<Solved>>>,
+    /// What they do as the function of a step is continued, one step beyond it, two, and so on.
+    continued: BTreeMap<usize, Vec<Vec<Solved>>>,
 }
 
 impl Motion {
     /// All nodes for so many steps.
     pub(super) fn of(bars: Vec<Bar>, places: Vec<Place>, count: usize) -> Motion {
-        let mut motion = Motion { bars, places, known: Vec::new(), gone_on: BTreeMap::new() };
+        let mut motion = Motion { bars, places, known: Vec::new(), continued: BTreeMap::new() };
         for step in 0..count {
-            let solved = motion.solve(GoneOn::not(step));
+            let solved = motion.solve(Continued::actual(step));
             motion.known.push(solved);
         }
         motion
@@ -159,11 +154,11 @@ impl Motion {
 
     /// A sum of these on all steps.
     pub(super) fn sum(&self, factors: &[Varying], courses: &[Course]) -> Vec<OnStep> {
-        let path: Vec<GoneOn> = (0..self.known.len()).map(GoneOn::not).collect();
+        let path: Vec<Continued> = (0..self.known.len()).map(Continued::actual).collect();
         self.sum_along(&path, factors, courses)
     }
 
-    /// The same where the function of a step goes on to the end.
+    /// The same where the function of a step is continued to the end.
     pub(super) fn sum_after(
         &mut self,
         last: usize,
@@ -185,23 +180,23 @@ impl Motion {
         if needed.len().saturating_mul(beyond) > MAX_STEPS_OVER_SYMBOL {
             return Err(NotOverSymbol::TooManySteps);
         }
+        self.continued.clear();
         for step in needed {
-            let solved_before = self.gone_on.get(&step).map_or(0, Vec::len);
-            for by in solved_before + 1..=beyond {
-                let solved = self.solve(GoneOn { step, by });
-                self.gone_on.entry(step).or_default().push(solved);
+            for by in 1..=beyond {
+                let solved = self.solve(Continued { step, by });
+                self.continued.entry(step).or_default().push(solved);
             }
         }
-        let before = (0..last).map(GoneOn::not);
-        let path = before.chain((0..=beyond).map(|by| GoneOn { step: last, by }));
-        Ok(self.sum_along(&path.collect::<Vec<GoneOn>>(), factors, courses))
+        let before = (0..last).map(Continued::actual);
+        let path = before.chain((0..=beyond).map(|by| Continued { step: last, by }));
+        Ok(self.sum_along(&path.collect::<Vec<Continued>>(), factors, courses))
     }
 
     /// What the nodes do, from the end of the step before.
-    fn solve(&self, at: GoneOn) -> Vec<Solved> {
+    fn solve(&self, at: Continued) -> Vec<Solved> {
         let before = match at.by.checked_sub(1) {
-            Some(by) => Some(GoneOn { by, ..at }),
-            None => at.step.checked_sub(1).map(GoneOn::not),
+            Some(by) => Some(Continued { by, ..at }),
+            None => at.step.checked_sub(1).map(Continued::actual),
         };
         let solve = |(number, place): (usize, &Place)| {
             let state = before.map_or(&place.start, |before| &self.solved(before)[number].end);
@@ -216,9 +211,9 @@ impl Motion {
         self.places.iter().enumerate().map(solve).collect()
     }
 
-    fn solved(&self, GoneOn { step, by }: GoneOn) -> &[Solved] {
+    fn solved(&self, Continued { step, by }: Continued) -> &[Solved] {
         match by.checked_sub(1) {
-            Some(more) => &self.gone_on[&step][more],
+            Some(more) => &self.continued[&step][more],
             None => &self.known[step],
         }
     }
@@ -228,25 +223,30 @@ impl Motion {
         &self,
         (bar, direction): (usize, usize),
         delay: Option<usize>,
-        at: GoneOn,
+        at: Continued,
     ) -> OnStep {
         let own = &self.bars[bar];
         match (own.ends[direction], delay.and_then(|delay| at.step.checked_sub(delay))) {
             (Some(node), Some(step)) => {
-                self.solved(GoneOn { step, ..at })[node].leaving[1 - direction].clone()
+                self.solved(Continued { step, ..at })[node].leaving[1 - direction].clone()
             }
             _ => own.before[direction].clone(),
         }
     }
 
     /// A sum of these on the steps of a path.
-    fn sum_along(&self, path: &[GoneOn], factors: &[Varying], courses: &[Course]) -> Vec<OnStep> {
+    fn sum_along(
+        &self,
+        path: &[Continued],
+        factors: &[Varying],
+        courses: &[Course],
+    ) -> Vec<OnStep> {
         let courses: Vec<Vec<OnStep>> = courses.iter().map(|own| self.course(own, path)).collect();
         let sum = |now| OnStep::sum(factors, courses.iter().map(|own: &Vec<OnStep>| &own[now]));
         (0..path.len()).map(sum).collect()
     }
 
-    fn course(&self, of: &Course, path: &[GoneOn]) -> Vec<OnStep> {
+    fn course(&self, of: &Course, path: &[Continued]) -> Vec<OnStep> {
         match of {
             Course::Now(reading) => path.iter().map(|at| self.reading(reading, *at)).collect(),
             Course::SinceStart(rate) => {
@@ -275,7 +275,7 @@ impl Motion {
 
     /// What a bar holds: at the start what its waves bring in a travel time, then what enters less what arrives. An
     /// endless bar loses nothing; one that holds something at the start is refused when its scene is read.
-    fn held(&self, bar: usize, of: fn(&OnStep) -> OnStep, path: &[GoneOn]) -> Vec<OnStep> {
+    fn held(&self, bar: usize, of: fn(&OnStep) -> OnStep, path: &[Continued]) -> Vec<OnStep> {
         let own = &self.bars[bar];
         let directions = (0..2).filter(|d| own.ends[*d].is_some() || own.lag.is_some());
         let directions: Vec<usize> = directions.collect();
@@ -283,10 +283,10 @@ impl Motion {
             let parts: Vec<OnStep> = directions.iter().map(|d| of(&wave(*d))).collect();
             OnStep::sum(&vec![factor.clone(); parts.len()], parts.iter())
         };
-        let passing = |delay: Option<usize>, at: &GoneOn| {
+        let passing = |delay: Option<usize>, at: &Continued| {
             sum_of(&Varying::one(), &|direction| self.entered((bar, direction), delay, *at))
         };
-        let rate = |at: &GoneOn| match own.lag {
+        let rate = |at: &Continued| match own.lag {
             None => passing(Some(0), at),
             lag => passing(Some(0), at).less(&passing(lag, at)),
         };
@@ -296,7 +296,7 @@ impl Motion {
     }
 
     /// What is read on a step, of a bar in units of its impedance.
-    fn reading(&self, of: &Reading<usize>, at: GoneOn) -> OnStep {
+    fn reading(&self, of: &Reading<usize>, at: Continued) -> OnStep {
         match of {
             Reading::Velocity(face) => {
                 let node = face.lump().node;
