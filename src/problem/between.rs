@@ -9,13 +9,14 @@ use crate::ball::Arithmetic as _;
 use crate::expression::{Fraction, Root};
 use crate::history::family::envelope::{Ends, Envelope, StepsOf};
 use crate::history::family::on_step::OnStep;
-use crate::history::family::{NotOverSymbol, Over};
+use crate::history::family::{Followed, NotOverSymbol, Over};
 use crate::language;
 use crate::limits::MAX_PARTS_OVER_SYMBOL;
 use crate::network::ScaledScene;
 use crate::recurrence::ObservedWave;
 use crate::signal::Varying;
 use num_traits::{One as _, ToPrimitive as _};
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use wavestep_polynomial::{Rational, Symbol};
 
@@ -23,7 +24,7 @@ use wavestep_polynomial::{Rational, Symbol};
 const FINEST: i64 = 1 << 18;
 
 /// Bounds that are tried for the largest value: what is reached, times `1 + 2^-k`.
-const ABOVE: [i64; 4] = [14, 11, 8, 1];
+const ABOVE: [i64; 6] = [24, 19, 14, 11, 8, 1];
 
 /// Why something is not proven of all values between two.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -58,61 +59,124 @@ pub(super) struct Arrivals {
 
 /// A claim that a simpler answer is enough, or that it is not.
 struct Claim<'a> {
-    scene: &'a ScaledScene,
     other: Compared<'a>,
+    is_enough: bool,
+}
+
+/// What claims are about.
+struct Proof<'a> {
+    scene: &'a ScaledScene,
     symbol: Symbol,
     quantity: String,
-    window: [Rational; 2],
+    window: [Fraction; 2],
     tolerance: &'a Rational,
-    is_enough: bool,
+}
+
+/// The scene for some values of the symbol, in steps.
+struct Exact {
+    step: Root,
+    window: StepsOf,
+    followed: Followed,
+    observed: Vec<OnStep>,
+    size: Envelope,
+    /// Sizes that are reached, and sizes that are never passed.
+    reached: Option<Ends>,
+    most: OnceCell<Option<Ends>>,
 }
 
 #[doc(hidden)]
 impl Problem {
-    /// Proves, for all values of the symbol from one to another, that a simpler answer is enough, or that it is not.
-    ///
-    /// # Errors
-    /// [`Unproven`].
+    /// Proves, for all values of the symbol from one to another, that simpler answers are enough, or that they are not;
+    /// of each it is told why it is not proven.
     pub fn prove_between(
         &self,
         asked: &MapRequest<'_>,
         [from, to]: [&Rational; 2],
-        (simpler, is_enough): (&Simpler, bool),
-    ) -> Result<(), Unproven> {
-        let because = Unproven::because;
-        let told = |error| because(&super::advise::first_line(&error));
-        let changed;
-        let other = match simpler {
-            Simpler::Scene(changes) => {
-                changed = self.changed(changes).map_err(told)?;
-                Compared::Scene(changed.scaled().map_err(told)?)
+        claims: &[(&Simpler, bool)],
+    ) -> Vec<Result<(), Unproven>> {
+        let changed = claims.iter().map(|(simpler, _)| match simpler {
+            Simpler::Scene(changes) => self.changed(changes).map(Some).map_err(told),
+            _ => Ok(None),
+        });
+        let changed: Vec<Result<Option<Problem>, Unproven>> = changed.collect();
+        let compared = claims.iter().zip(&changed).map(|((simpler, is_enough), changed)| {
+            let other =
+                self.compared(asked, simpler, changed.as_ref().map_err(Unproven::clone)?)?;
+            Ok(Claim { other, is_enough: *is_enough })
+        });
+        let claims: Vec<Result<Claim<'_>, Unproven>> = compared.collect();
+        match self.proof(asked, [from, to]) {
+            Ok(proof) => proof.of(&claims, [from, to]),
+            Err(unproven) => {
+                let why = |claim: Result<_, Unproven>| Err(claim.err().unwrap_or(unproven.clone()));
+                claims.into_iter().map(why).collect()
             }
-            Simpler::Modes(_) => return Err(because("modes are not followed over a symbol")),
-            Simpler::Arrivals(count) => {
+        }
+    }
+
+    /// A simpler answer, which may be a changed scene.
+    fn compared<'a>(
+        &self,
+        asked: &MapRequest<'_>,
+        simpler: &Simpler,
+        changed: &'a Option<Problem>,
+    ) -> Result<Compared<'a>, Unproven> {
+        match (simpler, changed) {
+            (Simpler::Arrivals(count), _) => {
                 let arrivals = self.arrivals(asked.quantity, *count).map_err(told)?;
-                Compared::FirstArrivals(
-                    arrivals
-                        .ok_or_else(|| because("its arrivals are not counted over a symbol"))?,
-                )
+                let why = "its arrivals are not counted over a symbol";
+                Ok(Compared::FirstArrivals(arrivals.ok_or_else(|| Unproven::because(why))?))
             }
-        };
-        let window = |problem: &Problem| (asked.window)(problem).ok();
-        let at = |value| window(&self.substituted(&asked.range.symbol, value).ok()?);
-        // A window that is known with the symbol in place is one for all values.
-        let window = window(self)
-            .filter(|own| [at(from), at(to)].iter().all(|at| at.as_ref() == Some(own)))
-            .ok_or_else(|| because("the window is another one for each value"))?;
-        let claim = Claim {
+            (_, Some(changed)) => Ok(Compared::Scene(changed.scaled().map_err(told)?)),
+            (_, None) => Err(Unproven::because("modes are not followed over a symbol")),
+        }
+    }
+
+    /// What claims of all values from one to another are about.
+    fn proof<'a>(
+        &'a self,
+        asked: &'a MapRequest<'_>,
+        ends: [&Rational; 2],
+    ) -> Result<Proof<'a>, Unproven> {
+        let symbol = Symbol::new(&language::normalise_name(&asked.range.symbol));
+        let window = self.window_of_symbols(asked, ends);
+        Ok(Proof {
             scene: self.scaled().map_err(told)?,
-            other,
-            symbol: Symbol::new(&language::normalise_name(&asked.range.symbol))
-                .ok_or_else(|| because("there is no such symbol"))?,
+            symbol: symbol.ok_or_else(|| Unproven::because("there is no such symbol"))?,
             quantity: language::normalise_name(asked.quantity),
-            window,
+            window: window
+                .ok_or_else(|| Unproven::because("the window is another one for each value"))?,
             tolerance: &asked.tolerance,
-            is_enough,
+        })
+    }
+
+    /// The window as a function of the symbol: it is the same for all values, or has its usual length, as at these two.
+    fn window_of_symbols(
+        &self,
+        asked: &MapRequest<'_>,
+        values: [&Rational; 2],
+    ) -> Option<[Fraction; 2]> {
+        let constant = |[from, to]: [Rational; 2]| [from, to].map(|own| Fraction::constant(&own));
+        let same = (asked.window)(self).ok().map(constant);
+        let at = values.map(|value| {
+            let problem = self.substituted(&asked.range.symbol, value).ok()?;
+            (asked.window)(&problem).ok()
+        });
+        let [Some(first), Some(last)] = at else { return None };
+        let usual = || {
+            let from = Fraction::constant(&first[0]);
+            let to = &from + &self.usual_length_of_symbols()?;
+            Some([from, to])
         };
-        claim.prove(from, to)
+        let symbol = Symbol::new(&language::normalise_name(&asked.range.symbol))?;
+        let is_it = |own: &[Fraction; 2], value: &Rational, window: &[Rational; 2]| {
+            let both = own.iter().zip(window);
+            both.map(|(own, end)| (own.substitute(&symbol, &Fraction::constant(value)), end))
+                .all(|(own, end)| own.is_ok_and(|own| own.as_constant().as_ref() == Some(end)))
+        };
+        let suits =
+            |own: &[Fraction; 2]| is_it(own, values[0], &first) && is_it(own, values[1], &last);
+        same.filter(suits).or_else(|| usual().filter(suits))
     }
 
     /// The first arrivals of what is linear in the waves; none where these have more than one period.
@@ -123,14 +187,11 @@ impl Problem {
     ) -> Result<Option<Arrivals>, ProblemError> {
         let (network, wanted) = (self.network()?, self.wanted(quantity)?);
         let Some(seen) = wanted.observation() else { return Ok(None) };
-        if network.lattice().periods().len() != 1 {
-            return Ok(None);
-        }
-        let period = network.recurrence()?.statement().period.clone();
+        let [period] = network.lattice().periods() else { return Ok(None) };
         let wave =
             |wave: &ObservedWave| Some((wave.delay.clone(), wave.coefficient.as_fraction()?));
         let waves = seen.waves.iter().map(wave).collect::<Option<Vec<_>>>();
-        Ok(waves.map(|waves| Arrivals { count, period, waves }))
+        Ok(waves.map(|waves| Arrivals { count, period: period.clone(), waves }))
     }
 }
 
@@ -164,75 +225,137 @@ impl Arrivals {
     }
 }
 
-impl Claim<'_> {
-    /// Proves it of all values between two, in parts where it must be.
-    fn prove(&self, from: &Rational, to: &Rational) -> Result<(), Unproven> {
-        let mut left = vec![[from.clone(), to.clone()]];
-        let mut looked = 0;
-        while let Some([from, to]) = left.pop() {
-            looked += 1;
-            let failure = match self.is_proven([&from, &to]) {
-                Ok(true) => continue,
-                Ok(false) => None,
-                Err(error) if error.may_pass_if_narrower() => Some(error),
-                Err(error) => return Err(Unproven::because(&error.to_string())),
-            };
-            let cut = middle(&from, &to).filter(|_| looked < MAX_PARTS_OVER_SYMBOL);
-            match (cut, failure) {
-                (Some(middle), _) => left.extend([[middle.clone(), to], [from, middle]]),
-                (None, Some(error @ NotOverSymbol::TooManySteps)) => {
-                    return Err(Unproven::because(&error.to_string()));
-                }
-                (None, _) => {
-                    let undecided = Some(Box::new([from, to]));
-                    return Err(Unproven { why: "undecided".to_owned(), undecided });
-                }
+impl Proof<'_> {
+    /// Proves claims of all values between two, each in parts where it must be.
+    fn of(
+        &self,
+        claims: &[Result<Claim<'_>, Unproven>],
+        [from, to]: [&Rational; 2],
+    ) -> Vec<Result<(), Unproven>> {
+        let mut outcomes: Vec<Result<(), Unproven>> = claims
+            .iter()
+            .map(|claim| claim.as_ref().map(|_| ()).map_err(Unproven::clone))
+            .collect();
+        let mut looked = vec![0; claims.len()];
+        // The first part is the last.
+        let mut left =
+            vec![([from.clone(), to.clone()], (0..claims.len()).collect::<Vec<usize>>())];
+        while let Some(([from, to], open)) = left.pop() {
+            let mut known = Vec::new();
+            let mut again = Vec::new();
+            for place in open {
+                let (Ok(claim), Ok(())) = (&claims[place], &outcomes[place]) else { continue };
+                looked[place] += 1;
+                let failure = match self.is_proven(claim, [&from, &to], &mut known) {
+                    Ok(true) => continue,
+                    Ok(false) => None,
+                    Err(error) if error.may_pass_if_narrower() => Some(error),
+                    Err(error) => {
+                        outcomes[place] = Err(Unproven::because(&error.to_string()));
+                        continue;
+                    }
+                };
+                let may_be_cut = looked[place] < MAX_PARTS_OVER_SYMBOL;
+                outcomes[place] = match failure {
+                    _ if may_be_cut && middle(&from, &to).is_some() => {
+                        again.push(place);
+                        Ok(())
+                    }
+                    Some(error @ NotOverSymbol::TooManySteps) => {
+                        Err(Unproven::because(&error.to_string()))
+                    }
+                    _ => {
+                        let undecided = Some(Box::new([from.clone(), to.clone()]));
+                        Err(Unproven { why: "undecided".to_owned(), undecided })
+                    }
+                };
+            }
+            if let Some(middle) = middle(&from, &to).filter(|_| !again.is_empty()) {
+                left.push(([middle.clone(), to], again.clone()));
+                left.push(([from, middle], again));
             }
         }
-        Ok(())
+        outcomes
     }
 
-    /// Whether it is proven of all values between two at once.
-    fn is_proven(&self, between: [&Rational; 2]) -> Result<bool, NotOverSymbol> {
+    /// Whether a claim is proven of all values between two at once; `known` keeps what is known of the scene.
+    fn is_proven(
+        &self,
+        claim: &Claim<'_>,
+        between: [&Rational; 2],
+        known: &mut Vec<Exact>,
+    ) -> Result<bool, NotOverSymbol> {
         let over = |scene| Over::new(scene, &self.quantity, (&self.symbol, between));
-        let mut all = vec![over(self.scene)?];
-        if let Compared::Scene(other) = &self.other {
-            all.push(over(other)?);
-        }
+        let own = over(self.scene)?;
+        let other = match &claim.other {
+            Compared::Scene(other) => Some(over(other)?),
+            Compared::FirstArrivals(_) => None,
+        };
+        let all: Vec<&Over<'_>> = std::iter::once(&own).chain(&other).collect();
         let step = Over::step(&all)?;
-        let [from, to] = self.window.each_ref().map(|time| all[0].in_steps(time, &step));
-        let window = StepsOf { from: from?, to: to? };
-        let mut followed = all[0].follow(&step, window.count())?;
-        let exact = followed.observed();
+        let place = match known.iter().position(|exact| exact.step == step) {
+            Some(place) => place,
+            None => {
+                known.push(self.exact(&own, step)?);
+                known.len() - 1
+            }
+        };
+        let exact = &mut known[place];
+        let (step, count) = (&exact.step, exact.observed.len());
         // From a step on both differ, as these functions do.
-        let (first, other) = match &self.other {
-            Compared::Scene(_) => (0, all[1].follow(&step, window.count())?.observed()),
-            Compared::FirstArrivals(own) => {
-                let steps = own.steps((&all[0], &step), exact.len(), &window)?;
+        let (first, other) = match (&claim.other, other) {
+            (Compared::FirstArrivals(arrivals), _) => {
+                let steps = arrivals.steps((&own, step), count, &exact.window)?;
                 let Some(steps) = steps else { return Ok(false) };
-                match steps[own.count.saturating_sub(1).min(steps.len())..] {
-                    [last, next, ..] => (next, followed.observed_after(last)?),
-                    _ => (exact.len(), Vec::new()),
+                match steps[arrivals.count.saturating_sub(1).min(steps.len())..] {
+                    [last, next, ..] => (next, exact.followed.observed_after(last)?),
+                    _ => (count, Vec::new()),
                 }
+            }
+            (Compared::Scene(_), other) => {
+                let other = other.expect("another scene");
+                (0, other.follow(step, exact.window.count())?.observed())
             }
         };
         let mut off = vec![OnStep::constant(&Varying::zero()); first];
-        off.extend(exact.iter().zip(&other).skip(first).map(|(one, other)| one.less(other)));
-        let off = Envelope::of(&off, &window);
-        let size = Envelope::of(&exact, &window);
-        let Some(reached) = size.reached() else { return Ok(false) };
-        if self.is_enough {
-            return Ok(off.is_within(&scaled(&reached, self.tolerance)));
+        let both = exact.observed.iter().zip(&other).skip(first);
+        off.extend(both.map(|(one, other)| one.less(other)));
+        let off = Envelope::of(&off, &exact.window);
+        let Some(reached) = &exact.reached else { return Ok(false) };
+        if claim.is_enough {
+            return Ok(off.is_within(&scaled(reached, self.tolerance)));
         }
-        let Some(off) = off.reached() else { return Ok(false) };
-        let above =
-            ABOVE.map(|power| Rational::one() + Rational::new(1.into(), (1_i64 << power).into()));
-        let mut bounds = above.iter().map(|factor| scaled(&reached, factor));
-        let most = bounds.find(|most| size.is_within(most));
-        Ok(most.is_some_and(|most| {
-            off.iter().zip(&scaled(&most, self.tolerance)).all(|(off, most)| off > most)
-        }))
+        let (Some(off), Some(most)) = (off.reached(), exact.most()) else { return Ok(false) };
+        Ok(off.iter().zip(&scaled(most, self.tolerance)).all(|(off, most)| off > most))
     }
+
+    /// The scene, followed in such steps.
+    fn exact(&self, over: &Over<'_>, step: Root) -> Result<Exact, NotOverSymbol> {
+        let [from, to] = self.window.each_ref().map(|time| over.in_steps(time, &step));
+        let window = StepsOf { from: from?, to: to? };
+        let followed = over.follow(&step, window.count())?;
+        let observed = followed.observed();
+        let size = Envelope::of(&observed, &window);
+        let reached = size.reached();
+        Ok(Exact { step, window, followed, observed, size, reached, most: OnceCell::new() })
+    }
+}
+
+impl Exact {
+    fn most(&self) -> Option<&Ends> {
+        let find = || {
+            let reached = self.reached.as_ref()?;
+            let above =
+                |power: i64| Rational::one() + Rational::new(1.into(), (1_i64 << power).into());
+            let mut bounds = ABOVE.iter().map(|power| scaled(reached, &above(*power)));
+            bounds.find(|most| self.size.is_within(most))
+        };
+        self.most.get_or_init(find).as_ref()
+    }
+}
+
+fn told(error: ProblemError) -> Unproven {
+    Unproven::because(&super::advise::first_line(&error))
 }
 
 fn scaled(sizes: &Ends, by: &Rational) -> Ends {

@@ -267,19 +267,6 @@ impl Problem {
         ends: &[Vec<Option<[Rational; 2]>>; 2],
     ) -> Vec<(usize, Unproven)> {
         let is_unsure = |off: &[Rational; 2]| off[0] <= asked.tolerance && asked.tolerance < off[1];
-        let unproven = |place: usize| {
-            if ends.iter().any(|off| off[place].as_ref().is_some_and(is_unsure)) {
-                return Some((
-                    place,
-                    Unproven::because("at an end its difference is not known well enough"),
-                ));
-            }
-            if from == to {
-                return None;
-            }
-            let claim = (&simpler[place], *first == Some(place));
-            Some((place, self.prove_between(asked, [from, to], claim).err()?))
-        };
         // What is zero at an end may be none in between.
         let is_zero = ends.iter().any(|off| off.iter().all(Option::is_none));
         // An answer may suit between where its distance is known at neither end.
@@ -294,7 +281,22 @@ impl Problem {
         };
         let suits = |place: usize| ends.iter().any(|off| off[place].is_some()) || may_suit(place);
         let before = (0..first.unwrap_or(simpler.len())).filter(|place| suits(*place));
-        before.chain(*first).filter_map(unproven).collect()
+        let (unsure, claimed): (Vec<usize>, Vec<usize>) = before
+            .chain(*first)
+            .partition(|place| ends.iter().any(|off| off[*place].as_ref().is_some_and(is_unsure)));
+        let why = "at an end its difference is not known well enough";
+        let unsure = unsure.into_iter().map(|place| (place, Unproven::because(why)));
+        let claims: Vec<(&Simpler, bool)> =
+            claimed.iter().map(|place| (&simpler[*place], *first == Some(*place))).collect();
+        let proven = match from == to {
+            true => Vec::new(),
+            false => self.prove_between(asked, [from, to], &claims),
+        };
+        let open = claimed.into_iter().zip(proven);
+        let open = open.filter_map(|(place, proven)| Some((place, proven.err()?)));
+        let mut open: Vec<(usize, Unproven)> = unsure.chain(open).collect();
+        open.sort_by_key(|(place, _)| *place);
+        open
     }
 
     /// How far simpler answers are off, over the largest value.

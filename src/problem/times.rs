@@ -119,7 +119,8 @@ impl Problem {
             let passages = travel_time(network)? * PASSAGES as f64;
             return two_figures(passages);
         }
-        let periods = periods.max(passages(network));
+        let period = network.lattice().periods().first().and_then(Fraction::as_constant);
+        let periods = period.map_or(periods.clone(), |_| periods.max(passages(network)));
         if let Some(period) = self.shortest_period() {
             return Ok(period * periods);
         }
@@ -131,6 +132,14 @@ impl Problem {
         let form = ClosedForm::of_scene(network, observation, unit, &Rational::default())?;
         let period = form.period().ok_or(ProblemError::NoEnd)?;
         two_figures(period * periods.to_f64().unwrap_or(f64::NAN))
+    }
+
+    /// The same as a function of the symbols, where a scene has one period.
+    pub(super) fn usual_length_of_symbols(&self) -> Option<Fraction> {
+        let network = self.network().ok()?;
+        let [period] = network.lattice().periods() else { return None };
+        let length = period * &network.model().slowness.inverse().ok()?;
+        Some(length.scale(&passages(network).max(Rational::from_integer(PERIODS.into()))))
     }
 
     /// So many of the shortest period; where there is none, of the time that a wave needs for the line.
@@ -185,17 +194,14 @@ fn passages(network: &Network) -> Rational {
             travel = &travel + own;
         }
     }
+    let Some(period) = network.lattice().periods().first() else { return Rational::default() };
+    let Ok(frequency) = period.inverse() else { return Rational::default() };
+    let in_periods = |time: &Fraction| (time * &frequency).as_constant();
     let delays = network.observables().iter().flat_map(|observed| match &observed.value {
         ObservedValue::Linear(observation) => observation.waves.iter(),
         ObservedValue::Energy(_) => [].iter(),
     });
-    let latest = delays.filter_map(|wave| wave.delay.as_constant()).max().unwrap_or_default();
-    let period = network.lattice().periods().first().and_then(Fraction::as_constant);
-    match (travel.as_constant(), period) {
-        (Some(travel), Some(period)) => {
-            let passages = Rational::from_integer(PASSAGES.into());
-            ((travel * passages + latest) / period).ceil()
-        }
-        _ => Rational::default(),
-    }
+    let latest = delays.filter_map(|wave| in_periods(&wave.delay)).max().unwrap_or_default();
+    let passages = Rational::from_integer(PASSAGES.into());
+    in_periods(&travel).map_or_else(Rational::default, |travel| (travel * passages + latest).ceil())
 }

@@ -193,7 +193,7 @@ impl<'a> Expansion<'a> {
 }
 
 /// A power of two above `e^η`; none where its exponent is too long.
-fn of_exponential(eta: &Magnitude) -> Option<Magnitude> {
+pub(crate) fn of_exponential(eta: &Magnitude) -> Option<Magnitude> {
     // 1/ln 2 = 1.44269…
     let exponent = (Rational::from(eta) * Rational::new(1443.into(), 1000.into())).ceil();
     let exponent = i32::try_from(exponent.to_integer()).ok()?;

@@ -2,8 +2,8 @@
 //!
 //! With balls in their place nothing would be left of the difference of two numbers that vary alike.
 
-use super::taylor::Taylor;
-use crate::ball::{Arithmetic, Ball, BallError, Magnitude, Number};
+use super::taylor::{Taylor, of_exponential};
+use crate::ball::{Arithmetic, Ball, BallError, ComplexBall, Magnitude, Number};
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
@@ -56,6 +56,37 @@ impl Varying {
         self.composed(&at_middle, |k| Rational::new((3 - 2 * k).into(), (2 * k).into()), bits).ok()
     }
 
+    /// `e^x cos y` and `e^x sin y`. With `z = x + iy = z₀ + d` it is `e^(z₀) Σ_k d^k/k!`, of which `Σ_{k>n} |d|^k/k!`
+    /// is left out, `|d|^(n+1)/(n+1)! e^|d|` at most.
+    ///
+    /// # Errors
+    /// [`BallError::ArgumentTooLarge`] where it varies by more than a factor of `e^8`, or more than once around.
+    pub fn exp([x, y]: [&Varying; 2], bits: u64) -> Result<[Varying; 2], BallError> {
+        let at_middle = ComplexBall::new(x.coefficient(0), y.coefficient(0)).exp(bits)?;
+        let mut change = [x, y].map(Varying::clone);
+        for part in &mut change {
+            if let Some(constant) = part.coefficients.first_mut() {
+                *constant = Ball::zero();
+            }
+        }
+        let size = change[0].magnitude().add(&change[1].magnitude());
+        let most = of_exponential(&size).filter(|_| size <= Magnitude::from_u64(8));
+        let most = most.ok_or(BallError::ArgumentTooLarge)?;
+        let mut term = [Varying::one(), Varying::zero()];
+        let mut sum = term.clone();
+        let mut beyond = size.multiply(&most);
+        for k in 1..=DEGREE as u64 {
+            term = complex_product(&term, &change, bits).map(|part| part.over(k, bits));
+            sum = [0, 1].map(|part| Arithmetic::add(&sum[part], &term[part], bits));
+            beyond = beyond.multiply(&size).divide(k + 1);
+        }
+        for part in &mut sum {
+            part.remainder = part.remainder.add(&beyond);
+        }
+        let at_middle = [at_middle.real(), at_middle.imaginary()].map(|part| part.clone().into());
+        Ok(complex_product(&at_middle, &sum, bits))
+    }
+
     /// `g(c₀) Σ_k a_k u^k` for a number `c₀ (1 + u)`, where `a₀ = 1` and `a_k/a_(k−1)` is given and at most 1 in size: what is
     /// left out is `Σ_{k>n} |u|^k = |u|^(n+1)/(1 − |u|)` at most.
     fn composed(
@@ -86,6 +117,15 @@ impl Varying {
         sum.remainder = sum.remainder.add(&beyond);
         Ok(sum.scaled(at_middle, bits))
     }
+}
+
+/// The product of two complex numbers.
+pub fn complex_product([a, b]: &[Varying; 2], [c, d]: &[Varying; 2], bits: u64) -> [Varying; 2] {
+    let product = Arithmetic::multiply;
+    [
+        product(a, c, bits).subtract(&product(b, d, bits), bits),
+        Arithmetic::add(&product(a, d, bits), &product(b, c, bits), bits),
+    ]
 }
 
 impl Arithmetic for Varying {

@@ -15,6 +15,9 @@ use wavestep_polynomial::Rational;
 /// In so many parts a step is cut for values that are taken.
 const PARTS: i64 = 64;
 
+/// How often values are taken nearer to the largest that was found.
+const REFINED: usize = 2;
+
 /// How often a step is halved for a bound.
 const DEPTH: usize = 14;
 
@@ -77,11 +80,19 @@ impl Envelope {
     /// no instant is found at which the function is told from zero.
     pub fn reached(&self) -> Option<Ends> {
         let steps = self.0.iter().filter_map(|step| Some((step, step.within.as_ref()?)));
-        let sizes = steps.flat_map(|(step, [from, to])| {
-            let at = move |part| from + (to - from) * Rational::new(part, PARTS.into());
-            (0..=PARTS).filter_map(move |part| step.at_least(&at(part.into())))
-        });
-        sizes.max_by_key(|sizes| sizes[0].clone().min(sizes[1].clone()))
+        let best = steps.filter_map(|(step, within)| Some((step, within, step.best(within)?)));
+        let (step, [from, to], mut best) =
+            best.max_by(|one, other| smaller_of(&one.2.1).cmp(smaller_of(&other.2.1)))?;
+        let mut part = (to - from) / Rational::from_integer(PARTS.into());
+        for _ in 0..REFINED {
+            let near = [(&best.0 - &part).max(from.clone()), (&best.0 + &part).min(to.clone())];
+            let Some(nearer) = step.best(&near) else { break };
+            if smaller_of(&nearer.1) > smaller_of(&best.1) {
+                best = nearer;
+            }
+            part /= Rational::from_integer((PARTS / 2).into());
+        }
+        Some(best.1)
     }
 
     /// Whether all values on the window are proven to be no larger than these at both ends of the symbol, and between them than
@@ -91,7 +102,18 @@ impl Envelope {
     }
 }
 
+fn smaller_of(sizes: &Ends) -> &Rational {
+    (&sizes[0]).min(&sizes[1])
+}
+
 impl OneStep {
+    /// Where of some places its sizes are largest, and these sizes.
+    fn best(&self, [from, to]: &[Rational; 2]) -> Option<(Rational, Ends)> {
+        let at = |part: i64| from + (to - from) * Rational::new(part.into(), PARTS.into());
+        let sizes = (0..=PARTS).map(at).filter_map(|at| Some((at.clone(), self.at_least(&at)?)));
+        sizes.max_by(|one, other| smaller_of(&one.1).cmp(smaller_of(&other.1)))
+    }
+
     /// Sizes that it has at an instant at least; none where it may be zero. With both signs it is, between the ends.
     fn at_least(&self, at: &Rational) -> Option<Ends> {
         let at = Ball::from_rational(at, BITS);

@@ -5,15 +5,16 @@
 //! of a polynomial in time is a polynomial in the symbol, too. What both leave out is bounded by the energy of each node,
 //! as in `passivity`: its matrices hold for all values at once.
 //!
-//! Here a scene is made ready; `motion` follows it, with functions on one step (`on_step`) whose coefficients are values over
+//! Here a scene is made ready, loads by `exponential`; `motion` follows it, with functions on one step (`on_step`) whose coefficients are values over
 //! the symbol (`symbol`), and `envelope` tells how large they are.
 
 pub mod envelope;
+mod exponential;
 mod motion;
 pub mod on_step;
 mod symbol;
 
-use crate::ball::{Arithmetic as _, BallError};
+use crate::ball::{Arithmetic as _, BallError, Magnitude};
 use crate::enclosure::EnclosureError;
 use crate::expression::{Fraction, NotAUnit, Root};
 use crate::history::passivity::Passivity;
@@ -22,8 +23,9 @@ use crate::network::{
     ElementLaw, Elements, Energy, Field, Measured, MeasuredValue, ModelLoad, Node, Reading,
     ScaledScene, Section, System, Term, common_measure,
 };
-use crate::scene::{Drive, ElementIndex};
+use crate::scene::ElementIndex;
 use crate::signal::Varying;
+use exponential::Exponential;
 use motion::{Bar, Course, Loading, Motion, NodeState, Place, TERMS};
 use num_traits::{One as _, ToPrimitive as _, Zero as _};
 use on_step::OnStep;
@@ -35,7 +37,7 @@ use wavestep_polynomial::{Rational, Symbol};
 pub enum NotOverSymbol {
     #[error("contacts that open and local contacts are not supported over a symbol")]
     Contacts,
-    #[error("`{0}` is not supported over a symbol: it is no force that is a polynomial in time")]
+    #[error("`{0}` is not supported over a symbol: it has powers of time above {most}", most = TERMS - 1)]
     Load(String),
     #[error("the travel times have no common divisor for all values of the symbol")]
     NoCommonMeasure,
@@ -97,7 +99,7 @@ impl<'a> Over<'a> {
     ///
     /// # Errors
     /// [`NotOverSymbol::NoCommonMeasure`]; else as [`Over::follow`].
-    pub fn step(all: &[Over<'_>]) -> Outcome<Root> {
+    pub fn step(all: &[&Over<'_>]) -> Outcome<Root> {
         let times = all.iter().flat_map(|own| {
             let model = own.scaled.model();
             let travels = model.bars.values().filter_map(|bar| bar.travel.as_ref());
@@ -121,8 +123,10 @@ impl<'a> Over<'a> {
         let step = |measure: &Rational| first.times(&Fraction::constant(measure).into());
         let mut halvings = 0;
         for own in all {
-            let places = own.places(&step(&measure))?;
-            let rates = places.iter().filter_map(|place| place.passivity.rate().top());
+            let places = own.places(&step(&measure), 0)?;
+            let driven = places.iter().flat_map(|place| &place.driven).map(|own| own.rate);
+            let rates = places.iter().map(|place| place.passivity.rate()).chain(driven);
+            let rates = rates.filter_map(|rate| rate.top());
             halvings = rates.map(|top| top - 1).fold(halvings, i64::max);
         }
         if halvings > i64::from(MAX_STEPS_OVER_SYMBOL.ilog2()) {
@@ -135,8 +139,8 @@ impl<'a> Over<'a> {
     ///
     /// # Errors
     /// As [`OverSymbol::root`].
-    pub fn in_steps(&self, time: &Rational, step: &Root) -> Outcome<[Rational; 2]> {
-        let steps = self.symbol.root(&Root::from(Fraction::constant(time)).over(step)?)?;
+    pub fn in_steps(&self, time: &Fraction, step: &Root) -> Outcome<[Rational; 2]> {
+        let steps = self.symbol.root(&Root::from(time).over(step)?)?;
         let (low, high) = steps.range().endpoints();
         Ok([Rational::from(&low).max(Rational::zero()), Rational::from(&high)])
     }
@@ -150,7 +154,7 @@ impl<'a> Over<'a> {
             return Err(NotOverSymbol::TooManySteps);
         }
         let (factors, courses) = self.observed(step)?.into_iter().unzip();
-        let motion = Motion::of(self.bars(step)?, self.places(step)?, count);
+        let motion = Motion::of(self.bars(step)?, self.places(step, count)?, count);
         Ok(Followed { motion, factors, courses })
     }
 
@@ -201,9 +205,9 @@ impl<'a> Over<'a> {
         Ok(self.symbol.fraction(value)?.reciprocal(BITS)?)
     }
 
-    /// The nodes at the start. With a step as the unit of time a mass is so much lighter, and a spring so much stiffer; then
+    /// The nodes at the start, and loads on so many steps. With a step as the unit of time a mass is so much lighter, and a spring so much stiffer; then
     /// displacements are measured in steps, too.
-    fn places(&self, step: &Root) -> Outcome<Vec<Place>> {
+    fn places(&self, step: &Root, count: usize) -> Outcome<Vec<Place>> {
         let length = self.symbol.root(&self.scaled_step(step)?)?;
         let inverse = length.reciprocal(BITS)?;
         let place = |exact: &Node<Fraction>| {
@@ -224,34 +228,29 @@ impl<'a> Over<'a> {
             let passivity = Passivity::of(&numbers, &system.map(Varying::number))?;
             let start = NodeState::at_start(&node, &system, &passivity)?;
             let driven = node.elements.iter().filter(|own| own.law.is_driven());
-            let driven = driven.map(|own| self.loading(own.element, step));
+            let driven = driven.map(|own| self.loading(own.element, step, count));
             let driven = driven.collect::<Outcome<_>>()?;
             Ok(Place { node, system, passivity, start, driven })
         };
         self.scaled.layout.nodes.iter().map(place).collect()
     }
 
-    /// A load, with a step as the unit of time.
-    fn loading(&self, element: ElementIndex, step: &Root) -> Outcome<Loading> {
+    /// A load on so many steps, with a step as the unit of time.
+    fn loading(&self, element: ElementIndex, step: &Root, count: usize) -> Outcome<Loading> {
         let (scene, model) = (self.scaled.scene(), self.scaled.model());
-        let refused = || NotOverSymbol::Load(scene.elements[element].name.clone());
         let ModelLoad { course, from, until } = &model.loads[&element];
-        let force = model.lumps[&element] == ElementLaw::Load(Drive::Force);
-        let mut left = course.as_fraction().filter(|_| force).ok_or_else(refused)?;
         let length = self.symbol.root(&self.scaled_step(step)?)?;
-        let (mut course, mut power) = (Vec::new(), Varying::one());
-        while !left.is_zero() {
-            if course.len() == TERMS {
-                return Err(refused());
-            }
-            let now = left.substitute(&scene.time, &Fraction::zero())?;
-            course.push(self.symbol.fraction(&now)?.multiply(&power, BITS));
-            let count = course.len() as u64;
-            power = power.multiply(&length, BITS).over(count, BITS);
-            left = left.derivative(&scene.time);
-        }
+        let terms = Exponential::all(course, &scene.time, &length, &self.symbol)?;
+        let terms =
+            terms.ok_or_else(|| NotOverSymbol::Load(scene.elements[element].name.clone()))?;
+        let rate = terms.iter().map(Exponential::rate).max().unwrap_or(Magnitude::ZERO);
+        let parts = terms.iter().map(|own| own.on_steps(count));
+        let parts = parts.collect::<Outcome<Vec<Vec<OnStep>>>>()?;
+        let one = vec![Varying::one(); parts.len()];
+        let sum = |step: usize| OnStep::sum(&one, parts.iter().map(|own| &own[step]));
+        let course = (0..count).map(sum).collect();
         let until = until.as_ref().map(|until| self.lag(until, step)).transpose()?;
-        Ok(Loading { acts: self.lag(from, step)?..until.unwrap_or(usize::MAX), course })
+        Ok(Loading { acts: self.lag(from, step)?..until.unwrap_or(usize::MAX), rate, course })
     }
 
     /// What is observed, with factors in the user's unit.

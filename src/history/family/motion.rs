@@ -93,29 +93,21 @@ pub(super) struct Place {
     pub(super) driven: Vec<Loading>,
 }
 
-/// A force that acts on some steps.
+/// A force or a velocity that is given on some steps.
 pub(super) struct Loading {
     pub(super) acts: Range<usize>,
-    /// The coefficients of its course, a polynomial in the steps since the start.
-    pub(super) course: Vec<Varying>,
+    /// How fast it changes at most.
+    pub(super) rate: Magnitude,
+    /// It on each step, as if it acted there.
+    pub(super) course: Vec<OnStep>,
 }
 
 impl Loading {
-    /// It on a step: where it acts, the polynomial about the beginning of that step.
     fn on(&self, at: Continued) -> OnStep {
-        if !self.acts.contains(&at.step) {
-            return OnStep::constant(&Varying::zero());
+        match self.acts.contains(&at.step) {
+            true => self.course[at.step + at.by].clone(),
+            false => OnStep::constant(&Varying::zero()),
         }
-        let now = Varying::constant(&Rational::from_integer((at.step + at.by).into()), BITS);
-        let mut shifted = self.course.clone();
-        for first in 0..shifted.len() {
-            for k in (first..shifted.len() - 1).rev() {
-                shifted[k] = shifted[k].add(&shifted[k + 1].multiply(&now, BITS), BITS);
-            }
-        }
-        let (coefficients, off): (Vec<Varying>, Vec<Magnitude>) =
-            shifted.iter().map(Varying::split).unzip();
-        OnStep { coefficients, error: off.iter().fold(Magnitude::ZERO, |sum, own| sum.add(own)) }
     }
 }
 

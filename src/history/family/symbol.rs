@@ -42,6 +42,20 @@ impl OverSymbol<'_> {
         Ok(result)
     }
 
+    /// The real and the imaginary part of a fraction.
+    ///
+    /// # Errors
+    /// As [`OverSymbol::root`].
+    pub fn complex(&self, value: &Fraction) -> Result<[Varying; 2], EnclosureError> {
+        let i = Symbol::square_root(-1).expect("the imaginary unit");
+        if value.factors().any(|(factor, _)| factor.symbols().contains(&i)) {
+            return Err(EnclosureError::NotReal);
+        }
+        // Where i² = −1 was put in, i is left in no higher power.
+        let parts = [value.substitute(&i, &Fraction::zero())?, value.derivative(&i)];
+        Ok([self.fraction(&parts[0])?, self.fraction(&parts[1])?])
+    }
+
     fn polynomial(&self, p: &Polynomial) -> Result<Varying, EnclosureError> {
         let values: Vec<Varying> =
             p.symbols().iter().map(|symbol| self.value(symbol)).collect::<Result<_, _>>()?;
