@@ -129,7 +129,7 @@ impl Chain {
                 Node { left, right, impedance, elements: vec![damper], links: Vec::new() }
             }
         };
-        let (mass, start) = (0..node.runs()).map(|run| node.mass_of(run)).unzip();
+        let (mass, start) = (0..node.runs()).map(|run| node.mass_and_momentum(run)).unzip();
         let first = self.points;
         self.points += node.runs();
         self.stations.push(Station { node, first, mass, start, push, bars });

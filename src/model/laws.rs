@@ -110,7 +110,7 @@ impl Laws {
     /// The node at the start, all contacts closed.
     pub fn start(&self, node: &Node<f64>, speed: f64) -> Option<NodeState> {
         let closed = self.by_closed.len() - 1;
-        let velocity = |run: usize| match node.mass_of(run) {
+        let velocity = |run: usize| match node.mass_and_momentum(run) {
             (mass, momentum) if mass > 0.0 => Some(momentum / mass),
             _ => None,
         };
@@ -152,7 +152,7 @@ impl Laws {
         let mut state = vec![0.0; system.states()];
         for (group, held) in system.held.iter().enumerate() {
             let own = (0..node.runs()).filter(|run| system.group[*run] == group);
-            let own = own.filter(|run| node.mass_of(*run).0 > 0.0);
+            let own = own.filter(|run| node.mass_and_momentum(*run).0 > 0.0);
             let mut velocities = own.filter_map(&velocity);
             let Some(first) = velocities.next() else { continue };
             let is_wall = |run: usize| system.group[run] == group && node.is_held(run);

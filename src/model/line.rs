@@ -5,27 +5,48 @@ use crate::enclosure::Numbers;
 use crate::expression::Fraction;
 use crate::model::course::{Course, double, double_root};
 use crate::model::error::{ModelError, NotRepresented, NotSeen};
-use crate::network::{
-    ElementLaw, Layout, Measured, MeasuredValue, Node, Reading, ScaledScene, Term,
-};
+use crate::network::{ElementLaw, Layout, Measured, MeasuredValue, Node, ScaledScene, Term};
 use crate::scene::ElementIndex;
 use num_traits::ToPrimitive as _;
 use std::collections::BTreeMap;
 
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Bar {
+pub(crate) struct Bar<V = f64> {
     pub element: ElementIndex,
     pub name: String,
     /// `Z`.
-    pub impedance: f64,
+    pub impedance: V,
     /// `τ`; `None` where it is endless.
-    pub travel: Option<f64>,
+    pub travel: Option<V>,
     /// The velocity at the start.
-    pub velocity: f64,
+    pub velocity: V,
     /// The compressive force at the start.
-    pub force: f64,
+    pub force: V,
     /// The nodes at its left and right end; none where it is endless.
     pub nodes: [Option<usize>; 2],
+}
+
+impl<V> Bar<V> {
+    /// The bars of a line, from left to right.
+    pub fn all<E>(
+        scaled: &ScaledScene,
+        layout: &Layout,
+        value: impl Fn(&Fraction) -> Result<V, E>,
+    ) -> Result<Vec<Bar<V>>, E> {
+        let bar = |(element, nodes): (&ElementIndex, &[Option<usize>; 2])| {
+            let data = &scaled.model().bars[element];
+            Ok(Bar {
+                element: *element,
+                name: scaled.scene().elements[*element].name.clone(),
+                impedance: value(&data.impedance)?,
+                travel: data.travel.as_ref().map(&value).transpose()?,
+                velocity: value(&data.velocity)?,
+                force: value(&data.force)?,
+                nodes: *nodes,
+            })
+        };
+        layout.bars.iter().zip(&layout.ends).map(bar).collect()
+    }
 }
 
 impl Bar {
@@ -107,7 +128,7 @@ pub(crate) struct Load {
 
 impl Node<f64> {
     /// The mass of a run, and its momentum at the start.
-    pub fn mass_of(&self, run: usize) -> (f64, f64) {
+    pub fn mass_and_momentum(&self, run: usize) -> (f64, f64) {
         let masses = self.attached(run).filter_map(|own| match own.law {
             ElementLaw::Mass { mass, velocity } => Some((mass, mass * velocity)),
             _ => None,
@@ -176,19 +197,7 @@ impl Line {
         }
         let (scene, model) = (scaled.scene(), scaled.model());
         let double = |value: &Fraction| double(&numbers, value);
-        let mut bars = Vec::new();
-        for (element, nodes) in layout.bars.iter().zip(&layout.ends) {
-            let data = &model.bars[element];
-            bars.push(Bar {
-                element: *element,
-                name: scene.elements[*element].name.clone(),
-                impedance: double(&data.impedance)?,
-                travel: data.travel.as_ref().map(double).transpose()?,
-                velocity: double(&data.velocity)?,
-                force: double(&data.force)?,
-                nodes: *nodes,
-            });
-        }
+        let bars = Bar::all(scaled, layout, double)?;
         let nodes = layout.nodes.iter().map(|node| node.map(double));
         let mut loads = BTreeMap::new();
         for (element, load) in &model.loads {
@@ -242,26 +251,6 @@ impl Line {
         Ok(observable)
     }
 
-    /// An observable as factors of a displacement and a velocity, from those of each reading.
-    pub fn factors(
-        &self,
-        model: &'static str,
-        observable: &Observable,
-        seen: impl Fn(&Reading<f64>) -> Result<[f64; 2], NotSeen>,
-    ) -> Result<[f64; 2], ModelError> {
-        let mut factors = [0.0; 2];
-        for term in observable.terms() {
-            match seen(&term.of) {
-                Ok([x, v]) => {
-                    factors[0] += term.coefficient * x;
-                    factors[1] += term.coefficient * v;
-                }
-                Err(term) => return self.refuse(model, observable, term),
-            }
-        }
-        Ok(factors)
-    }
-
     pub fn refuse<T>(
         &self,
         model: &'static str,
@@ -276,7 +265,7 @@ impl Line {
     pub fn speed(&self) -> f64 {
         let masses = self.nodes.iter().flat_map(|node| {
             let free = (0..node.runs()).filter(|run| !node.is_imposed(*run));
-            free.map(|run| node.mass_of(run))
+            free.map(|run| node.mass_and_momentum(run))
         });
         let velocities = masses.filter(|(mass, _)| *mass > 0.0).map(|(mass, own)| own / mass);
         let waves = self.bars.iter().flat_map(Bar::before);
@@ -284,9 +273,5 @@ impl Line {
             most if most > 0.0 => most,
             _ => 1.0,
         }
-    }
-
-    pub fn endless(&self) -> Option<&Bar> {
-        self.bars.iter().find(|bar| bar.travel.is_none())
     }
 }

@@ -11,6 +11,7 @@ mod error;
 mod laws;
 mod leapfrog;
 pub mod line;
+pub(crate) mod mode;
 mod modes;
 pub mod shape;
 mod steps;

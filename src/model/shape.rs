@@ -14,14 +14,84 @@
 //! (fixed), or an odd multiple of `π/2` (free). So the n-th mode is the one at the n-th of these
 //! angles: a count, which misses none.
 
+use crate::ball::{Arithmetic, BallError, Magnitude};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Part {
-    Bar { impedance: f64, travel: f64 },
-    Mass { mass: f64 },
-    Spring { stiffness: f64 },
-    Support { stiffness: f64 },
+/// Numbers of which there are sines.
+pub trait Swinging: Arithmetic {
+    fn cos_sin(&self, bits: u64) -> Result<[Self; 2], BallError>;
+
+    fn quotient(&self, divisor: &Self, bits: u64) -> Result<Self, BallError> {
+        Ok(self.multiply(&divisor.reciprocal(bits)?, bits))
+    }
+}
+
+/// Doubles are what they are, with any number of bits.
+impl Arithmetic for f64 {
+    fn zero() -> f64 {
+        0.0
+    }
+
+    fn one() -> f64 {
+        1.0
+    }
+
+    fn is_zero(&self) -> bool {
+        *self == 0.0
+    }
+
+    fn magnitude(&self) -> Magnitude {
+        Magnitude::from_double(self.abs())
+    }
+
+    fn negate(&self) -> f64 {
+        -self
+    }
+
+    fn add(&self, other: &f64, _: u64) -> f64 {
+        self + other
+    }
+
+    fn multiply(&self, other: &f64, _: u64) -> f64 {
+        self * other
+    }
+
+    fn reciprocal(&self, _: u64) -> Result<f64, BallError> {
+        Ok(1.0 / self)
+    }
+}
+
+impl Swinging for f64 {
+    fn cos_sin(&self, _: u64) -> Result<[f64; 2], BallError> {
+        let (sine, cosine) = self.sin_cos();
+        Ok([cosine, sine])
+    }
+
+    fn quotient(&self, divisor: &f64, _: u64) -> Result<f64, BallError> {
+        Ok(self / divisor)
+    }
+}
+
+#[derive(Clone, PartialEq, Debug)]
+pub enum Part<V = f64> {
+    Bar { impedance: V, travel: V },
+    Mass { mass: V },
+    Spring { stiffness: V },
+    Support { stiffness: V },
+}
+
+impl<V> Part<V> {
+    /// The same with other numbers.
+    pub fn map<W>(&self, value: impl Fn(&V) -> W) -> Part<W> {
+        match self {
+            Part::Bar { impedance, travel } => {
+                Part::Bar { impedance: value(impedance), travel: value(travel) }
+            }
+            Part::Mass { mass } => Part::Mass { mass: value(mass) },
+            Part::Spring { stiffness } => Part::Spring { stiffness: value(stiffness) },
+            Part::Support { stiffness } => Part::Support { stiffness: value(stiffness) },
+        }
+    }
 }
 
 /// An angle `π turns + α` with `0 ≤ α < π`, by `sin α ≥ 0` and `cos α` in any common scale.
@@ -42,7 +112,7 @@ impl Angle {
 
     fn behind(self, part: &Part, frequency: f64) -> Angle {
         let Angle { mut turns, mut sine, mut cosine } = self;
-        match *part {
+        match part {
             // With u fixed α stays between the same multiples of π.
             Part::Mass { mass } => cosine -= frequency * frequency * mass * sine,
             Part::Support { stiffness } => cosine += stiffness * sine,
@@ -72,8 +142,24 @@ impl Angle {
     }
 }
 
+/// The frequencies of the first modes; none for a motion as a whole, which is the first where a line drifts.
+pub fn frequencies(
+    parts: &[Part],
+    held: [bool; 2],
+    drifts: bool,
+    count: usize,
+) -> Vec<Option<f64>> {
+    let mut found: Vec<Option<f64>> = Vec::with_capacity(count);
+    for number in 0..count {
+        let below = found.last().copied().flatten().unwrap_or(0.0);
+        let is_whole = drifts && number == 0;
+        found.push((!is_whole).then(|| frequency(parts, held, number, below)));
+    }
+    found
+}
+
 /// The frequency of a mode, counted from 0, which lies above `below`; `held` says which ends are fixed.
-pub fn frequency(parts: &[Part], held: [bool; 2], number: usize, below: f64) -> f64 {
+fn frequency(parts: &[Part], held: [bool; 2], number: usize, below: f64) -> f64 {
     // From a fixed left end θ starts at 0 and the first fixed angle is π, from a free one at π/2.
     let (turns, alpha) = match held[1] {
         true => (number as f64 + 1.0, 0.0),
@@ -128,94 +214,165 @@ pub fn frequency(parts: &[Part], held: [bool; 2], number: usize, below: f64) -> 
 /// The shape of a mode, in any scale.
 ///
 /// # Invariants
-/// `states` holds displacement and tension left of every part; the modal mass is positive.
+/// `states` holds displacement and tension left of every part, and at the right end; the modal mass is positive.
 #[derive(Clone, Debug)]
-pub struct Shape {
-    frequency: f64,
-    states: Vec<[f64; 2]>,
+pub struct Shape<V = f64> {
+    /// None for a motion as a whole.
+    frequency: Option<V>,
+    states: Vec<[V; 2]>,
     /// `∫ u ds` over each part, in time along the bar; zero for other parts.
-    integrals: Vec<f64>,
-    /// `Zω` of each part that is a bar.
-    scales: Vec<f64>,
-    mass: f64,
+    integrals: Vec<V>,
+    /// `Zω` of each part that is a bar; none for a motion as a whole.
+    scales: Vec<Option<V>>,
+    mass: V,
 }
 
-impl Shape {
-    /// The shape at a frequency, from a left end that is fixed or free.
+impl<V: Swinging> Shape<V> {
+    /// The shape at a frequency, or of a motion as a whole, from a left end that is fixed or free.
     ///
     /// In a bar `u = A cos ωs + B sin ωs` with `A = u_0`, `B = S_0/(Zω)`, so that
     /// `∫u ds = (A sin ωτ + B (1 − cos ωτ))/ω` and
     /// `∫u² ds = (A² + B²) τ/2 + (A² − B²) sin 2ωτ/(4ω) + A B sin² ωτ/ω`.
-    pub fn of(parts: &[Part], held: bool, frequency: f64) -> Shape {
-        let mut shape = Shape {
-            frequency,
-            states: Vec::with_capacity(parts.len()),
-            integrals: Vec::with_capacity(parts.len()),
-            scales: Vec::with_capacity(parts.len()),
-            mass: 0.0,
-        };
-        let [mut u, mut pulled] = if held { [0.0, 1.0] } else { [1.0, 0.0] };
+    ///
+    /// # Errors
+    /// Those of enclosures: doubles have none.
+    pub fn of(
+        parts: &[Part<V>],
+        held: bool,
+        frequency: Option<V>,
+        bits: u64,
+    ) -> Result<Shape<V>, BallError> {
+        let (mut states, mut integrals, mut scales) = (Vec::new(), Vec::new(), Vec::new());
+        let mut whole = V::zero();
+        let [mut u, mut pulled] = if held { [V::zero(), V::one()] } else { [V::one(), V::zero()] };
         for part in parts {
-            shape.states.push([u, pulled]);
-            let (mut integral, mut scale) = (0.0, 0.0);
-            match *part {
-                Part::Mass { mass } => {
-                    shape.mass += mass * u * u;
-                    pulled -= frequency * frequency * mass * u;
+            states.push([u.clone(), pulled.clone()]);
+            let (mut integral, mut scale) = (V::zero(), None);
+            match (part, &frequency) {
+                (Part::Mass { mass }, _) => {
+                    whole = whole.add(&product([mass, &u, &u], bits), bits);
+                    if let Some(frequency) = &frequency {
+                        let force = product([frequency, frequency, mass, &u], bits);
+                        pulled = pulled.subtract(&force, bits);
+                    }
                 }
-                Part::Support { stiffness } => pulled += stiffness * u,
-                Part::Spring { stiffness } => u += pulled / stiffness,
-                Part::Bar { impedance, travel } if frequency == 0.0 => {
-                    // A motion as a whole: no tension.
-                    integral = u * travel;
-                    shape.mass += impedance * travel * u * u;
+                (Part::Support { stiffness }, _) => {
+                    pulled = pulled.add(&stiffness.multiply(&u, bits), bits);
                 }
-                Part::Bar { impedance, travel } => {
-                    scale = impedance * frequency;
-                    let (a, b) = (u, pulled / scale);
-                    let (sine, cosine) = (frequency * travel).sin_cos();
-                    let half = (frequency * travel / 2.0).sin();
-                    integral = (a * sine + b * 2.0 * half * half) / frequency;
-                    let square = (a * a + b * b) * travel / 2.0
-                        + (a * a - b * b) * sine * cosine / (2.0 * frequency)
-                        + a * b * sine * sine / frequency;
-                    shape.mass += impedance * square;
-                    (u, pulled) = (a * cosine + b * sine, scale * (b * cosine - a * sine));
+                (Part::Spring { stiffness }, _) => {
+                    u = u.add(&pulled.quotient(stiffness, bits)?, bits);
+                }
+                (Part::Bar { impedance, travel }, None) => {
+                    // No tension.
+                    integral = u.multiply(travel, bits);
+                    whole = whole.add(&product([impedance, travel, &u, &u], bits), bits);
+                }
+                (Part::Bar { impedance, travel }, Some(frequency)) => {
+                    let own = impedance.multiply(frequency, bits);
+                    let state = [u.clone(), pulled.quotient(&own, bits)?];
+                    let turn = frequency.multiply(travel, bits).cos_sin(bits)?;
+                    let bar = Bar { state: &state, travel, frequency, turn: &turn, bits };
+                    integral = bar.integral()?;
+                    whole = whole.add(&impedance.multiply(&bar.square()?, bits), bits);
+                    [u, pulled] = turned(&state, &turn, &own, bits);
+                    scale = Some(own);
                 }
             }
-            shape.integrals.push(integral);
-            shape.scales.push(scale);
+            integrals.push(integral);
+            scales.push(scale);
         }
-        shape
+        states.push([u, pulled]);
+        Ok(Shape { frequency, states, integrals, scales, mass: whole })
     }
 
-    /// `ω`.
-    pub fn frequency(&self) -> f64 {
-        self.frequency
+    /// How far Newton's method goes from this frequency to one at which the right end is held, or free. With
+    /// `u_ω S − u S_ω = 2ω ∫u² dm` it is `u S/(2ω ∫u² dm)` back, or as far ahead. None for a motion as a whole.
+    ///
+    /// # Errors
+    /// As [`Shape::of`].
+    pub fn correction(&self, held: bool, bits: u64) -> Result<Option<V>, BallError> {
+        let Some(frequency) = &self.frequency else { return Ok(None) };
+        let [u, pulled] = &self.states[self.states.len() - 1];
+        let divisor = product([&frequency.add(frequency, bits), &self.mass], bits);
+        let ahead = u.multiply(pulled, bits).quotient(&divisor, bits)?;
+        Ok(Some(if held { ahead.negate() } else { ahead }))
+    }
+
+    /// `ω`; none for a motion as a whole.
+    pub fn frequency(&self) -> Option<&V> {
+        self.frequency.as_ref()
     }
 
     /// `∫ u² dm` over the line.
-    pub fn mass(&self) -> f64 {
-        self.mass
+    pub fn mass(&self) -> &V {
+        &self.mass
     }
 
-    /// Displacement and tension left of a part.
-    pub fn left_of(&self, part: usize) -> [f64; 2] {
-        self.states[part]
+    /// Displacement and tension left of a part, or at the right end.
+    pub fn left_of(&self, part: usize) -> &[V; 2] {
+        &self.states[part]
     }
 
     /// Displacement and tension in a bar, by the time that a wave needs from its left end.
-    pub fn section(&self, part: usize, at: f64) -> [f64; 2] {
-        let ([u, pulled], scale) = (self.states[part], self.scales[part]);
-        if scale == 0.0 {
-            return [u, pulled];
-        }
-        let (sine, cosine) = (self.frequency * at).sin_cos();
-        [u * cosine + pulled / scale * sine, pulled * cosine - scale * u * sine]
+    ///
+    /// # Errors
+    /// As [`Shape::of`].
+    pub fn section(&self, part: usize, at: &V, bits: u64) -> Result<[V; 2], BallError> {
+        let [u, pulled] = &self.states[part];
+        let (Some(scale), Some(frequency)) = (&self.scales[part], &self.frequency) else {
+            return Ok([u.clone(), pulled.clone()]);
+        };
+        let turn = frequency.multiply(at, bits).cos_sin(bits)?;
+        let state = [u.clone(), pulled.quotient(scale, bits)?];
+        Ok(turned(&state, &turn, scale, bits))
     }
 
     /// `∫ u ds` over a bar.
-    pub fn integral(&self, part: usize) -> f64 {
-        self.integrals[part]
+    pub fn integral(&self, part: usize) -> &V {
+        &self.integrals[part]
+    }
+}
+
+fn product<V: Arithmetic, const N: usize>(factors: [&V; N], bits: u64) -> V {
+    let all = factors.into_iter().cloned();
+    all.reduce(|product, factor| product.multiply(&factor, bits)).unwrap_or_else(V::one)
+}
+
+/// `u` and `S` where the angle is larger by one of which cosine and sine are given, from `u` and `S/Zω`.
+fn turned<V: Arithmetic>([a, b]: &[V; 2], [cosine, sine]: &[V; 2], scale: &V, bits: u64) -> [V; 2] {
+    let u = a.multiply(cosine, bits).add(&b.multiply(sine, bits), bits);
+    let rest = b.multiply(cosine, bits).subtract(&a.multiply(sine, bits), bits);
+    [u, scale.multiply(&rest, bits)]
+}
+
+/// A bar that swings, with `A` and `B`, and cosine and sine of `ωτ`.
+struct Bar<'a, V> {
+    state: &'a [V; 2],
+    travel: &'a V,
+    frequency: &'a V,
+    turn: &'a [V; 2],
+    bits: u64,
+}
+
+impl<V: Swinging> Bar<'_, V> {
+    fn integral(&self) -> Result<V, BallError> {
+        let (bits, [a, b], [_, sine]) = (self.bits, self.state, self.turn);
+        let two = V::one().add(&V::one(), bits);
+        let half_angle = self.frequency.multiply(self.travel, bits).quotient(&two, bits)?;
+        let [_, half] = half_angle.cos_sin(bits)?;
+        let rest = product([&b.add(b, bits), &half, &half], bits);
+        a.multiply(sine, bits).add(&rest, bits).quotient(self.frequency, bits)
+    }
+
+    fn square(&self) -> Result<V, BallError> {
+        let (bits, [a, b], [cosine, sine]) = (self.bits, self.state, self.turn);
+        let (a_squared, b_squared) = (a.multiply(a, bits), b.multiply(b, bits));
+        let both = a_squared.add(&b_squared, bits).multiply(self.travel, bits);
+        let other = product([&a_squared.subtract(&b_squared, bits), sine, cosine], bits);
+        let mixed = product([a, b, sine, sine], bits);
+        let two = V::one().add(&V::one(), bits);
+        let twice = self.frequency.add(self.frequency, bits);
+        let sum = both.quotient(&two, bits)?.add(&other.quotient(&twice, bits)?, bits);
+        Ok(sum.add(&mixed.quotient(self.frequency, bits)?, bits))
     }
 }

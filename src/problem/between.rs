@@ -8,6 +8,7 @@ use super::{Problem, ProblemError, Simpler};
 use crate::ball::Arithmetic as _;
 use crate::expression::{Fraction, Root};
 use crate::history::family::envelope::{Ends, Envelope, StepsOf};
+use crate::history::family::modes::Modes;
 use crate::history::family::on_step::OnStep;
 use crate::history::family::{Followed, NotOverSymbol, Over};
 use crate::language;
@@ -46,6 +47,8 @@ impl Unproven {
 enum Compared<'a> {
     Scene(&'a ScaledScene),
     FirstArrivals(Arrivals),
+    /// So many modes.
+    Modes(usize),
 }
 
 /// The first arrivals of a quantity; later ones are left out.
@@ -55,6 +58,13 @@ pub(super) struct Arrivals {
     period: Fraction,
     /// The delay of each, and what it is multiplied with.
     waves: Vec<(Fraction, Fraction)>,
+}
+
+/// The same for some values of the symbol.
+enum Beside<'a> {
+    Scene(Over<'a>),
+    FirstArrivals(&'a Arrivals),
+    Modes(Modes),
 }
 
 /// A claim that a simpler answer is enough, or that it is not.
@@ -127,8 +137,11 @@ impl Problem {
                 let why = "its arrivals are not counted over a symbol";
                 Ok(Compared::FirstArrivals(arrivals.ok_or_else(|| Unproven::because(why))?))
             }
-            (_, Some(changed)) => Ok(Compared::Scene(changed.scaled().map_err(told)?)),
-            (_, None) => Err(Unproven::because("modes are not followed over a symbol")),
+            (Simpler::Modes(count), _) => Ok(Compared::Modes(*count)),
+            (Simpler::Scene(_), changed) => {
+                let changed = changed.as_ref().expect("a changed scene");
+                Ok(Compared::Scene(changed.scaled().map_err(told)?))
+            }
         }
     }
 
@@ -288,11 +301,15 @@ impl Proof<'_> {
         let over = |scene| Over::new(scene, &self.quantity, (&self.symbol, between));
         let own = over(self.scene)?;
         let other = match &claim.other {
-            Compared::Scene(other) => Some(over(other)?),
-            Compared::FirstArrivals(_) => None,
+            Compared::Scene(other) => Beside::Scene(over(other)?),
+            Compared::FirstArrivals(arrivals) => Beside::FirstArrivals(arrivals),
+            Compared::Modes(count) => Beside::Modes(own.modes(*count)?),
         };
-        let all: Vec<&Over<'_>> = std::iter::once(&own).chain(&other).collect();
-        let step = Over::step(&all)?;
+        let step = match &other {
+            Beside::Scene(other) => Over::step(&[&own, other], None),
+            Beside::FirstArrivals(_) => Over::step(&[&own], None),
+            Beside::Modes(modes) => Over::step(&[&own], Some(modes)),
+        }?;
         let place = match known.iter().position(|exact| exact.step == step) {
             Some(place) => place,
             None => {
@@ -303,18 +320,16 @@ impl Proof<'_> {
         let exact = &mut known[place];
         let (step, count) = (&exact.step, exact.observed.len());
         // From a step on both differ, as these functions do.
-        let (first, other) = match (&claim.other, other) {
-            (Compared::FirstArrivals(arrivals), _) => {
+        let (first, other) = match other {
+            Beside::Scene(other) => (0, other.follow(step, count)?.observed()),
+            Beside::Modes(modes) => (0, modes.on_steps(count, &own.length(step)?)?),
+            Beside::FirstArrivals(arrivals) => {
                 let steps = arrivals.steps((&own, step), count, &exact.window)?;
                 let Some(steps) = steps else { return Ok(false) };
                 match steps[arrivals.count.saturating_sub(1).min(steps.len())..] {
                     [last, next, ..] => (next, exact.followed.observed_after(last)?),
                     _ => (count, Vec::new()),
                 }
-            }
-            (Compared::Scene(_), other) => {
-                let other = other.expect("another scene");
-                (0, other.follow(step, exact.window.count())?.observed())
             }
         };
         let mut off = vec![OnStep::constant(&Varying::zero()); first];

@@ -21,7 +21,10 @@ const LAYERS: [(&str, &[&str]); 21] = [
     ("model", &["ball", "enclosure", "expression", "network", "recurrence", "scene"]),
     ("solution", &["expression", "recurrence"]),
     ("signal", &["ball", "enclosure", "expression", "network", "recurrence", "scene", "solution"]),
-    ("history", &["ball", "enclosure", "expression", "network", "scene", "signal", "solution"]),
+    (
+        "history",
+        &["ball", "enclosure", "expression", "model", "network", "scene", "signal", "solution"],
+    ),
     ("planner", &["ball", "enclosure", "expression", "history", "network", "recurrence", "signal"]),
     ("field", &["ball", "enclosure", "expression", "network", "planner", "scene", "signal"]),
     ("answer", &["ball", "model", "network", "planner", "scene", "signal"]),

@@ -1,11 +1,15 @@
 //! Motions for all values of a symbol at once, and which simpler answer is proven to be enough for all of them.
 
+use num_traits::ToPrimitive as _;
 use wavestep::Problem;
-use wavestep::ball::{Arithmetic, Ball, ComplexBall, Magnitude};
+use wavestep::ball::{Arithmetic, Ball, Binary, ComplexBall, Magnitude};
 use wavestep::expression::Fraction;
 use wavestep::history::family::Over;
 use wavestep::history::family::envelope::{Envelope, StepsOf};
+use wavestep::history::family::modes::frequency;
 use wavestep::history::family::on_step::OnStep;
+use wavestep::model::shape::Part;
+use wavestep::model::{Model as _, Modes};
 use wavestep::planner::Purpose;
 use wavestep::problem::{MapRequest, ProblemError, Simpler, Size, SymbolRange};
 use wavestep::signal::{At, Limit, Varying, value};
@@ -248,7 +252,7 @@ fn enclosures_over_a_symbol_hold_single_values() {
                 let over =
                     Over::new(other.scaled().unwrap(), quantity, (&symbol_of, ends.each_ref()));
                 let over = [over.unwrap()];
-                let step = Over::step(&[&over[0]]).unwrap();
+                let step = Over::step(&[&over[0]], None).unwrap();
                 let [_, last] = over[0].in_steps(&Fraction::constant(&to), &step).unwrap();
                 let window = StepsOf { from: Default::default(), to: [last.clone(), last] };
                 let mut followed = match over[0].follow(&step, window.count()) {
@@ -365,12 +369,12 @@ fn what_is_left_out_over_a_symbol_is_counted() {
     let sine = |time: Rational| {
         Ball::from_rational(&(time * rational(2, 1)), FINE).cos_sin(FINE).unwrap().1
     };
-    let cases: [(Problem, &dyn Fn(Rational) -> Ball, i64); 2] =
-        [(heavy, &exponential, -85), (moved, &sine, -30)];
+    type Exact<'a> = &'a dyn Fn(Rational) -> Ball;
+    let cases: [(Problem, Exact<'_>, i64); 2] = [(heavy, &exponential, -85), (moved, &sine, -30)];
     for (problem, exact, most) in cases {
         let scaled = problem.scaled().unwrap();
         let over = Over::new(scaled, "velocity", (&symbol, ends.each_ref())).unwrap();
-        let step = Over::step(&[&over]).unwrap();
+        let step = Over::step(&[&over], None).unwrap();
         let [_, per_unit] = over.in_steps(&Fraction::one(), &step).unwrap();
         for (number, on_step) in over.follow(&step, 200).unwrap().observed().iter().enumerate() {
             let exact = exact(rational(2 * number as i64 + 1, 2) / &per_unit);
@@ -379,6 +383,98 @@ fn what_is_left_out_over_a_symbol_is_counted() {
             assert!(*told.radius() < Magnitude::power_of_two(most));
         }
     }
+}
+
+/// A sum of modes holds that of doubles at single values: in lines that are held, that drift, and that are strained at the
+/// start.
+#[test]
+fn modes_over_a_symbol_hold_those_in_doubles() {
+    let strained = "scene \"A strained rod is let go\"
+        symbol m > 0
+        mass block { mass = m, velocity = 1 }
+        bar a { impedance = 2, travel = 1, strain = -m/4, velocity = 1/3 }
+        spring pad { stiffness = 3 }
+        bar b { impedance = m, travel = 1/2 }
+        support ground { stiffness = 2/m }
+        line free - block - a - pad - b - ground - free
+        observe v = velocity(block)
+        observe X = force(a.at(1/3)) + force(b.left)
+        observe F = force(pad) + force(ground)
+        observe u = displacement(b.at(1/4)) - compression(pad)
+        observe P = momentum(line)";
+    let builtin = |name| Problem::builtin(name).unwrap();
+    let mut compared = 0;
+    for (problem, symbol, ends, count) in [
+        (builtin("mass-on-fixed-bar"), "mu", [rational(1, 2), rational(11, 20)], 3),
+        (builtin("struck-free-bar"), "mu", [rational(2, 1), rational(21, 10)], 4),
+        (scene(strained), "m", [rational(1, 2), rational(21, 40)], 6),
+    ] {
+        let (scaled, symbol_of) = (problem.scaled().unwrap(), Symbol::new(symbol).unwrap());
+        for (place, quantity) in problem.observables().iter().enumerate() {
+            let over = Over::new(scaled, quantity, (&symbol_of, ends.each_ref())).unwrap();
+            let modes = match over.modes(count) {
+                Err(error) => {
+                    assert!(quantity.contains("energy"), "{quantity}: {error}");
+                    continue;
+                }
+                Ok(modes) => modes,
+            };
+            let step = Over::step(&[&over], Some(&modes)).unwrap();
+            let told = modes.on_steps(24, &over.length(&step).unwrap()).unwrap();
+            for share in [rational(0, 1), rational(2, 7), rational(1, 1)] {
+                let own = at(ends.each_ref(), &share);
+                let single = problem.substituted(symbol, own.clone()).unwrap();
+                let single = Modes::new(single.network().unwrap(), count).unwrap();
+                let length = Over::new(scaled, quantity, (&symbol_of, [&own; 2])).unwrap();
+                let [_, per_unit] = length.in_steps(&Fraction::one(), &step).unwrap();
+                let parameter = &share * rational(2, 1) - rational(1, 1);
+                for (number, on_step) in told.iter().enumerate() {
+                    let x = rational(3, 7);
+                    let time = (rational(number as i64, 1) + &x) / &per_unit;
+                    let exact = single.values(place, &[time.to_f64().unwrap()]).unwrap()[0];
+                    let here = of_step(on_step, &x, &parameter);
+                    let rounded = Ball::from_rational(&Rational::from_float(exact).unwrap(), FINE)
+                        .widened(&Magnitude::power_of_two(-44));
+                    let least = Magnitude::power_of_two(-12);
+                    assert!(*here.radius() < least, "{quantity} {number}: {:?}", here.to_double());
+                    assert!(
+                        here.subtract(&rounded, FINE).contains_zero(),
+                        "{quantity} at t = {time}, {symbol} = {own}: {:?}, not {exact}",
+                        here.to_double()
+                    );
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared >= 24 * 3 * 12, "{compared}");
+}
+
+/// With a mass `1` on a bar of the impedance `1` and the travel time `μ` that is held, `cos ωμ = ω sin ωμ`.
+#[test]
+fn frequencies_over_a_symbol_hold_roots_of_their_equation() {
+    let ends = [rational(1, 1), rational(6, 5)];
+    let travel = Varying::between(ends.each_ref(), BITS);
+    let parts =
+        [Part::Mass { mass: Varying::one() }, Part::Bar { impedance: Varying::one(), travel }];
+    for near in [0.809405810, 3.136567885, 5.865500138] {
+        let told = frequency(&parts, [false, true], near).unwrap();
+        for parameter in [rational(-1, 1), rational(3, 7), rational(1, 1)] {
+            let travel = at(ends.each_ref(), &((&parameter + rational(1, 1)) / rational(2, 1)));
+            let equation = |frequency: Binary| {
+                let frequency = Ball::new(frequency, Magnitude::ZERO);
+                let angle = frequency.multiply_rational(&travel, FINE);
+                let (cosine, sine) = angle.cos_sin(FINE).unwrap();
+                cosine.subtract(&frequency.multiply(&sine, FINE), FINE).sign().unwrap()
+            };
+            let own = of_varying(&told, &parameter);
+            assert!(*own.radius() < Magnitude::power_of_two(-16), "{:?}", own.to_double());
+            let (low, high) = own.endpoints();
+            assert_ne!(equation(low), equation(high), "{:?}", own.to_double());
+        }
+    }
+    // What is not near a frequency is none.
+    assert!(frequency(&parts, [false, true], 2.0).is_err());
 }
 
 /// The window of a scene.
@@ -519,9 +615,10 @@ fn proven_parts_of_maps_hold_at_other_values() {
             rational(1, 10),
             5,
         ),
+        (on_fixed_bar(), &usual, "velocity", &["modes:1", "modes:3"], rational(1, 10), 2),
         // The window is as long as the bar.
         (on_fixed_bar(), &usual, "velocity", &["third", "echoes:2"], rational(1, 4), 2),
-        (scene(driven), &usual, "force", &["third", "echoes:1", "echoes:2"], rational(1, 2), 2),
+        (scene(driven), &usual, "force", &["echoes:1", "echoes:2"], rational(1, 2), 2),
     ] {
         let name = problem.title().to_owned();
         let range: SymbolRange = "mu=1/2..3".parse().unwrap();
@@ -574,12 +671,12 @@ fn what_is_not_followed_over_a_symbol_is_told() {
     let cases: [(Problem, &str, &str, &str, Window<'_>, &str); 7] = [
         (driven("force = t^20"), "z", "force", "echoes:1", &zero_to_two, "`push` is not supported"),
         (
-            builtin("mass-on-fixed-bar"),
-            "mu",
-            "velocity",
+            builtin("striker-on-long-bar"),
+            "r",
+            "interface_velocity",
             "modes:1",
             &zero_to_two,
-            "modes are not followed",
+            "no modes of vibration",
         ),
         (
             builtin("mass-on-fixed-bar"),

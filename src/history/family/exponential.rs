@@ -15,9 +15,9 @@ type Complex = [Varying; 2];
 
 /// `p(n) e^(μn)` of the time `n` since the start, in steps.
 pub struct Exponential {
-    rate: Complex,
+    pub rate: Complex,
     /// The coefficients of `p`, of which there are no more than [`TERMS`].
-    polynomial: Vec<Complex>,
+    pub polynomial: Vec<Complex>,
 }
 
 fn scaled(own: &Complex, factor: &Varying) -> Complex {

@@ -10,6 +10,7 @@
 
 pub mod envelope;
 mod exponential;
+pub mod modes;
 mod motion;
 pub mod on_step;
 mod symbol;
@@ -26,6 +27,7 @@ use crate::network::{
 use crate::scene::ElementIndex;
 use crate::signal::Varying;
 use exponential::Exponential;
+use modes::Modes;
 use motion::{Bar, Course, Loading, Motion, NodeState, Place, TERMS};
 use num_traits::{One as _, ToPrimitive as _, Zero as _};
 use on_step::OnStep;
@@ -43,6 +45,8 @@ pub enum NotOverSymbol {
     NoCommonMeasure,
     #[error("more than {MAX_STEPS_OVER_SYMBOL} steps")]
     TooManySteps,
+    #[error("it has no modes of vibration over a symbol")]
+    Modes,
     #[error("a joint without mass moves, and nothing resists it")]
     Unresisted,
     #[error("`{0}` is not an observable of the scene")]
@@ -99,7 +103,7 @@ impl<'a> Over<'a> {
     ///
     /// # Errors
     /// [`NotOverSymbol::NoCommonMeasure`]; else as [`Over::follow`].
-    pub fn step(all: &[&Over<'_>]) -> Outcome<Root> {
+    pub fn step(all: &[&Over<'_>], modes: Option<&Modes>) -> Outcome<Root> {
         let times = all.iter().flat_map(|own| {
             let model = own.scaled.model();
             let travels = model.bars.values().filter_map(|bar| bar.travel.as_ref());
@@ -122,6 +126,11 @@ impl<'a> Over<'a> {
         }
         let step = |measure: &Rational| first.times(&Fraction::constant(measure).into());
         let mut halvings = 0;
+        if let Some(modes) = modes {
+            let length = all[0].length(&step(&measure))?;
+            halvings =
+                length.magnitude().multiply(&modes.rate()).top().map_or(0, |top| top - 1).max(0);
+        }
         for own in all {
             let places = own.places(&step(&measure), 0)?;
             let driven = places.iter().flat_map(|place| &place.driven).map(|own| own.rate);
@@ -161,6 +170,14 @@ impl<'a> Over<'a> {
     /// The step in the scale of the scene.
     fn scaled_step(&self, step: &Root) -> Outcome<Root> {
         Ok(step.over(&self.scaled.model().scale.time)?)
+    }
+
+    /// How long a step is in the scale of the scene.
+    ///
+    /// # Errors
+    /// As [`OverSymbol::root`].
+    pub fn length(&self, step: &Root) -> Outcome<Varying> {
+        Ok(self.symbol.root(&self.scaled_step(step)?)?)
     }
 
     /// How many steps a time in the scale of the scene takes.
@@ -208,7 +225,7 @@ impl<'a> Over<'a> {
     /// The nodes at the start, and loads on so many steps. With a step as the unit of time a mass is so much lighter, and a spring so much stiffer; then
     /// displacements are measured in steps, too.
     fn places(&self, step: &Root, count: usize) -> Outcome<Vec<Place>> {
-        let length = self.symbol.root(&self.scaled_step(step)?)?;
+        let length = self.length(step)?;
         let inverse = length.reciprocal(BITS)?;
         let place = |exact: &Node<Fraction>| {
             let mut node = exact.map(|value| self.symbol.fraction(value))?;
@@ -239,7 +256,7 @@ impl<'a> Over<'a> {
     fn loading(&self, element: ElementIndex, step: &Root, count: usize) -> Outcome<Loading> {
         let (scene, model) = (self.scaled.scene(), self.scaled.model());
         let ModelLoad { course, from, until } = &model.loads[&element];
-        let length = self.symbol.root(&self.scaled_step(step)?)?;
+        let length = self.length(step)?;
         let terms = Exponential::all(course, &scene.time, &length, &self.symbol)?;
         let terms =
             terms.ok_or_else(|| NotOverSymbol::Load(scene.elements[element].name.clone()))?;
@@ -296,7 +313,7 @@ impl<'a> Over<'a> {
     ) -> Outcome<(Varying, Course)> {
         let own = &self.scaled.model().bars[&self.scaled.layout.bars[bar]];
         let impedance = self.symbol.fraction(&own.impedance)?;
-        let step = self.symbol.root(&self.scaled_step(step)?)?;
+        let step = self.length(step)?;
         Ok((impedance.multiply(&step, BITS), Course::InBar { bar, of }))
     }
 
@@ -304,7 +321,7 @@ impl<'a> Over<'a> {
     fn linear(&self, term: &Term, step: &Root) -> Outcome<Vec<(Varying, Course)>> {
         let (model, layout) = (self.scaled.model(), &self.scaled.layout);
         let mut factor = self.symbol.fraction(&term.coefficient)?;
-        let in_steps = || self.symbol.root(&self.scaled_step(step)?).map_err(NotOverSymbol::from);
+        let in_steps = || self.length(step);
         let of = match &term.of {
             Reading::Force(lump) => {
                 let terms = Elements { model, layout }.force(*lump);
