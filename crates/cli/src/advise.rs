@@ -46,6 +46,12 @@ pub fn run(options: &Advise) -> Result<String, Failure> {
     })
 }
 
+/// Bounds in decimals that hold.
+pub fn bounds([low, high]: &[BigRational; 2]) -> [String; 2] {
+    [(low, Bound::Lower), (high, Bound::Upper)]
+        .map(|(value, bound)| Decimal::bound(value, 9, bound).to_string())
+}
+
 /// What is asked for: the first observable where nothing is said.
 pub fn quantity<'a>(options: &'a Advise, problem: &'a Problem) -> &'a str {
     let usual = || problem.usual_quantity().unwrap_or_default();
@@ -133,10 +139,6 @@ impl Told<'_> {
     fn json(&self) -> Json {
         let Advice { tried, work, each, largest } = self.advice;
         let [from, to] = self.need.window.map(ToString::to_string);
-        let bounds = |[low, high]: &[BigRational; 2]| {
-            [(low, Bound::Lower), (high, Bound::Upper)]
-                .map(|(value, bound)| Decimal::bound(value, 9, bound).to_string())
-        };
         let row = |own: &Tried| {
             let mut body = json!({
                 "what": own.simpler.to_string(),

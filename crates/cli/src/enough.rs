@@ -1,14 +1,17 @@
 //! `advise --for`: which simpler answer is enough where, as a table of proven differences, and as a map.
 
-use super::advise::quantity;
-use super::arguments::Advise;
+use super::advise::{bounds, quantity};
+use super::arguments::{Advise, Format};
 use super::failure::Failure;
 use super::input;
+use super::json::SCHEMA_VERSION;
 use super::picture;
 use super::progress;
 use super::share::{percent, whole};
+use super::table::Table;
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
+use serde_json::{Value as Json, json};
 use wavestep::ball::{Bound, in_decimals};
 use wavestep::problem::{Column, EnoughMap, MapRequest, Problem, Run, SymbolRange, Unproven};
 use wavestep_draw::{Axis, Caption, Chart, Curve, Curves};
@@ -45,20 +48,24 @@ pub fn run(
         let map = problem.map_enough(&asked, &|value| {
             progress.set_message(format!("trying at {symbol} = {}", in_decimals(value)));
         })?;
-        Ok(Told { options, asked: &asked, map })
+        Ok(Told { options, problem, asked: &asked, map })
     };
-    let Some(file) = &options.output else { return Ok(told()?.text()) };
+    let Some(file) = &options.output else { return Ok(told()?.written()) };
     let mut text = String::new();
-    let written = picture::draw(&file.to_string_lossy(), WIDTH, || {
+    let drawn = picture::draw(&file.to_string_lossy(), WIDTH, || {
         let told = told()?;
-        text = told.text();
+        text = told.written();
         told.chart()
     })?;
-    Ok(text + "\n" + &written)
+    Ok(match options.format {
+        Format::Text => text + "\n" + &drawn,
+        _ => text,
+    })
 }
 
 struct Told<'a> {
     options: &'a Advise,
+    problem: &'a Problem,
     asked: &'a MapRequest<'a>,
     map: EnoughMap,
 }
@@ -69,6 +76,56 @@ impl Told<'_> {
             Some(to) => format!("{} <= t <= {to}", self.options.from),
             None => "in the default window of each".to_owned(),
         }
+    }
+
+    fn written(&self) -> String {
+        match self.options.format {
+            Format::Json => format!("{}\n", self.json()),
+            Format::Csv => Table::of(&self.json()).csv(),
+            _ => self.text(),
+        }
+    }
+
+    fn json(&self) -> Json {
+        let number = |value: &BigRational| json!({ "exact": value.to_string() });
+        let tried = |off: &[Option<[BigRational; 2]>]| -> Vec<Json> {
+            let both = self.map.simpler.iter().zip(off);
+            let known = both.filter_map(|(simpler, off)| Some((simpler, off.as_ref()?)));
+            known
+                .map(|(simpler, off)| json!({ "what": simpler.to_string(), "off": bounds(off) }))
+                .collect()
+        };
+        let value = |own: &Column| json!({ "value": number(&own.value), "tried": tried(&own.off) });
+        let open = |(place, unproven): &(usize, Unproven)| {
+            let undecided = unproven.undecided.as_deref();
+            json!({
+                "what": self.name(*place),
+                "why": unproven.why,
+                "undecided": undecided.map(|ends| ends.each_ref().map(number)),
+            })
+        };
+        let range = |(run, left): (&Run<Option<usize>>, &Vec<(usize, Unproven)>)| {
+            json!({
+                "from": number(&run.between[0]),
+                "to": number(&run.between[1]),
+                "enough": run.state.map(|place| self.name(place)),
+                "proven": left.is_empty(),
+                "open": left.iter().map(open).collect::<Vec<_>>(),
+            })
+        };
+        let Advise { scene, from, to, .. } = self.options;
+        json!({
+            "schema_version": SCHEMA_VERSION,
+            "title": self.problem.title(),
+            "quantity": self.asked.quantity,
+            "set": scene.set,
+            "symbol": self.asked.range.symbol,
+            "from": from,
+            "to": to,
+            "tolerance": self.asked.tolerance.to_string(),
+            "values": self.map.columns.iter().map(value).collect::<Vec<_>>(),
+            "ranges": self.map.runs.iter().zip(&self.map.open).map(range).collect::<Vec<_>>(),
+        })
     }
 
     fn text(&self) -> String {

@@ -34,7 +34,7 @@ pub struct Advise {
     #[arg(long)]
     pub stats: bool,
     /// Map which model is enough over a range of this symbol: mu=1/10..10
-    #[arg(long = "for", value_name = "NAME=A..B", conflicts_with_all = ["stats", "format"])]
+    #[arg(long = "for", value_name = "NAME=A..B", conflicts_with = "stats")]
     pub over: Option<String>,
     /// With --for: these models, from cheap to expensive [default: whole scenes, single changes, echoes, modes]
     #[arg(long, value_name = "WHAT", num_args = 1.., requires = "over")]
@@ -49,8 +49,8 @@ pub struct Advise {
     /// The format of the output
     #[arg(long, value_parser = named([
         ("text", Format::Text, "A table with its conclusion"),
-        ("json", Format::Json, "All models that were tried"),
-        ("csv", Format::Csv, "One row per model that was tried"),
+        ("json", Format::Json, "All models that were tried; with --for, at all values, and the ranges"),
+        ("csv", Format::Csv, "One row per model that was tried; with --for, per value and model"),
     ]), default_value = "text")]
     pub format: Format,
 }

@@ -6,7 +6,7 @@
 use super::strains::{Strains, formula};
 use super::{ROOT, anywhere, folder, run, words};
 use num_traits::ToPrimitive as _;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -310,6 +310,26 @@ fn a_model_beside_exact_formulas_is_one_document() {
         (&"third".into(), &"omega^2 = 3/(mu*(3 + mu))".into())
     );
     assert!(told["exact"]["functions"].is_array() || told["exact"]["waves"].is_array(), "{told}");
+}
+
+#[test]
+fn maps_are_data() {
+    let line = "advise mass-on-fixed-bar --quantity velocity --for mu=1/4..1 --to 2 --tol 1e-1 \
+                --points 2 --models third echoes:1";
+    let told = |format: &str| {
+        let (code, text, errors) = run(anywhere(), &words(&format!("{line} --format {format}")));
+        assert_eq!((code, errors.as_str()), (0, ""));
+        text
+    };
+    let map: Value = serde_json::from_str(&told("json")).unwrap();
+    let ranges = map["ranges"].as_array().unwrap();
+    let enough: Vec<&Value> = ranges.iter().map(|range| &range["enough"]).collect();
+    assert_eq!(enough, [&"third".into(), &Value::Null, &"echoes:1".into()]);
+    assert!(ranges.iter().all(|range| range["proven"] == true && range["open"] == json!([])));
+    assert_eq!(map["values"][1]["tried"][1]["off"][0], "0");
+    let rows = told("csv");
+    let columns: Vec<&str> = rows.lines().next().unwrap().split(',').collect();
+    assert_eq!((columns, rows.lines().count()), (vec!["value", "what", "off.0", "off.1"], 5));
 }
 
 /// A distance of nothing is told as that, and one that is not proven to its digits ends with exit code 3.
