@@ -3,11 +3,11 @@
 //! The scene and the simpler one are followed for all values at once, as polynomials in the symbol, and so is the difference.
 //! Where that does not decide, the values are cut into two parts.
 
-use super::enough_map::{MapRequest, short};
+use super::enough_map::{MapRequest, middle};
 use super::{Problem, ProblemError, Simpler};
 use crate::ball::Arithmetic as _;
 use crate::expression::{Fraction, Root};
-use crate::history::family::envelope::{Ends, Envelope, StepsOf};
+use crate::history::family::envelope::{Ends, Envelope, StepWindow};
 use crate::history::family::modes::Modes;
 use crate::history::family::on_step::OnStep;
 use crate::history::family::{Followed, NotOverSymbol, Over};
@@ -16,13 +16,16 @@ use crate::limits::MAX_PARTS_OVER_SYMBOL;
 use crate::network::ScaledScene;
 use crate::recurrence::ObservedWave;
 use crate::signal::Varying;
-use num_traits::{One as _, ToPrimitive as _};
+use num_traits::One as _;
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// A part is cut no further once its ends differ by less than one in so many.
 const FINEST: i64 = 1 << 18;
+
+/// Significant digits of where it is cut.
+const DIGITS: usize = 9;
 
 /// Bounds that are tried for the largest value: what is reached, times `1 + 2^-k`.
 const ABOVE: [i64; 6] = [24, 19, 14, 11, 8, 1];
@@ -85,7 +88,7 @@ struct Proof<'a> {
 /// The scene for some values of the symbol, in steps.
 struct Exact {
     step: Root,
-    window: StepsOf,
+    window: StepWindow,
     followed: Followed,
     observed: Vec<OnStep>,
     size: Envelope,
@@ -215,7 +218,7 @@ impl Arrivals {
         &self,
         (over, step): (&Over<'_>, &Root),
         count: usize,
-        window: &StepsOf,
+        window: &StepWindow,
     ) -> Result<Option<Vec<usize>>, NotOverSymbol> {
         let period = over.whole_steps(&self.period, step)?;
         let count = i64::try_from(count).map_err(|_| NotOverSymbol::TooManySteps)?;
@@ -254,8 +257,8 @@ impl Proof<'_> {
         let mut left =
             vec![([from.clone(), to.clone()], (0..claims.len()).collect::<Vec<usize>>())];
         while let Some(([from, to], open)) = left.pop() {
-            let mut known = Vec::new();
-            let mut again = Vec::new();
+            let middle = middle(&from, &to, FINEST, DIGITS);
+            let (mut known, mut again) = (Vec::new(), Vec::new());
             for place in open {
                 let (Ok(claim), Ok(())) = (&claims[place], &outcomes[place]) else { continue };
                 looked[place] += 1;
@@ -270,7 +273,7 @@ impl Proof<'_> {
                 };
                 let may_be_cut = looked[place] < MAX_PARTS_OVER_SYMBOL;
                 outcomes[place] = match failure {
-                    _ if may_be_cut && middle(&from, &to).is_some() => {
+                    _ if may_be_cut && middle.is_some() => {
                         again.push(place);
                         Ok(())
                     }
@@ -283,7 +286,7 @@ impl Proof<'_> {
                     }
                 };
             }
-            if let Some(middle) = middle(&from, &to).filter(|_| !again.is_empty()) {
+            if let Some(middle) = middle.filter(|_| !again.is_empty()) {
                 left.push(([middle.clone(), to], again.clone()));
                 left.push(([from, middle], again));
             }
@@ -347,7 +350,7 @@ impl Proof<'_> {
     /// The scene, followed in such steps.
     fn exact(&self, over: &Over<'_>, step: Root) -> Result<Exact, NotOverSymbol> {
         let [from, to] = self.window.each_ref().map(|time| over.in_steps(time, &step));
-        let window = StepsOf { from: from?, to: to? };
+        let window = StepWindow { from: from?, to: to? };
         let followed = over.follow(&step, window.count())?;
         let observed = followed.observed();
         let size = Envelope::of(&observed, &window);
@@ -375,13 +378,4 @@ fn told(error: ProblemError) -> Unproven {
 
 fn scaled(sizes: &Ends, by: &Rational) -> Ends {
     sizes.each_ref().map(|size| size * by)
-}
-
-/// A value between two others, with few digits; none where they are nearly the same.
-fn middle(from: &Rational, to: &Rational) -> Option<Rational> {
-    if (to - from) * Rational::from_integer(FINEST.into()) <= *from {
-        return None;
-    }
-    let [low, high] = [from, to].map(|end| end.to_f64().unwrap_or(f64::NAN));
-    short((low * high).sqrt(), 9).filter(|middle| from < middle && middle < to)
 }

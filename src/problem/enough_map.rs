@@ -16,6 +16,9 @@ use wavestep_polynomial::Rational;
 /// Neighbours of a border differ by one in so many.
 const FINE: i64 = 1000;
 
+/// Significant digits of borders.
+const BORDER_DIGITS: usize = 5;
+
 /// So many values are looked at besides, where a proof leaves something open.
 const MOST_MISSED: usize = 24;
 
@@ -71,24 +74,24 @@ pub fn geometrically_spaced(
 }
 
 /// A number with so many digits.
-pub(super) fn short(value: f64, digits: usize) -> Option<Rational> {
+fn short(value: f64, digits: usize) -> Option<Rational> {
     parse_number(&format!("{value:.*e}", digits - 1)).ok()
 }
 
-/// A value between two others, with few digits; none where they are nearly the same.
-fn between(one: &Rational, other: &Rational) -> Option<Rational> {
-    if (other - one) * Rational::from_integer(FINE.into()) <= *one {
+/// A value between two others, with so many digits; none where they differ by less than one in so many.
+pub(super) fn middle(from: &Rational, to: &Rational, fine: i64, digits: usize) -> Option<Rational> {
+    if (to - from) * Rational::from_integer(fine.into()) <= *from {
         return None;
     }
-    let [low, high] = [one, other].map(|end| end.to_f64().unwrap_or(f64::NAN));
-    short((low * high).sqrt(), 5).filter(|middle| one < middle && middle < other)
+    let [low, high] = [from, to].map(|end| end.to_f64().unwrap_or(f64::NAN));
+    short((low * high).sqrt(), digits).filter(|middle| from < middle && middle < to)
 }
 
 /// Values with few digits near both ends of what is undecided, within a run.
 fn beside([low, high]: &[Rational; 2], run: &[Rational; 2]) -> impl Iterator<Item = Rational> {
     let apart = Rational::new(1.into(), (4 * FINE).into());
     let near = [low - low * &apart, high + high * apart].into_iter();
-    let near = near.filter_map(|value| short(value.to_f64()?, 5));
+    let near = near.filter_map(|value| short(value.to_f64()?, BORDER_DIGITS));
     near.filter(|value| run[0] < *value && *value < run[1])
 }
 
@@ -117,7 +120,7 @@ pub fn runs<S: PartialEq, E>(
     let mut place = 0;
     while place + 1 < found.len() {
         let [(one, first), (other, then)] = [&found[place], &found[place + 1]];
-        let middle = if first == then { None } else { between(one, other) };
+        let middle = if first == then { None } else { middle(one, other, FINE, BORDER_DIGITS) };
         let Some(middle) = middle else {
             place += 1;
             continue;

@@ -5,7 +5,7 @@ use wavestep::Problem;
 use wavestep::ball::{Arithmetic, Ball, Binary, ComplexBall, Magnitude};
 use wavestep::expression::Fraction;
 use wavestep::history::family::Over;
-use wavestep::history::family::envelope::{Envelope, StepsOf};
+use wavestep::history::family::envelope::{Envelope, StepWindow};
 use wavestep::history::family::modes::frequency;
 use wavestep::history::family::on_step::OnStep;
 use wavestep::model::shape::Part;
@@ -112,7 +112,7 @@ fn sizes_hold_between_the_ends_of_a_symbol() {
     let away = x.subtract(&Varying::constant(&rational(3, 1), BITS), BITS);
     let five = Varying::constant(&rational(5, 1), BITS);
     let below = five.subtract(&away.multiply(&away, BITS), BITS);
-    let window = StepsOf { from: Default::default(), to: [rational(1, 2), rational(1, 2)] };
+    let window = StepWindow { from: Default::default(), to: [rational(1, 2), rational(1, 2)] };
     type Exact<'a> = &'a dyn Fn(&Rational) -> Rational;
     let functions: [(Varying, Exact<'_>); 2] = [
         (x.multiply(&x, BITS), &square),
@@ -145,7 +145,7 @@ fn sizes_hold_between_the_ends_of_a_symbol() {
     // Of a window that is another one for each value, bounds hold on the longest and sizes are reached on the shortest.
     let time = |factors: [i64; 2]| {
         let coefficients = factors.map(|own| Varying::constant(&rational(own, 1), BITS)).to_vec();
-        let window = StepsOf {
+        let window = StepWindow {
             from: [rational(1, 4), rational(1, 2)],
             to: [rational(3, 4), rational(7, 8)],
         };
@@ -254,7 +254,7 @@ fn enclosures_over_a_symbol_hold_single_values() {
                 let over = [over.unwrap()];
                 let step = Over::step(&[&over[0]], None).unwrap();
                 let [_, last] = over[0].in_steps(&Fraction::constant(&to), &step).unwrap();
-                let window = StepsOf { from: Default::default(), to: [last.clone(), last] };
+                let window = StepWindow { from: Default::default(), to: [last.clone(), last] };
                 let mut followed = match over[0].follow(&step, window.count()) {
                     Ok(followed) => followed,
                     Err(error) => {

@@ -37,12 +37,12 @@ pub type Ends = [Rational; 2];
 pub struct Envelope(Vec<OneStep>);
 
 /// A window in steps since the start: between which numbers its first time and its last lie.
-pub struct StepsOf {
+pub struct StepWindow {
     pub from: [Rational; 2],
     pub to: [Rational; 2],
 }
 
-impl StepsOf {
+impl StepWindow {
     /// How many there are at most.
     pub fn count(&self) -> usize {
         self.to[1].floor().to_usize().map_or(usize::MAX, |last| last.saturating_add(1))
@@ -51,7 +51,7 @@ impl StepsOf {
 
 impl Envelope {
     /// A function on the steps of a window.
-    pub fn of(steps: &[OnStep], window: &StepsOf) -> Envelope {
+    pub fn of(steps: &[OnStep], window: &StepWindow) -> Envelope {
         let one = |(number, own): (usize, &OnStep)| {
             let start = Rational::from_integer(number.into());
             let part = |[from, to]: [&Rational; 2]| {

@@ -71,6 +71,16 @@ impl Exponential {
         Ok(Some(terms))
     }
 
+    /// The sum of the real parts on the first steps.
+    ///
+    /// # Errors
+    /// [`NotOverSymbol::Ball`](super::NotOverSymbol::Ball) where one is too large.
+    pub fn total(all: &[Exponential], count: usize) -> Outcome<Vec<OnStep>> {
+        let parts = all.iter().map(|own| own.on_steps(count)).collect::<Outcome<Vec<_>>>()?;
+        let sum = |step: usize| OnStep::total(parts.iter().map(|own| &own[step]));
+        Ok((0..count).map(sum).collect())
+    }
+
     /// How fast it changes.
     pub fn rate(&self) -> Magnitude {
         size(&self.rate)
@@ -78,10 +88,7 @@ impl Exponential {
 
     /// Its real part on the first steps, with `p(n + x) e^(μn) = Σ_j p_j x^j` and `e^(μx) = Σ_i (μx)^i/i!`. Of the
     /// product the powers of `x` from `N` = [`TERMS`] on are left out, `Σ_j |p_j| |μ|^(N−j)/(N−j)! e^|μ|` at most.
-    ///
-    /// # Errors
-    /// [`NotOverSymbol::Ball`](super::NotOverSymbol::Ball) where it is too large.
-    pub fn on_steps(&self, count: usize) -> Outcome<Vec<OnStep>> {
+    fn on_steps(&self, count: usize) -> Outcome<Vec<OnStep>> {
         let rate = self.rate();
         let most = of_exponential(&rate).ok_or(BallError::ArgumentTooLarge)?;
         let (mut series, mut left_out) = (vec![[Varying::one(), Varying::zero()]], vec![most]);

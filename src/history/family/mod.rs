@@ -28,7 +28,7 @@ use crate::scene::ElementIndex;
 use crate::signal::Varying;
 use exponential::Exponential;
 use modes::Modes;
-use motion::{Bar, Course, Loading, Motion, NodeState, Place, TERMS};
+use motion::{Bar, Loading, Motion, NodeState, SteppedNode, Summand, TERMS};
 use num_traits::{One as _, ToPrimitive as _, Zero as _};
 use on_step::OnStep;
 use symbol::OverSymbol;
@@ -132,9 +132,9 @@ impl<'a> Over<'a> {
                 length.magnitude().multiply(&modes.rate()).top().map_or(0, |top| top - 1).max(0);
         }
         for own in all {
-            let places = own.places(&step(&measure), 0)?;
-            let driven = places.iter().flat_map(|place| &place.driven).map(|own| own.rate);
-            let rates = places.iter().map(|place| place.passivity.rate()).chain(driven);
+            let nodes = own.nodes(&step(&measure), 0)?;
+            let driven = nodes.iter().flat_map(|place| &place.driven).map(|own| own.rate);
+            let rates = nodes.iter().map(|place| place.passivity.rate()).chain(driven);
             let rates = rates.filter_map(|rate| rate.top());
             halvings = rates.map(|top| top - 1).fold(halvings, i64::max);
         }
@@ -162,9 +162,9 @@ impl<'a> Over<'a> {
         if count > MAX_STEPS_OVER_SYMBOL {
             return Err(NotOverSymbol::TooManySteps);
         }
-        let (factors, courses) = self.observed(step)?.into_iter().unzip();
-        let motion = Motion::of(self.bars(step)?, self.places(step, count)?, count);
-        Ok(Followed { motion, factors, courses })
+        let (factors, summands) = self.observed(step)?.into_iter().unzip();
+        let motion = Motion::of(self.bars(step)?, self.nodes(step, count)?, count);
+        Ok(Followed { motion, factors, summands })
     }
 
     /// The step in the scale of the scene.
@@ -224,7 +224,7 @@ impl<'a> Over<'a> {
 
     /// The nodes at the start, and loads on so many steps. With a step as the unit of time a mass is so much lighter, and a spring so much stiffer; then
     /// displacements are measured in steps, too.
-    fn places(&self, step: &Root, count: usize) -> Outcome<Vec<Place>> {
+    fn nodes(&self, step: &Root, count: usize) -> Outcome<Vec<SteppedNode>> {
         let length = self.length(step)?;
         let inverse = length.reciprocal(BITS)?;
         let place = |exact: &Node<Fraction>| {
@@ -247,7 +247,7 @@ impl<'a> Over<'a> {
             let driven = node.elements.iter().filter(|own| own.law.is_driven());
             let driven = driven.map(|own| self.loading(own.element, step, count));
             let driven = driven.collect::<Outcome<_>>()?;
-            Ok(Place { node, system, passivity, start, driven })
+            Ok(SteppedNode { node, system, passivity, start, driven })
         };
         self.scaled.layout.nodes.iter().map(place).collect()
     }
@@ -261,17 +261,13 @@ impl<'a> Over<'a> {
         let terms =
             terms.ok_or_else(|| NotOverSymbol::Load(scene.elements[element].name.clone()))?;
         let rate = terms.iter().map(Exponential::rate).max().unwrap_or(Magnitude::ZERO);
-        let parts = terms.iter().map(|own| own.on_steps(count));
-        let parts = parts.collect::<Outcome<Vec<Vec<OnStep>>>>()?;
-        let one = vec![Varying::one(); parts.len()];
-        let sum = |step: usize| OnStep::sum(&one, parts.iter().map(|own| &own[step]));
-        let course = (0..count).map(sum).collect();
+        let course = Exponential::total(&terms, count)?;
         let until = until.as_ref().map(|until| self.lag(until, step)).transpose()?;
         Ok(Loading { acts: self.lag(from, step)?..until.unwrap_or(usize::MAX), rate, course })
     }
 
     /// What is observed, with factors in the user's unit.
-    fn observed(&self, step: &Root) -> Outcome<Vec<(Varying, Course)>> {
+    fn observed(&self, step: &Root) -> Outcome<Vec<(Varying, Summand)>> {
         let unit = self.symbol.root(&self.measured.unit)?;
         let mut parts = Vec::new();
         match &self.measured.value {
@@ -291,7 +287,7 @@ impl<'a> Over<'a> {
                                 let one = Term { coefficient: Fraction::one(), of: term.of };
                                 let (factors, of) = self.linear(&one, step)?.into_iter().unzip();
                                 let factor = self.symbol.fraction(&term.coefficient)?;
-                                (factor, Course::Square(factors, of))
+                                (factor, Summand::Square(factors, of))
                             }
                             Energy::InBar(bar) => self.held(bar, OnStep::square, step)?,
                             Energy::Work(..) => return Err(NotOverSymbol::Contacts),
@@ -310,15 +306,15 @@ impl<'a> Over<'a> {
         bar: usize,
         of: fn(&OnStep) -> OnStep,
         step: &Root,
-    ) -> Outcome<(Varying, Course)> {
+    ) -> Outcome<(Varying, Summand)> {
         let own = &self.scaled.model().bars[&self.scaled.layout.bars[bar]];
         let impedance = self.symbol.fraction(&own.impedance)?;
         let step = self.length(step)?;
-        Ok((impedance.multiply(&step, BITS), Course::InBar { bar, of }))
+        Ok((impedance.multiply(&step, BITS), Summand::InBar { bar, of }))
     }
 
     /// What is linear in the motion, with its delays in steps.
-    fn linear(&self, term: &Term, step: &Root) -> Outcome<Vec<(Varying, Course)>> {
+    fn linear(&self, term: &Term, step: &Root) -> Outcome<Vec<(Varying, Summand)>> {
         let (model, layout) = (self.scaled.model(), &self.scaled.layout);
         let mut factor = self.symbol.fraction(&term.coefficient)?;
         let in_steps = || self.length(step);
@@ -332,14 +328,14 @@ impl<'a> Over<'a> {
                 }
                 return Ok(parts);
             }
-            Reading::Velocity(face) => Course::Now(Reading::Velocity(*face)),
+            Reading::Velocity(face) => Summand::Now(Reading::Velocity(*face)),
             Reading::Displacement(face) => {
                 factor = factor.multiply(&in_steps()?, BITS);
-                Course::SinceStart(Reading::Velocity(*face))
+                Summand::SinceStart(Reading::Velocity(*face))
             }
             Reading::Compression(lump) => {
                 factor = factor.multiply(&in_steps()?, BITS);
-                Course::Now(Reading::Compression(*lump))
+                Summand::Now(Reading::Compression(*lump))
             }
             Reading::Momentum(bar) => {
                 let (held, of) = self.held(*bar, OnStep::clone, step)?;
@@ -354,14 +350,14 @@ impl<'a> Over<'a> {
                 match field {
                     Field::Displacement => {
                         factor = factor.multiply(&in_steps()?, BITS);
-                        Course::SinceStart(Reading::InBar(Field::Velocity, section))
+                        Summand::SinceStart(Reading::InBar(Field::Velocity, section))
                     }
                     Field::Force => {
                         let impedance = &model.bars[&layout.bars[*bar]].impedance;
                         factor = factor.multiply(&self.symbol.fraction(impedance)?, BITS);
-                        Course::Now(Reading::InBar(*field, section))
+                        Summand::Now(Reading::InBar(*field, section))
                     }
-                    _ => Course::Now(Reading::InBar(*field, section)),
+                    _ => Summand::Now(Reading::InBar(*field, section)),
                 }
             }
         };
@@ -373,13 +369,13 @@ impl<'a> Over<'a> {
 pub struct Followed {
     motion: Motion,
     factors: Vec<Varying>,
-    courses: Vec<Course>,
+    summands: Vec<Summand>,
 }
 
 impl Followed {
     /// What is observed on each step.
     pub fn observed(&self) -> Vec<OnStep> {
-        self.motion.sum(&self.factors, &self.courses)
+        self.motion.sum(&self.factors, &self.summands)
     }
 
     /// The same where the function of one of the steps is continued to the end.
@@ -390,7 +386,7 @@ impl Followed {
     /// # Panics
     /// Where it is none of the steps.
     pub fn observed_after(&mut self, last: usize) -> Outcome<Vec<OnStep>> {
-        self.motion.sum_after(last, &self.factors, &self.courses)
+        self.motion.sum_after(last, &self.factors, &self.summands)
     }
 }
 

@@ -49,16 +49,13 @@ impl Modes {
         let slope = slope.multiply(length, BITS);
         let drift = vec![[constant.clone(), none()], [slope, none()]];
         // a cos ωt + b sin ωt is the real part of (a − ib) e^(iωt).
-        let wave = |[frequency, a, b]: &[Varying; 3]| {
-            let rate = [none(), frequency.multiply(length, BITS)];
-            Exponential { rate, polynomial: vec![[a.clone(), b.negate()]] }.on_steps(count)
+        let wave = |[frequency, a, b]: &[Varying; 3]| Exponential {
+            rate: [none(), frequency.multiply(length, BITS)],
+            polynomial: vec![[a.clone(), b.negate()]],
         };
         let drift = Exponential { rate: [none(), none()], polynomial: drift };
-        let parts = std::iter::once(drift.on_steps(count)).chain(waves.iter().map(wave));
-        let parts = parts.collect::<Outcome<Vec<Vec<OnStep>>>>()?;
-        let one = vec![Varying::one(); parts.len()];
-        let sum = |step: usize| OnStep::sum(&one, parts.iter().map(|own| &own[step]));
-        Ok((0..count).map(sum).collect())
+        let all: Vec<Exponential> = std::iter::once(drift).chain(waves.iter().map(wave)).collect();
+        Exponential::total(&all, count)
     }
 }
 

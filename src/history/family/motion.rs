@@ -18,12 +18,12 @@ use wavestep_polynomial::Rational;
 pub(super) const TERMS: usize = 20;
 
 /// What an observable is made of.
-pub(super) enum Course {
+pub(super) enum Summand {
     Now(Reading<usize>),
     /// Its integral since the start, in steps.
     SinceStart(Reading<usize>),
     /// The square of a sum with these factors.
-    Square(Vec<Varying>, Vec<Course>),
+    Square(Vec<Varying>, Vec<Summand>),
     /// What a bar holds: the integral of its waves, or of their squares.
     InBar {
         bar: usize,
@@ -85,7 +85,7 @@ impl NodeState {
 }
 
 /// A node, and its state at the start.
-pub(super) struct Place {
+pub(super) struct SteppedNode {
     pub(super) node: Node<Varying>,
     pub(super) system: System<Varying>,
     pub(super) passivity: Passivity,
@@ -126,7 +126,7 @@ impl Continued {
 
 pub(super) struct Motion {
     bars: Vec<Bar>,
-    places: Vec<Place>,
+    nodes: Vec<SteppedNode>,
     /// What the nodes do, step by step.
     known: Vec<Vec<Solved>>,
     /// What they do as the function of a step is continued, one step beyond it, two, and so on.
@@ -135,8 +135,8 @@ pub(super) struct Motion {
 
 impl Motion {
     /// All nodes for so many steps.
-    pub(super) fn of(bars: Vec<Bar>, places: Vec<Place>, count: usize) -> Motion {
-        let mut motion = Motion { bars, places, known: Vec::new(), continued: BTreeMap::new() };
+    pub(super) fn of(bars: Vec<Bar>, nodes: Vec<SteppedNode>, count: usize) -> Motion {
+        let mut motion = Motion { bars, nodes, known: Vec::new(), continued: BTreeMap::new() };
         for step in 0..count {
             let solved = motion.solve(Continued::actual(step));
             motion.known.push(solved);
@@ -145,9 +145,9 @@ impl Motion {
     }
 
     /// A sum of these on all steps.
-    pub(super) fn sum(&self, factors: &[Varying], courses: &[Course]) -> Vec<OnStep> {
+    pub(super) fn sum(&self, factors: &[Varying], summands: &[Summand]) -> Vec<OnStep> {
         let path: Vec<Continued> = (0..self.known.len()).map(Continued::actual).collect();
-        self.sum_along(&path, factors, courses)
+        self.sum_along(&path, factors, summands)
     }
 
     /// The same where the function of a step is continued to the end.
@@ -155,12 +155,12 @@ impl Motion {
         &mut self,
         last: usize,
         factors: &[Varying],
-        courses: &[Course],
+        summands: &[Summand],
     ) -> Outcome<Vec<OnStep>> {
         let beyond = self.known.len() - (last + 1);
         let lags: BTreeSet<usize> = self.bars.iter().filter_map(|own| own.lag).collect();
         let mut delays = BTreeSet::from([0]);
-        courses.iter().for_each(|own| self.add_delays(own, &mut delays));
+        summands.iter().for_each(|own| self.add_delays(own, &mut delays));
         // The steps whose functions are needed, each after those from which its waves arrive.
         let mut needed: BTreeSet<usize> =
             delays.iter().filter_map(|delay| last.checked_sub(*delay)).collect();
@@ -181,7 +181,7 @@ impl Motion {
         }
         let before = (0..last).map(Continued::actual);
         let path = before.chain((0..=beyond).map(|by| Continued { step: last, by }));
-        Ok(self.sum_along(&path.collect::<Vec<Continued>>(), factors, courses))
+        Ok(self.sum_along(&path.collect::<Vec<Continued>>(), factors, summands))
     }
 
     /// What the nodes do, from the end of the step before.
@@ -190,7 +190,7 @@ impl Motion {
             Some(by) => Some(Continued { by, ..at }),
             None => at.step.checked_sub(1).map(Continued::actual),
         };
-        let solve = |(number, place): (usize, &Place)| {
+        let solve = |(number, place): (usize, &SteppedNode)| {
             let state = before.map_or(&place.start, |before| &self.solved(before)[number].end);
             let arriving = [(place.node.left, 0), (place.node.right, 1)];
             let arriving = arriving.map(|(side, direction)| match side {
@@ -200,7 +200,7 @@ impl Motion {
             let driven = place.driven.iter().map(|own| own.on(at));
             place.solve(state, arriving.into_iter().chain(driven).collect())
         };
-        self.places.iter().enumerate().map(solve).collect()
+        self.nodes.iter().enumerate().map(solve).collect()
     }
 
     fn solved(&self, Continued { step, by }: Continued) -> &[Solved] {
@@ -231,37 +231,38 @@ impl Motion {
         &self,
         path: &[Continued],
         factors: &[Varying],
-        courses: &[Course],
+        summands: &[Summand],
     ) -> Vec<OnStep> {
-        let courses: Vec<Vec<OnStep>> = courses.iter().map(|own| self.course(own, path)).collect();
-        let sum = |now| OnStep::sum(factors, courses.iter().map(|own: &Vec<OnStep>| &own[now]));
+        let summands: Vec<Vec<OnStep>> =
+            summands.iter().map(|own| self.summand(own, path)).collect();
+        let sum = |now| OnStep::sum(factors, summands.iter().map(|own: &Vec<OnStep>| &own[now]));
         (0..path.len()).map(sum).collect()
     }
 
-    fn course(&self, of: &Course, path: &[Continued]) -> Vec<OnStep> {
+    fn summand(&self, of: &Summand, path: &[Continued]) -> Vec<OnStep> {
         match of {
-            Course::Now(reading) => path.iter().map(|at| self.reading(reading, *at)).collect(),
-            Course::SinceStart(rate) => {
+            Summand::Now(reading) => path.iter().map(|at| self.reading(reading, *at)).collect(),
+            Summand::SinceStart(rate) => {
                 let start = OnStep::constant(&Varying::zero());
                 integral(start, path.iter().map(|at| self.reading(rate, *at)))
             }
-            Course::Square(factors, of) => {
+            Summand::Square(factors, of) => {
                 self.sum_along(path, factors, of).iter().map(OnStep::square).collect()
             }
-            Course::InBar { bar, of } => self.held(*bar, *of, path),
+            Summand::InBar { bar, of } => self.held(*bar, *of, path),
         }
     }
 
     /// The delays of the waves that are read.
-    fn add_delays(&self, of: &Course, delays: &mut BTreeSet<usize>) {
+    fn add_delays(&self, of: &Summand, delays: &mut BTreeSet<usize>) {
         match of {
-            Course::Now(reading) | Course::SinceStart(reading) => {
+            Summand::Now(reading) | Summand::SinceStart(reading) => {
                 if let Reading::InBar(_, section) = reading {
                     delays.extend(section.delays.iter().flatten());
                 }
             }
-            Course::Square(_, of) => of.iter().for_each(|own| self.add_delays(own, delays)),
-            Course::InBar { bar, .. } => delays.extend(self.bars[*bar].lag),
+            Summand::Square(_, of) => of.iter().for_each(|own| self.add_delays(own, delays)),
+            Summand::InBar { bar, .. } => delays.extend(self.bars[*bar].lag),
         }
     }
 
@@ -292,11 +293,11 @@ impl Motion {
         match of {
             Reading::Velocity(face) => {
                 let node = face.lump().node;
-                let run = self.places[node].node.run_beside(*face);
+                let run = self.nodes[node].node.run_beside(*face);
                 self.solved(at)[node].velocities[run].clone()
             }
             Reading::Compression(Lump { node, place }) => {
-                match self.places[*node].system.kept[*place] {
+                match self.nodes[*node].system.kept[*place] {
                     Some(kept) => self.solved(at)[*node].both[kept].clone(),
                     None => OnStep::constant(&Varying::zero()),
                 }
@@ -315,7 +316,32 @@ impl Motion {
     }
 }
 
-impl Place {
+impl SteppedNode {
+    /// The state as polynomials, from `k c_k = A c_{k−1} + B u_{k−1}`, and what is left of these equations in all, for each
+    /// entry.
+    fn polynomials(&self, start: &[Varying], acting: &[OnStep]) -> (Vec<OnStep>, Vec<Magnitude>) {
+        let mut columns = vec![start.to_vec()];
+        let mut left = vec![Magnitude::ZERO; start.len()];
+        for k in 0..TERMS {
+            let given = acting.iter().map(|own| own.coefficient(k));
+            let both: Vec<Varying> = columns[k].iter().cloned().chain(given).collect();
+            let change = &self.system.change;
+            let next = change.iter().map(|row| dot(row, &both, BITS).over(k as u64 + 1, BITS));
+            let (next, off): (Vec<Varying>, Vec<Magnitude>) = match k + 1 < TERMS {
+                true => next.map(|own| own.split()).unzip(),
+                false => next.map(|own| (Varying::zero(), own.magnitude())).unzip(),
+            };
+            left = left.iter().zip(&off).map(|(sum, own)| sum.add(own)).collect();
+            columns.push(next);
+        }
+        columns.truncate(TERMS);
+        let entry = |i: usize| OnStep {
+            coefficients: columns.iter().map(|column| column[i].clone()).collect(),
+            error: Magnitude::ZERO,
+        };
+        ((0..start.len()).map(entry).collect(), left)
+    }
+
     /// What the node does on a step that begins with this state, where waves arrive from the left and from the right and loads
     /// act.
     ///
@@ -324,45 +350,25 @@ impl Place {
     fn solve(&self, start: &NodeState, acting: Vec<OnStep>) -> Solved {
         let (system, blocks) = (&self.system, &self.passivity.blocks);
         debug_assert!(acting.iter().all(|own| own.coefficients.len() <= TERMS));
-        let sizes = |left: &[Magnitude]| -> Vec<Magnitude> {
-            blocks.iter().map(|own| own.size(own.members.iter().map(|i| left[*i]))).collect()
-        };
+        let (mut own, left) = self.polynomials(&start.values, &acting);
         // ∫|ρ| + |B e_u| ∫|e^(Ax)| of each block.
         let arrived: Vec<Magnitude> = acting.iter().map(|own| own.error).collect();
         let step = Number::one();
         let drive = |own: &Block| own.push(&arrived).multiply(&own.memory(&step.magnitude()));
-        let mut added: Vec<Magnitude> = blocks.iter().map(drive).collect();
-        let mut columns = vec![start.values.clone()];
-        for k in 0..TERMS {
-            let given = acting.iter().map(|own| own.coefficient(k));
-            let both: Vec<Varying> = columns[k].iter().cloned().chain(given).collect();
-            let next =
-                system.change.iter().map(|row| dot(row, &both, BITS).over(k as u64 + 1, BITS));
-            let (next, left): (Vec<Varying>, Vec<Magnitude>) = match k + 1 < TERMS {
-                true => next.map(|own| own.split()).unzip(),
-                false => next.map(|own| (Varying::zero(), own.magnitude())).unzip(),
-            };
-            added = added.iter().zip(sizes(&left)).map(|(sum, own)| sum.add(&own)).collect();
-            columns.push(next);
-        }
-        columns.truncate(TERMS);
-        let mut own =
-            vec![OnStep { coefficients: Vec::new(), error: Magnitude::ZERO }; system.states()];
-        for (i, own) in own.iter_mut().enumerate() {
-            own.coefficients = columns.iter().map(|column| column[i].clone()).collect();
-        }
+        let added = blocks.iter().map(|own| drive(own).add(&size_of(own, &left)));
+        let added: Vec<Magnitude> = added.collect();
         let at_end = own.iter().map(|own| {
             own.coefficients.iter().fold(Varying::zero(), |sum, c| sum.add(c, BITS)).split()
         });
         let (values, rounded): (Vec<Varying>, Vec<Magnitude>) = at_end.unzip();
         let mut errors = Vec::with_capacity(blocks.len());
-        let each = blocks.iter().zip(&start.errors).zip(added.iter().zip(sizes(&rounded)));
-        for ((block, error), (added, rounded)) in each {
+        for ((block, error), added) in blocks.iter().zip(&start.errors).zip(&added) {
             let most = error.size().add(added);
             for (place, member) in block.members.iter().enumerate() {
                 own[*member].error = block.entry(place, &most);
             }
-            errors.push(error.clone().after(&step, &added.add(&rounded), block));
+            let added = added.add(&size_of(block, &rounded));
+            errors.push(error.clone().after(&step, &added, block));
         }
         let both: Vec<OnStep> = own.into_iter().chain(acting).collect();
         let runs = system.group.len();
@@ -379,12 +385,16 @@ impl Place {
     }
 }
 
+/// The size of a block in a state with entries of these sizes.
+fn size_of(block: &Block, sizes: &[Magnitude]) -> Magnitude {
+    block.size(block.members.iter().map(|i| sizes[*i]))
+}
+
 /// The integral of a function from the start on, and what is there at the start.
 fn integral(start: OnStep, rate: impl Iterator<Item = OnStep>) -> Vec<OnStep> {
     let mut before = start;
     let next = |rate: OnStep| {
-        let parts = [&before, &rate.antiderivative()];
-        let own = OnStep::sum(&[Varying::one(), Varying::one()], parts.into_iter());
+        let own = OnStep::total([&before, &rate.antiderivative()].into_iter());
         before = own.at_end();
         own
     };

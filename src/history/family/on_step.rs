@@ -30,6 +30,11 @@ impl OnStep {
         OnStep::sum(&[Varying::one(), Varying::one().negate()], [self, other].into_iter())
     }
 
+    pub fn total<'p>(parts: impl Iterator<Item = &'p OnStep>) -> OnStep {
+        let parts: Vec<&OnStep> = parts.collect();
+        OnStep::sum(&vec![Varying::one(); parts.len()], parts.into_iter())
+    }
+
     /// A sum with these factors.
     pub fn sum<'p>(factors: &[Varying], parts: impl Iterator<Item = &'p OnStep>) -> OnStep {
         let (factors, parts): (Vec<Varying>, Vec<&OnStep>) =
