@@ -294,7 +294,10 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
         ProblemError::History(error) => remedy_of_history(error),
         ProblemError::Way(error) => remedy_of_way(error),
         ProblemError::NoLock(refusal) => remedy_of_lock(refusal),
-        ProblemError::Lock(_) | ProblemError::Undecided { .. } => "use fewer digits",
+        ProblemError::Lock(_) => "use fewer digits",
+        ProblemError::Undecided { .. } => {
+            "ask for one digit more or less: the value may lie just between two decimals"
+        }
         ProblemError::Field(error) => match **error {
             FieldError::Undecided { .. } => "choose another time, or another mesh",
             // The others say themselves what to give.
@@ -388,7 +391,9 @@ fn remedy_of_evaluate(error: &EvaluateError) -> &'static str {
         EvaluateError::TooMuchMemory { .. } => {
             "choose an earlier time, raise --memory, or use doubles by the method marched"
         }
-        EvaluateError::AccuracyNotReached { .. } => "allow more bits, or use fewer digits",
+        EvaluateError::AccuracyNotReached { .. } => {
+            "allow more bits, or ask for one digit more or less: the value may lie just between two decimals"
+        }
         _ => "choose an earlier time",
     }
 }

@@ -24,6 +24,9 @@ use wavestep_polynomial::{Rational, Symbol};
 /// A part is cut no further once its ends differ by less than one in so many.
 const FINEST: i64 = 1 << 18;
 
+/// A claim with so many parts that are not decided is tried no further.
+const MOST_UNDECIDED: usize = 8;
+
 /// Significant digits of where it is cut.
 const DIGITS: usize = 9;
 
@@ -34,15 +37,27 @@ const ABOVE: [i64; 6] = [24, 19, 14, 11, 8, 1];
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Unproven {
     pub why: String,
-    /// Where it was tried, the first part of the range that was not decided: of all values below it is proven, and none
-    /// beyond was tried.
-    pub undecided: Option<Box<[Rational; 2]>>,
+    /// Where it was tried, the parts of the range that were not decided; it is proven of all other values.
+    pub undecided: Vec<[Rational; 2]>,
+    /// From which value on it was not tried.
+    pub untried: Option<Rational>,
 }
 
 impl Unproven {
     /// For all of a range.
     pub(super) fn because(why: &str) -> Unproven {
-        Unproven { why: why.to_owned(), undecided: None }
+        Unproven { why: why.to_owned(), undecided: Vec::new(), untried: None }
+    }
+
+    fn undecided(parts: Vec<[Rational; 2]>, untried: Option<Rational>) -> Unproven {
+        let mut undecided: Vec<[Rational; 2]> = Vec::new();
+        for [from, to] in parts {
+            match undecided.last_mut().filter(|last| last[1] == from) {
+                Some(last) => last[1] = to,
+                None => undecided.push([from, to]),
+            }
+        }
+        Unproven { why: "undecided".to_owned(), undecided, untried }
     }
 }
 
@@ -100,12 +115,13 @@ struct Exact {
 #[doc(hidden)]
 impl Problem {
     /// Proves, for all values of the symbol from one to another, that simpler answers are enough, or that they are not;
-    /// of each it is told why it is not proven.
+    /// of each it is told why it is not proven. `tell` hears of the values from which on it is tried.
     pub fn prove_between(
         &self,
         asked: &MapRequest<'_>,
         [from, to]: [&Rational; 2],
         claims: &[(&Simpler, bool)],
+        tell: &dyn Fn(&Rational),
     ) -> Vec<Result<(), Unproven>> {
         let changed = claims.iter().map(|(simpler, _)| match simpler {
             Simpler::Scene(changes) => self.changed(changes).map(Some).map_err(told),
@@ -119,7 +135,7 @@ impl Problem {
         });
         let claims: Vec<Result<Claim<'_>, Unproven>> = compared.collect();
         match self.proof(asked, [from, to]) {
-            Ok(proof) => proof.of(&claims, [from, to]),
+            Ok(proof) => proof.of(&claims, [from, to], tell),
             Err(unproven) => {
                 let why = |claim: Result<_, Unproven>| Err(claim.err().unwrap_or(unproven.clone()));
                 claims.into_iter().map(why).collect()
@@ -137,7 +153,7 @@ impl Problem {
         match (simpler, changed) {
             (Simpler::Arrivals(count), _) => {
                 let arrivals = self.arrivals(asked.quantity, *count).map_err(told)?;
-                let why = "its arrivals are not counted over a symbol";
+                let why = "its arrivals are not counted: it is no sum of waves, or not all times have one period";
                 Ok(Compared::FirstArrivals(arrivals.ok_or_else(|| Unproven::because(why))?))
             }
             (Simpler::Modes(count), _) => Ok(Compared::Modes(*count)),
@@ -160,39 +176,37 @@ impl Problem {
             scene: self.scaled().map_err(told)?,
             symbol: symbol.ok_or_else(|| Unproven::because("there is no such symbol"))?,
             quantity: language::normalise_name(asked.quantity),
-            window: window
-                .ok_or_else(|| Unproven::because("the window is another one for each value"))?,
+            window: window.ok_or_else(|| {
+                Unproven::because("the default window may be another one for each value: give --to")
+            })?,
             tolerance: &asked.tolerance,
         })
     }
 
-    /// The window as a function of the symbol: it is the same for all values, or has its usual length, as at these two.
+    /// The window as a function of the symbol: the one that is asked for, or of the usual length where all times are in one
+    /// proportion to each other.
     fn window_of_symbols(
         &self,
         asked: &MapRequest<'_>,
         values: [&Rational; 2],
     ) -> Option<[Fraction; 2]> {
-        let constant = |[from, to]: [Rational; 2]| [from, to].map(|own| Fraction::constant(&own));
-        let same = (asked.window)(self).ok().map(constant);
         let at = values.map(|value| {
             let problem = self.substituted(&asked.range.symbol, value).ok()?;
             (asked.window)(&problem).ok()
         });
         let [Some(first), Some(last)] = at else { return None };
-        let usual = || {
-            let from = Fraction::constant(&first[0]);
-            let to = &from + &self.usual_length_of_symbols()?;
-            Some([from, to])
-        };
+        if !asked.has_usual_end || self.has_one_usual_length() {
+            return (first == last).then(|| first.map(|end| Fraction::constant(&end)));
+        }
+        let from = Fraction::constant(&first[0]);
+        let to = &from + &self.usual_length_of_symbols()?;
         let symbol = Symbol::new(&language::normalise_name(&asked.range.symbol))?;
-        let is_it = |own: &[Fraction; 2], value: &Rational, window: &[Rational; 2]| {
-            let both = own.iter().zip(window);
-            both.map(|(own, end)| (own.substitute(&symbol, &Fraction::constant(value)), end))
-                .all(|(own, end)| own.is_ok_and(|own| own.as_constant().as_ref() == Some(end)))
+        let is_end = |value: &Rational, window: &[Rational; 2]| {
+            let end = to.substitute(&symbol, &Fraction::constant(value)).ok();
+            end.and_then(|end| end.as_constant()).as_ref() == Some(&window[1])
         };
-        let suits =
-            |own: &[Fraction; 2]| is_it(own, values[0], &first) && is_it(own, values[1], &last);
-        same.filter(suits).or_else(|| usual().filter(suits))
+        let is_it = is_end(values[0], &first) && is_end(values[1], &last);
+        is_it.then(|| [from, to.clone()])
     }
 
     /// The first arrivals of what is linear in the waves; none where these have more than one period.
@@ -247,51 +261,63 @@ impl Proof<'_> {
         &self,
         claims: &[Result<Claim<'_>, Unproven>],
         [from, to]: [&Rational; 2],
+        tell: &dyn Fn(&Rational),
     ) -> Vec<Result<(), Unproven>> {
-        let mut outcomes: Vec<Result<(), Unproven>> = claims
+        // The parts that are not decided, unless it is known not to be proven.
+        let mut open: Vec<Result<Vec<[Rational; 2]>, Unproven>> = claims
             .iter()
-            .map(|claim| claim.as_ref().map(|_| ()).map_err(Unproven::clone))
+            .map(|claim| claim.as_ref().map(|_| Vec::new()).map_err(Unproven::clone))
             .collect();
-        let mut looked = vec![0; claims.len()];
+        let (last, mut looked) = (to, vec![0; claims.len()]);
         // The first part is the last.
         let mut left =
             vec![([from.clone(), to.clone()], (0..claims.len()).collect::<Vec<usize>>())];
-        while let Some(([from, to], open)) = left.pop() {
+        while let Some(([from, to], asked)) = left.pop() {
+            tell(&from);
             let middle = middle(&from, &to, FINEST, DIGITS);
             let (mut known, mut again) = (Vec::new(), Vec::new());
-            for place in open {
-                let (Ok(claim), Ok(())) = (&claims[place], &outcomes[place]) else { continue };
+            for place in asked {
+                let (Ok(claim), Ok(undecided)) = (&claims[place], &mut open[place]) else {
+                    continue;
+                };
                 looked[place] += 1;
                 let failure = match self.is_proven(claim, [&from, &to], &mut known) {
                     Ok(true) => continue,
                     Ok(false) => None,
                     Err(error) if error.may_pass_if_narrower() => Some(error),
                     Err(error) => {
-                        outcomes[place] = Err(Unproven::because(&error.to_string()));
+                        open[place] = Err(Unproven::because(&error.to_string()));
                         continue;
                     }
                 };
-                let may_be_cut = looked[place] < MAX_PARTS_OVER_SYMBOL;
-                outcomes[place] = match failure {
-                    _ if may_be_cut && middle.is_some() => {
-                        again.push(place);
-                        Ok(())
-                    }
-                    Some(error @ NotOverSymbol::TooManySteps) => {
-                        Err(Unproven::because(&error.to_string()))
-                    }
-                    _ => {
-                        let undecided = Some(Box::new([from.clone(), to.clone()]));
-                        Err(Unproven { why: "undecided".to_owned(), undecided })
-                    }
-                };
+                let may_go_on = looked[place] < MAX_PARTS_OVER_SYMBOL;
+                if may_go_on && middle.is_some() {
+                    again.push(place);
+                    continue;
+                }
+                if let Some(error @ NotOverSymbol::TooManySteps) = failure {
+                    open[place] = Err(Unproven::because(&error.to_string()));
+                    continue;
+                }
+                undecided.push([from.clone(), to.clone()]);
+                if to < *last && !(may_go_on && undecided.len() < MOST_UNDECIDED) {
+                    let undecided = std::mem::take(undecided);
+                    open[place] = Err(Unproven::undecided(undecided, Some(to.clone())));
+                }
             }
             if let Some(middle) = middle.filter(|_| !again.is_empty()) {
                 left.push(([middle.clone(), to], again.clone()));
                 left.push(([from, middle], again));
             }
         }
-        outcomes
+        let outcome = |open: Result<Vec<[Rational; 2]>, Unproven>| {
+            let undecided = open?;
+            match undecided.is_empty() {
+                true => Ok(()),
+                false => Err(Unproven::undecided(undecided, None)),
+            }
+        };
+        open.into_iter().map(outcome).collect()
     }
 
     /// Whether a claim is proven of all values between two at once; `known` keeps what is known of the scene.

@@ -7,8 +7,9 @@ use super::between::Unproven;
 use super::comparison::Comparison;
 use super::{Problem, ProblemError, Simpler, number};
 use crate::language::syntax::Declared;
-use crate::language::{self, Beyond, Change, parse_number};
+use crate::language::{self, Beyond, Change, ChangeError, parse_number};
 use num_traits::{One as _, Signed as _, ToPrimitive as _};
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::str::FromStr;
 use wavestep_polynomial::Rational;
@@ -156,6 +157,8 @@ pub struct MapRequest<'a> {
     pub tolerance: Rational,
     /// The window of a scene.
     pub window: &'a dyn Fn(&Problem) -> Result<[Rational; 2], ProblemError>,
+    /// Whether it has its usual length.
+    pub has_usual_end: bool,
 }
 
 /// How far off simpler answers are at one value of the symbol, over the largest value.
@@ -213,14 +216,17 @@ impl Problem {
         }
         let simpler = match asked.simpler.is_empty() {
             true => self.usual_simpler(),
-            false => asked.simpler.clone(),
+            false => self.known_simpler(&asked.simpler)?,
         };
         let values = geometrically_spaced(&range.from, &range.to, *points, MAP_DIGITS);
         let mut known = BTreeMap::new();
+        let is_zero = Cell::new(true);
         let mut off_at = |value: &Rational| {
             if !known.contains_key(value) {
                 tell(value);
                 let off = self.substituted(&range.symbol, value)?.shares(asked, &simpler)?;
+                is_zero.set(is_zero.get() && off.is_none());
+                let off = off.unwrap_or_else(|| vec![None; simpler.len()]);
                 known.insert(value.clone(), off);
             }
             Ok::<_, ProblemError>(known[value].clone())
@@ -230,17 +236,19 @@ impl Problem {
             let runs = runs(looked.iter().cloned(), |value| {
                 Ok::<_, ProblemError>(first_enough(&off_at(value)?, tolerance))
             })?;
+            if is_zero.get() {
+                return Err(ProblemError::AllZero(asked.quantity.to_owned()));
+            }
             let (mut open, mut missed) = (Vec::new(), Vec::new());
             for Run { between, state } in &runs {
                 let key = (between.clone(), *state);
                 if !known_open.contains_key(&key) {
                     let ends = [off_at(&between[0])?, off_at(&between[1])?];
-                    known_open.insert(key.clone(), self.open(asked, &simpler, &key, &ends));
+                    known_open.insert(key.clone(), self.open((asked, tell), &simpler, &key, &ends));
                 }
                 let own = &known_open[&key];
                 // Where it is not decided there may be a border that no value has shown.
-                let undecided =
-                    own.iter().filter_map(|(_, unproven)| unproven.undecided.as_deref());
+                let undecided = own.iter().flat_map(|(_, unproven)| &unproven.undecided);
                 for value in undecided.flat_map(|undecided| beside(undecided, between)) {
                     if first_enough(&off_at(&value)?, tolerance) != *state {
                         missed.push(value);
@@ -264,7 +272,7 @@ impl Problem {
     /// all are off there.
     fn open(
         &self,
-        asked: &MapRequest<'_>,
+        (asked, tell): (&MapRequest<'_>, &dyn Fn(&Rational)),
         simpler: &[Simpler],
         ([from, to], first): &([Rational; 2], Option<usize>),
         ends: &[Vec<Option<[Rational; 2]>>; 2],
@@ -275,7 +283,10 @@ impl Problem {
         // An answer may suit between where its distance is known at neither end.
         let may_suit = |place: usize| match &simpler[place] {
             Simpler::Scene(changes) => {
-                self.changed(changes).is_ok_and(|other| other.wanted(asked.quantity).is_ok())
+                let is_observed = |other: Problem| {
+                    other.wanted(asked.quantity).is_ok_and(|wanted| wanted.place.is_some())
+                };
+                self.changed(changes).is_ok_and(is_observed)
             }
             Simpler::Arrivals(count) => {
                 self.arrivals(asked.quantity, *count).is_ok_and(|own| own.is_some())
@@ -293,7 +304,7 @@ impl Problem {
             claimed.iter().map(|place| (&simpler[*place], *first == Some(*place))).collect();
         let proven = match from == to {
             true => Vec::new(),
-            false => self.prove_between(asked, [from, to], &claims),
+            false => self.prove_between(asked, [from, to], &claims, tell),
         };
         let open = claimed.into_iter().zip(proven);
         let open = open.filter_map(|(place, proven)| Some((place, proven.err()?)));
@@ -302,22 +313,35 @@ impl Problem {
         open
     }
 
-    /// How far simpler answers are off, over the largest value.
+    /// How far simpler answers are off, over the largest value; none where that is zero.
     fn shares(
         &self,
         asked: &MapRequest<'_>,
         simpler: &[Simpler],
-    ) -> Result<Vec<Option<[Rational; 2]>>, ProblemError> {
+    ) -> Result<Option<Vec<Option<[Rational; 2]>>>, ProblemError> {
         let (window, wanted) = ((asked.window)(self)?, self.wanted(asked.quantity)?);
         let comparison = match Comparison::new(self, &wanted, window.each_ref()) {
-            Err(ProblemError::AllZero(_)) => return Ok(vec![None; simpler.len()]),
+            Err(ProblemError::AllZero(_)) => return Ok(None),
             comparison => comparison?,
         };
         let share = |simpler: &Simpler| {
             let other = self.simpler(simpler).ok()?;
             comparison.share(&other, &asked.tolerance).ok()
         };
-        Ok(simpler.iter().map(share).collect())
+        Ok(Some(simpler.iter().map(share).collect()))
+    }
+
+    /// These answers, if what they name is in the scene.
+    fn known_simpler(&self, simpler: &[Simpler]) -> Result<Vec<Simpler>, ProblemError> {
+        for own in simpler {
+            let Simpler::Scene(changes) = own else { continue };
+            if let Err(error @ (ChangeError::NoElement { .. } | ChangeError::NotABar(_))) =
+                language::changed(&self.source, changes)
+            {
+                return Err(error.into());
+            }
+        }
+        Ok(simpler.to_vec())
     }
 
     /// What is tried where nothing else is said: whole scenes, one change alone, arrivals, modes.

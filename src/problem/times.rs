@@ -120,7 +120,7 @@ impl Problem {
             return two_figures(passages);
         }
         let period = network.lattice().periods().first().and_then(Fraction::as_constant);
-        let periods = period.map_or(periods.clone(), |_| periods.max(passages(network)));
+        let periods = period.map_or(periods.clone(), |_| periods.max(passages(network).0));
         if let Some(period) = self.shortest_period() {
             return Ok(period * periods);
         }
@@ -134,12 +134,25 @@ impl Problem {
         two_figures(period * periods.to_f64().unwrap_or(f64::NAN))
     }
 
-    /// The same as a function of the symbols, where a scene has one period.
+    /// The same as a function of the symbols, where a scene has one period and all times are known in it.
     pub(super) fn usual_length_of_symbols(&self) -> Option<Fraction> {
         let network = self.network().ok()?;
-        let [period] = network.lattice().periods() else { return None };
+        let ([period], (passages, true)) = (network.lattice().periods(), passages(network)) else {
+            return None;
+        };
         let length = period * &network.model().slowness.inverse().ok()?;
-        Some(length.scale(&passages(network).max(Rational::from_integer(PERIODS.into()))))
+        Some(length.scale(&passages.max(Rational::from_integer(PERIODS.into()))))
+    }
+
+    /// Whether the usual length is the same for all values of symbols: no time that it depends on has one.
+    pub(super) fn has_one_usual_length(&self) -> bool {
+        let Ok(network) = self.network() else { return false };
+        let Model { bars, constants, slowness, .. } = network.model();
+        let numbers = Numbers::new(constants);
+        let travels = bars.values().filter_map(|bar| bar.travel.as_ref());
+        let times = travels.chain(network.lattice().periods()).chain(delays(network));
+        let mut times = times.chain([slowness]);
+        times.all(|time| numbers.enclose(time, f64::MANTISSA_DIGITS.into()).is_ok())
     }
 
     /// So many of the shortest period; where there is none, of the time that a wave needs for the line.
@@ -185,23 +198,35 @@ fn travel_time(network: &Network) -> Result<f64, ProblemError> {
     Ok(double(&travel)? / double(slowness)?)
 }
 
-/// In how many periods a wave has passed the whole line twice and come to all places observed; none where
-/// that is not known exactly.
-fn passages(network: &Network) -> Rational {
+/// The delays of the waves of which observables are made.
+fn delays(network: &Network) -> impl Iterator<Item = &Fraction> {
+    let waves = network.observables().iter().flat_map(|observed| match &observed.value {
+        ObservedValue::Linear(observation) => observation.waves.iter(),
+        ObservedValue::Energy(_) => [].iter(),
+    });
+    waves.map(|wave| &wave.delay)
+}
+
+/// In how many periods a wave has passed the whole line twice and come to all places observed, as far as that is known; and
+/// whether it is known exactly.
+fn passages(network: &Network) -> (Rational, bool) {
+    let unknown = (Rational::default(), false);
     let mut travel = Fraction::zero();
     for bar in network.model().bars.values() {
         if let Some(own) = &bar.travel {
             travel = &travel + own;
         }
     }
-    let Some(period) = network.lattice().periods().first() else { return Rational::default() };
-    let Ok(frequency) = period.inverse() else { return Rational::default() };
+    let Some(period) = network.lattice().periods().first() else { return unknown };
+    let Ok(frequency) = period.inverse() else { return unknown };
     let in_periods = |time: &Fraction| (time * &frequency).as_constant();
-    let delays = network.observables().iter().flat_map(|observed| match &observed.value {
-        ObservedValue::Linear(observation) => observation.waves.iter(),
-        ObservedValue::Energy(_) => [].iter(),
-    });
-    let latest = delays.filter_map(|wave| in_periods(&wave.delay)).max().unwrap_or_default();
-    let passages = Rational::from_integer(PASSAGES.into());
-    in_periods(&travel).map_or_else(Rational::default, |travel| (travel * passages + latest).ceil())
+    let delays: Vec<Option<Rational>> = delays(network).map(in_periods).collect();
+    let is_known = delays.iter().all(Option::is_some);
+    let latest = delays.into_iter().flatten().max().unwrap_or_default();
+    match in_periods(&travel) {
+        Some(travel) => {
+            ((travel * Rational::from_integer(PASSAGES.into()) + latest).ceil(), is_known)
+        }
+        None => unknown,
+    }
 }

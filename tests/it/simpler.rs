@@ -468,6 +468,7 @@ fn maps_of_what_is_enough_are_proven_at_their_ends() {
         simpler: simpler.clone(),
         tolerance: tolerance.clone(),
         window: &|_| Ok(window.clone()),
+        has_usual_end: false,
     };
     let map = open.map_enough(&asked, &|_| {}).unwrap();
     let off = |mu: &Rational, simpler: &Simpler| {

@@ -41,6 +41,7 @@ pub fn run(
         simpler: simpler.map_err(wavestep::problem::ProblemError::from)?,
         tolerance,
         window: &window,
+        has_usual_end: options.to.is_none(),
     };
     let told = || -> Result<Told<'_>, Failure> {
         let progress = progress::spinner("trying");
@@ -97,11 +98,12 @@ impl Told<'_> {
         };
         let value = |own: &Column| json!({ "value": number(&own.value), "tried": tried(&own.off) });
         let open = |(place, unproven): &(usize, Unproven)| {
-            let undecided = unproven.undecided.as_deref();
+            let parts = unproven.undecided.iter().map(|ends| ends.each_ref().map(number));
             json!({
                 "what": self.name(*place),
                 "why": unproven.why,
-                "undecided": undecided.map(|ends| ends.each_ref().map(number)),
+                "undecided": parts.collect::<Vec<_>>(),
+                "untried_from": unproven.untried.as_ref().map(number),
             })
         };
         let range = |(run, left): (&Run<Option<usize>>, &Vec<(usize, Unproven)>)| {
@@ -158,14 +160,22 @@ impl Told<'_> {
             self.map.runs.iter().zip(&self.map.open)
         {
             let what = first.map_or_else(|| "exact".to_owned(), |place| self.name(place));
-            let how = if open.is_empty() { "proven for the whole range" } else { "at both ends" };
-            let range = format!("{} <= {symbol} <= {}", in_decimals(from), in_decimals(to));
+            let how = match (open.is_empty(), from == to) {
+                (true, true) => "proven",
+                (true, false) => "proven for the whole range",
+                (false, true) => "at this value",
+                (false, false) => "at both ends only",
+            };
+            let range = match from == to {
+                true => format!("{symbol} = {}", in_decimals(from)),
+                false => format!("{} <= {symbol} <= {}", in_decimals(from), in_decimals(to)),
+            };
             text += &format!("{range}  {what}, {how}\n");
             // Neighbours that are open for the same reason share a line.
             for alike in open.chunk_by(|(_, one), (_, other)| one == other) {
                 let names = alike.iter().map(|(place, _)| self.name(*place));
                 let names = names.collect::<Vec<String>>().join(", ");
-                text += &format!("  open, for {names}: {}\n", reason(&alike[0].1));
+                text += &format!("  not proven between, for {names}: {}\n", reason(&alike[0].1));
             }
         }
         text
@@ -242,11 +252,18 @@ impl Told<'_> {
 }
 
 /// Why something is open.
-fn reason(Unproven { why, undecided }: &Unproven) -> String {
-    match undecided.as_deref().map(|ends| ends.each_ref().map(in_decimals)) {
-        None => why.clone(),
-        Some([from, to]) => {
-            format!("proven up to {from}, undecided up to {to}, not tried beyond")
-        }
+fn reason(Unproven { why, undecided, untried }: &Unproven) -> String {
+    if undecided.is_empty() {
+        return why.clone();
     }
+    let part = |ends: &[BigRational; 2]| {
+        let [from, to] = ends.each_ref().map(in_decimals);
+        format!("from {from} to {to}")
+    };
+    let parts = undecided.iter().map(part).collect::<Vec<String>>().join(", ");
+    let beyond = match untried {
+        Some(_) => "not tried beyond",
+        None => "proven for all others",
+    };
+    format!("undecided {parts}, {beyond}")
 }

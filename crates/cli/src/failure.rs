@@ -228,7 +228,8 @@ fn usual(cause: &ProblemError) -> Option<&'static str> {
         ProblemError::TooManyEchoes { .. } => "choose a smaller --through, or one wave",
         ProblemError::EchoesOfObservable(_) => "derive the waves with --form echo",
         ProblemError::NoCommonMeasure(_) => {
-            "derive echoes with --quantity NAME and --through N, or evaluate"
+            "derive the echoes of a wave with --quantity WAVE and --through N (`derive` without options has their names), \
+             or evaluate"
         }
         ProblemError::NoSourceForm => {
             "add a statement such as `written f in V/c, s as mu*z/L`, or remove --source-form"
@@ -256,7 +257,9 @@ fn for_network(error: &NetworkError) -> Option<&'static str> {
 
 fn for_evaluate(error: &EvaluateError) -> Option<&'static str> {
     Some(match error {
-        EvaluateError::AccuracyNotReached { .. } => "raise --max-bits, or use fewer digits",
+        EvaluateError::AccuracyNotReached { .. } => {
+            "raise --max-bits, or ask for one digit more or less: the value may lie just between two decimals"
+        }
         EvaluateError::EmptyWindow => WINDOW,
         _ => return None,
     })

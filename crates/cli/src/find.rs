@@ -12,7 +12,7 @@ use super::validity;
 use num_rational::BigRational;
 use wavestep::planner::Purpose;
 use wavestep::problem::Size;
-use wavestep::signal::{Search, Value};
+use wavestep::signal::{Extremum, Place, Search, Value};
 
 pub fn run(options: &Find) -> Result<String, Failure> {
     input::digits(options.digits)?;
@@ -50,6 +50,7 @@ pub fn run(options: &Find) -> Result<String, Failure> {
             let extremum = search.extremum(goal, digits, limit_bits)?;
             drop(progress);
             let undecided = usize::from(matches!(extremum.value, Value::Enclosed(_)));
+            note_default_end(options, &extremum, &window[1]);
             settled(found::extremum(&extremum, goal, &told), undecided, "value")
         }
         None => {
@@ -65,6 +66,17 @@ pub fn run(options: &Find) -> Result<String, Failure> {
         }
     }
     found
+}
+
+/// Says where an extremum is at the end of a window that nobody asked for.
+fn note_default_end(options: &Find, extremum: &Extremum, last: &BigRational) {
+    let is_last = |place: &Place| match place {
+        Place::End(time) | Place::Arrival { time, .. } => time.exact() == Some(last),
+        _ => false,
+    };
+    if options.to.is_none() && extremum.places.iter().any(is_last) {
+        eprintln!("note: it is at the end of the default window; give --to to look beyond");
+    }
 }
 
 /// How far quantities are from those of another answer at most.

@@ -359,6 +359,16 @@ fn what_cannot_be_weighed_is_told() {
         ("advise mass-on-fixed-bar --for mu=2..1".to_owned(), "not a range", "mu=1/10..10"),
         ("advise mass-on-fixed-bar --for mu=1..2 -o map.eps".to_owned(), "map.eps", ".svg"),
         ("advise mass-on-fixed-bar --for mu=1..2 --models x:y".to_owned(), "x:y", "third"),
+        (
+            "advise mass-on-fixed-bar --for mu=1..2 --models spring:rot".to_owned(),
+            "no element `rot`",
+            "rod",
+        ),
+        (
+            "advise mass-on-fixed-bar --for mu=1..2 --quantity strain_fixed --to 1/2".to_owned(),
+            "is zero",
+            "longer window",
+        ),
         ("advise mass-on-fixed-bar --to 1".to_owned(), "mu", "--set"),
         ("advise rigid-mass --set mu=1".to_owned(), "states equations", "describe the scene"),
         (format!("find {scene} --distance velocity --to 1"), "--minus", ""),

@@ -239,4 +239,14 @@ fn the_usual_window_is_told() {
         let (code, text, errors) = run(anywhere(), &words(&format!("find {line}")));
         assert!(code == 0 && text.contains(window), "{line}: {text} {errors}");
     }
+    // What is largest at its end may grow beyond.
+    for (line, is_noted) in [
+        ("pushed-bar --max momentum", true),
+        ("pushed-bar --max momentum --to 8", false),
+        ("pile --max toe_force", false),
+    ] {
+        let (code, _, errors) = run(anywhere(), &words(&format!("find {line}")));
+        let note = "note: it is at the end of the default window; give --to to look beyond\n";
+        assert_eq!((code, errors.as_str()), (0, if is_noted { note } else { "" }), "{line}");
+    }
 }
