@@ -1,7 +1,8 @@
 //! What changes energies and momenta: the power or the force that flows in.
 //!
 //! What a bar holds changes by what enters at its left and leaves at its right: its energy by the power
-//! `X v`, its momentum by the force `X`. In a sum over the whole line with one coefficient all that flows
+//! `X v`, its momentum by the force `X`. Where two bars meet that both count alike, what leaves one enters
+//! the other. In a sum over the whole line with one coefficient all that flows
 //! from one element to the next cancels: at an open contact `X = 0`, at a closed one both sides move
 //! together, and where bars or springs meet something else no motion is lost at once. What is left is the loss in
 //! dampers, or the force of walls and supports.
@@ -48,8 +49,19 @@ pub(super) fn flow(scaled: &ScaledScene, observable: &Observable) -> Option<Vec<
         return Some(times(terms, &own[0].1));
     }
     let mut all = Vec::new();
-    for (element, coefficient) in own.iter().filter(|(_, coefficient)| !coefficient.is_zero()) {
-        all.extend(times(balance.through_bar(*element)?, coefficient));
+    for (place, (element, coefficient)) in own.iter().enumerate() {
+        if coefficient.is_zero() {
+            continue;
+        }
+        // What leaves one bar enters the next.
+        let goes_on = |neighbour: Option<&(ElementIndex, Fraction)>| {
+            neighbour.is_some_and(|(next, other)| {
+                other == coefficient && scaled.layout.bar(*next).is_some()
+            })
+        };
+        let left = place.checked_sub(1).and_then(|place| own.get(place));
+        let inner = [goes_on(left), goes_on(own.get(place + 1))];
+        all.extend(times(balance.through_bar(*element, inner)?, coefficient));
     }
     Some(all)
 }
@@ -143,8 +155,8 @@ impl Balance<'_> {
         Reading::InBar(field, section(self.layout(), &self.scaled.model, bar, time))
     }
 
-    /// What enters a bar at its left and leaves at its right.
-    fn through_bar(&self, element: ElementIndex) -> Option<Vec<Flow>> {
+    /// What enters a bar at its left and leaves at its right, but at ends that are inner ones.
+    fn through_bar(&self, element: ElementIndex, inner: [bool; 2]) -> Option<Vec<Flow>> {
         let bar = self.layout().bar(element)?;
         let fields: &[Field] = match self.measure {
             Measure::Energy => &[Field::Force, Field::Velocity],
@@ -152,7 +164,8 @@ impl Balance<'_> {
             _ => return None,
         };
         let mut terms = Vec::new();
-        for side in (0..2).filter(|side| self.layout().ends[bar][*side].is_some()) {
+        let is_outer = |side: &usize| self.layout().ends[bar][*side].is_some() && !inner[*side];
+        for side in (0..2).filter(is_outer) {
             let factors: Vec<Reading> =
                 fields.iter().map(|field| self.in_bar(*field, bar, side)).collect();
             let is_zero = |factor: &Reading| match factor {
