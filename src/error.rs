@@ -286,6 +286,9 @@ fn remedy(error: &ProblemError) -> Option<String> {
     })
 }
 
+/// What helps where a value is not known to the digits that are asked for.
+const OTHER_DIGITS: &str = "ask for one digit more or fewer: the value may lie too close to a rounding boundary; or allow more bits";
+
 /// The same where it depends on nothing but the variant.
 fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
     Some(match error {
@@ -295,9 +298,7 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
         ProblemError::Way(error) => remedy_of_way(error),
         ProblemError::NoLock(refusal) => remedy_of_lock(refusal),
         ProblemError::Lock(_) => "use fewer digits",
-        ProblemError::Undecided { .. } => {
-            "ask for one digit more or less: the value may lie just between two decimals"
-        }
+        ProblemError::Undecided { .. } => OTHER_DIGITS,
         ProblemError::Field(error) => match **error {
             FieldError::Undecided { .. } => "choose another time, or another mesh",
             // The others say themselves what to give.
@@ -391,9 +392,7 @@ fn remedy_of_evaluate(error: &EvaluateError) -> &'static str {
         EvaluateError::TooMuchMemory { .. } => {
             "choose an earlier time, raise --memory, or use doubles by the method marched"
         }
-        EvaluateError::AccuracyNotReached { .. } => {
-            "allow more bits, or ask for one digit more or less: the value may lie just between two decimals"
-        }
+        EvaluateError::AccuracyNotReached { .. } => OTHER_DIGITS,
         _ => "choose an earlier time",
     }
 }

@@ -1,4 +1,4 @@
-//! What small systems of equations need of their numbers.
+//! What small systems of equations need of their numbers, enclosures or doubles.
 
 use super::error::BallError;
 use super::magnitude::Magnitude;
@@ -23,6 +23,65 @@ pub trait Arithmetic: Clone {
 
     fn subtract(&self, other: &Self, bits: u64) -> Self {
         self.add(&other.negate(), bits)
+    }
+
+    /// # Errors
+    /// As [`Arithmetic::reciprocal`].
+    fn quotient(&self, divisor: &Self, bits: u64) -> Result<Self, BallError> {
+        Ok(self.multiply(&divisor.reciprocal(bits)?, bits))
+    }
+}
+
+/// Numbers with a cosine and a sine.
+pub trait Trigonometric: Arithmetic {
+    /// # Errors
+    /// [`BallError::ArgumentTooLarge`].
+    fn cos_sin(&self, bits: u64) -> Result<[Self; 2], BallError>;
+}
+
+/// Doubles have the bits that they have. Where a divisor is zero, a quotient is no number.
+impl Arithmetic for f64 {
+    fn zero() -> f64 {
+        0.0
+    }
+
+    fn one() -> f64 {
+        1.0
+    }
+
+    fn is_zero(&self) -> bool {
+        *self == 0.0
+    }
+
+    fn magnitude(&self) -> Magnitude {
+        Magnitude::from_double(self.abs())
+    }
+
+    fn negate(&self) -> f64 {
+        -self
+    }
+
+    fn add(&self, other: &f64, _: u64) -> f64 {
+        self + other
+    }
+
+    fn multiply(&self, other: &f64, _: u64) -> f64 {
+        self * other
+    }
+
+    fn reciprocal(&self, _: u64) -> Result<f64, BallError> {
+        Ok(1.0 / self)
+    }
+
+    fn quotient(&self, divisor: &f64, _: u64) -> Result<f64, BallError> {
+        Ok(self / divisor)
+    }
+}
+
+impl Trigonometric for f64 {
+    fn cos_sin(&self, _: u64) -> Result<[f64; 2], BallError> {
+        let (sine, cosine) = self.sin_cos();
+        Ok([cosine, sine])
     }
 }
 

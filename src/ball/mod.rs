@@ -26,7 +26,7 @@ mod root;
 mod trigonometry;
 mod value;
 
-pub use arithmetic::Arithmetic;
+pub use arithmetic::{Arithmetic, Trigonometric};
 pub use ball::Ball;
 pub use binary::Binary;
 pub use complex::ComplexBall;

@@ -11,7 +11,7 @@ mod error;
 mod laws;
 mod leapfrog;
 pub mod line;
-pub(crate) mod mode;
+pub(crate) mod modal_line;
 mod modes;
 pub mod shape;
 mod steps;

@@ -13,7 +13,7 @@ use crate::limits::{MAX_MODE_TERMS, MAX_MODES};
 use crate::model::Model;
 use crate::model::error::{BadSetting, ModelError, NotSeen};
 use crate::model::line::Line;
-use crate::model::mode::{Chain, Mode, Sum};
+use crate::model::modal_line::{ModalLine, Mode, Vibration};
 use crate::model::shape::{Shape, frequencies};
 use crate::network::ScaledScene;
 
@@ -21,15 +21,6 @@ const NAME: &str = "modes of vibration";
 
 /// Doubles have the bits that they have.
 const BITS: u64 = f64::MANTISSA_DIGITS as u64;
-
-/// `c + s t + Σ (a cos ωt + b sin ωt)` of the user's time, in the unit of its values.
-#[derive(Clone, PartialEq, Debug, Default)]
-pub struct Vibration {
-    /// `c` and `s`.
-    pub drift: [f64; 2],
-    /// `ω`, `a` and `b` of each mode.
-    pub modes: Vec<[f64; 3]>,
-}
 
 /// The first modes of vibration of a line.
 ///
@@ -47,8 +38,8 @@ pub struct Modes {
 }
 
 impl Line {
-    fn chain(&self) -> Chain<'_, f64> {
-        Chain { bars: &self.bars, nodes: &self.nodes, bits: BITS }
+    fn modal(&self) -> ModalLine<'_, f64> {
+        ModalLine { bars: &self.bars, nodes: &self.nodes, bits: BITS }
     }
 }
 
@@ -60,13 +51,13 @@ impl Modes {
         }
         ModelError::limited(NAME, "modes", count as f64, MAX_MODES as f64)?;
         let line = Line::linear(NAME, scene.as_ref())?;
-        let chain = line.chain();
+        let modal = line.modal();
         let refused = |reason| ModelError::Refused { model: NAME, reason };
-        let parts = chain.parts(|element| line.name(element)).map_err(refused)?;
-        let (held, drifts) = (chain.held(), chain.drifts());
+        let parts = modal.parts(|element| line.name(element)).map_err(refused)?;
+        let (held, drifts) = (modal.held(), modal.drifts());
         let mode = |frequency| {
             let shape = Shape::of(&parts, held[0], frequency, BITS);
-            shape.and_then(|shape| chain.mode(shape)).map_err(EnclosureError::from)
+            shape.and_then(|shape| modal.mode(shape)).map_err(EnclosureError::from)
         };
         let modes = frequencies(&parts, held, drifts, count).into_iter().map(mode);
         let modes = modes.collect::<Result<_, _>>()?;
@@ -83,12 +74,13 @@ impl Modes {
     /// An observable as a sum of modes, in the time and the unit of the user.
     pub fn vibration(&self, observable: usize) -> Result<Vibration, ModelError> {
         let observable = self.line.observable(NAME, observable)?;
-        let sum = self.line.chain().sum(observable.terms(), &self.modes);
-        let Some(Sum { drift: [constant, slope], waves }) = sum.map_err(EnclosureError::from)?
+        let sum = self.line.modal().sum(observable.terms(), &self.modes);
+        let Some(Vibration { drift: [constant, slope], modes }) =
+            sum.map_err(EnclosureError::from)?
         else {
             return self.line.refuse(NAME, observable, NotSeen::Other);
         };
-        let modes = waves.into_iter().map(|[frequency, a, b]| [frequency * self.unit, a, b]);
+        let modes = modes.into_iter().map(|[frequency, a, b]| [frequency * self.unit, a, b]);
         Ok(Vibration { drift: [constant, slope * self.unit], modes: modes.collect() })
     }
 }

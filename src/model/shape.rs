@@ -8,69 +8,14 @@
 //! spring   u grows by S/k
 //! ```
 //!
-//! The angle of Prüfer `θ`, with `u = r sin θ` and `S = r cos θ` and counted without jumps, never
-//! falls as `ω` grows: each step carries a larger angle into a larger one, and a larger `ω` makes each
-//! step of a bar or a mass turn further. Modes are where `θ` at the right end is a multiple of `π`
+//! The Prüfer angle `θ`, with `u = r sin θ` and `S = r cos θ` and counted without jumps, strictly rises with
+//! `ω`: each step carries a larger angle into a larger one, a larger `ω` makes each step of a bar or a mass turn
+//! further, and at the right end `∂θ/∂ω = 2ω ∫u² dm/r² > 0`. Modes are where `θ` at the right end is a multiple of `π`
 //! (fixed), or an odd multiple of `π/2` (free). So the n-th mode is the one at the n-th of these
 //! angles: a count, which misses none.
 
-use crate::ball::{Arithmetic, BallError, Magnitude};
+use crate::ball::{Arithmetic, BallError, Trigonometric};
 use std::f64::consts::{FRAC_PI_2, PI};
-
-/// Numbers of which there are sines.
-pub trait Swinging: Arithmetic {
-    fn cos_sin(&self, bits: u64) -> Result<[Self; 2], BallError>;
-
-    fn quotient(&self, divisor: &Self, bits: u64) -> Result<Self, BallError> {
-        Ok(self.multiply(&divisor.reciprocal(bits)?, bits))
-    }
-}
-
-/// Doubles are what they are, with any number of bits.
-impl Arithmetic for f64 {
-    fn zero() -> f64 {
-        0.0
-    }
-
-    fn one() -> f64 {
-        1.0
-    }
-
-    fn is_zero(&self) -> bool {
-        *self == 0.0
-    }
-
-    fn magnitude(&self) -> Magnitude {
-        Magnitude::from_double(self.abs())
-    }
-
-    fn negate(&self) -> f64 {
-        -self
-    }
-
-    fn add(&self, other: &f64, _: u64) -> f64 {
-        self + other
-    }
-
-    fn multiply(&self, other: &f64, _: u64) -> f64 {
-        self * other
-    }
-
-    fn reciprocal(&self, _: u64) -> Result<f64, BallError> {
-        Ok(1.0 / self)
-    }
-}
-
-impl Swinging for f64 {
-    fn cos_sin(&self, _: u64) -> Result<[f64; 2], BallError> {
-        let (sine, cosine) = self.sin_cos();
-        Ok([cosine, sine])
-    }
-
-    fn quotient(&self, divisor: &f64, _: u64) -> Result<f64, BallError> {
-        Ok(self / divisor)
-    }
-}
 
 #[derive(Clone, PartialEq, Debug)]
 pub enum Part<V = f64> {
@@ -214,7 +159,8 @@ fn frequency(parts: &[Part], held: [bool; 2], number: usize, below: f64) -> f64 
 /// The shape of a mode, in any scale.
 ///
 /// # Invariants
-/// `states` holds displacement and tension left of every part, and at the right end; the modal mass is positive.
+/// `states` holds displacement and tension left of every part, and at the right end. The modal mass is positive in doubles;
+/// an enclosure of it may contain zero, and then dividing by it fails.
 #[derive(Clone, Debug)]
 pub struct Shape<V = f64> {
     /// None for a motion as a whole.
@@ -227,7 +173,7 @@ pub struct Shape<V = f64> {
     mass: V,
 }
 
-impl<V: Swinging> Shape<V> {
+impl<V: Trigonometric> Shape<V> {
     /// The shape at a frequency, or of a motion as a whole, from a left end that is fixed or free.
     ///
     /// In a bar `u = A cos ωs + B sin ωs` with `A = u_0`, `B = S_0/(Zω)`, so that
@@ -243,14 +189,14 @@ impl<V: Swinging> Shape<V> {
         bits: u64,
     ) -> Result<Shape<V>, BallError> {
         let (mut states, mut integrals, mut scales) = (Vec::new(), Vec::new(), Vec::new());
-        let mut whole = V::zero();
+        let mut modal_mass = V::zero();
         let [mut u, mut pulled] = if held { [V::zero(), V::one()] } else { [V::one(), V::zero()] };
         for part in parts {
             states.push([u.clone(), pulled.clone()]);
             let (mut integral, mut scale) = (V::zero(), None);
             match (part, &frequency) {
                 (Part::Mass { mass }, _) => {
-                    whole = whole.add(&product([mass, &u, &u], bits), bits);
+                    modal_mass = modal_mass.add(&product([mass, &u, &u], bits), bits);
                     if let Some(frequency) = &frequency {
                         let force = product([frequency, frequency, mass, &u], bits);
                         pulled = pulled.subtract(&force, bits);
@@ -265,15 +211,15 @@ impl<V: Swinging> Shape<V> {
                 (Part::Bar { impedance, travel }, None) => {
                     // No tension.
                     integral = u.multiply(travel, bits);
-                    whole = whole.add(&product([impedance, travel, &u, &u], bits), bits);
+                    modal_mass = modal_mass.add(&product([impedance, travel, &u, &u], bits), bits);
                 }
                 (Part::Bar { impedance, travel }, Some(frequency)) => {
                     let own = impedance.multiply(frequency, bits);
                     let state = [u.clone(), pulled.quotient(&own, bits)?];
                     let turn = frequency.multiply(travel, bits).cos_sin(bits)?;
-                    let bar = Bar { state: &state, travel, frequency, turn: &turn, bits };
+                    let bar = SwungBar { state: &state, travel, frequency, turn: &turn, bits };
                     integral = bar.integral()?;
-                    whole = whole.add(&impedance.multiply(&bar.square()?, bits), bits);
+                    modal_mass = modal_mass.add(&impedance.multiply(&bar.square()?, bits), bits);
                     [u, pulled] = turned(&state, &turn, &own, bits);
                     scale = Some(own);
                 }
@@ -282,17 +228,19 @@ impl<V: Swinging> Shape<V> {
             scales.push(scale);
         }
         states.push([u, pulled]);
-        Ok(Shape { frequency, states, integrals, scales, mass: whole })
+        Ok(Shape { frequency, states, integrals, scales, mass: modal_mass })
     }
 
-    /// How far Newton's method goes from this frequency to one at which the right end is held, or free. With
-    /// `u_ω S − u S_ω = 2ω ∫u² dm` it is `u S/(2ω ∫u² dm)` back, or as far ahead. None for a motion as a whole.
+    /// A Newton step from this frequency towards one at which the right end is fixed (`u = 0`) or free (`S = 0`). With
+    /// `M = ∫u² dm` it is `∂u/∂ω S − u ∂S/∂ω = 2ωM`. Near a mode the term with the factor that vanishes is left out, so that the
+    /// step is `−uS/(2ωM)` where the end is held, `+uS/(2ωM)` where it is free; an error is squared all the same. None for a
+    /// motion as a whole.
     ///
     /// # Errors
     /// As [`Shape::of`].
     pub fn correction(&self, held: bool, bits: u64) -> Result<Option<V>, BallError> {
         let Some(frequency) = &self.frequency else { return Ok(None) };
-        let [u, pulled] = &self.states[self.states.len() - 1];
+        let [u, pulled] = self.right_end();
         let divisor = product([&frequency.add(frequency, bits), &self.mass], bits);
         let ahead = u.multiply(pulled, bits).quotient(&divisor, bits)?;
         Ok(Some(if held { ahead.negate() } else { ahead }))
@@ -306,6 +254,11 @@ impl<V: Swinging> Shape<V> {
     /// `∫ u² dm` over the line.
     pub fn mass(&self) -> &V {
         &self.mass
+    }
+
+    /// Displacement and tension at the right end.
+    pub fn right_end(&self) -> &[V; 2] {
+        &self.states[self.states.len() - 1]
     }
 
     /// Displacement and tension left of a part, or at the right end.
@@ -338,7 +291,7 @@ fn product<V: Arithmetic, const N: usize>(factors: [&V; N], bits: u64) -> V {
     all.reduce(|product, factor| product.multiply(&factor, bits)).unwrap_or_else(V::one)
 }
 
-/// `u` and `S` where the angle is larger by one of which cosine and sine are given, from `u` and `S/Zω`.
+/// `u` and `S` after a turn by the angle with this cosine and sine, from `u` and `S/Zω`; `scale` is `Zω`.
 fn turned<V: Arithmetic>([a, b]: &[V; 2], [cosine, sine]: &[V; 2], scale: &V, bits: u64) -> [V; 2] {
     let u = a.multiply(cosine, bits).add(&b.multiply(sine, bits), bits);
     let rest = b.multiply(cosine, bits).subtract(&a.multiply(sine, bits), bits);
@@ -346,7 +299,7 @@ fn turned<V: Arithmetic>([a, b]: &[V; 2], [cosine, sine]: &[V; 2], scale: &V, bi
 }
 
 /// A bar that swings, with `A` and `B`, and cosine and sine of `ωτ`.
-struct Bar<'a, V> {
+struct SwungBar<'a, V> {
     state: &'a [V; 2],
     travel: &'a V,
     frequency: &'a V,
@@ -354,7 +307,7 @@ struct Bar<'a, V> {
     bits: u64,
 }
 
-impl<V: Swinging> Bar<'_, V> {
+impl<V: Trigonometric> SwungBar<'_, V> {
     fn integral(&self) -> Result<V, BallError> {
         let (bits, [a, b], [_, sine]) = (self.bits, self.state, self.turn);
         let two = V::one().add(&V::one(), bits);

@@ -1,8 +1,8 @@
 //! What changes energies and momenta: the power or the force that flows in.
 //!
 //! What a bar holds changes by what enters at its left and leaves at its right: its energy by the power
-//! `X v`, its momentum by the force `X`. Where two bars meet that both count alike, what leaves one enters
-//! the other. In a sum over the whole line with one coefficient all that flows
+//! `X v`, its momentum by the force `X`. Where two bars with the same coefficient
+//! meet, what leaves one enters the other. In a sum over the whole line with one coefficient all that flows
 //! from one element to the next cancels: at an open contact `X = 0`, at a closed one both sides move
 //! together, and where bars or springs meet something else no motion is lost at once. What is left is the loss in
 //! dampers, or the force of walls and supports.
@@ -155,7 +155,7 @@ impl Balance<'_> {
         Reading::InBar(field, section(self.layout(), &self.scaled.model, bar, time))
     }
 
-    /// What enters a bar at its left and leaves at its right, but at ends that are inner ones.
+    /// What enters a bar at its left and leaves at its right, except at inner ends.
     fn through_bar(&self, element: ElementIndex, inner: [bool; 2]) -> Option<Vec<Flow>> {
         let bar = self.layout().bar(element)?;
         let fields: &[Field] = match self.measure {

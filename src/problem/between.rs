@@ -8,7 +8,7 @@ use super::{Problem, ProblemError, Simpler};
 use crate::ball::Arithmetic as _;
 use crate::expression::{Fraction, Root};
 use crate::history::family::envelope::{Ends, Envelope, StepWindow};
-use crate::history::family::modes::Modes;
+use crate::history::family::modes::SumOfModes;
 use crate::history::family::on_step::OnStep;
 use crate::history::family::{Followed, NotOverSymbol, Over};
 use crate::language;
@@ -21,10 +21,10 @@ use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use wavestep_polynomial::{Rational, Symbol};
 
-/// A part is cut no further once its ends differ by less than one in so many.
+/// A part is cut no further once its ends differ by less than one part in this many.
 const FINEST: i64 = 1 << 18;
 
-/// A claim with so many parts that are not decided is tried no further.
+/// A claim is given up after this many undecided parts.
 const MOST_UNDECIDED: usize = 8;
 
 /// Significant digits of where it is cut.
@@ -35,29 +35,35 @@ const ABOVE: [i64; 6] = [24, 19, 14, 11, 8, 1];
 
 /// Why something is not proven of all values between two.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Unproven {
-    pub why: String,
-    /// Where it was tried, the parts of the range that were not decided; it is proven of all other values.
-    pub undecided: Vec<[Rational; 2]>,
-    /// From which value on it was not tried.
-    pub untried: Option<Rational>,
+pub enum Unproven {
+    /// Nothing is proven.
+    Refused(String),
+    /// All is proven but these parts, of which there is one at least, and what lies beyond `untried_from`.
+    Undecided { parts: Vec<[Rational; 2]>, untried_from: Option<Rational> },
 }
 
 impl Unproven {
-    /// For all of a range.
-    pub(super) fn because(why: &str) -> Unproven {
-        Unproven { why: why.to_owned(), undecided: Vec::new(), untried: None }
+    pub(super) fn because(why: impl ToString) -> Unproven {
+        Unproven::Refused(why.to_string())
     }
 
-    fn undecided(parts: Vec<[Rational; 2]>, untried: Option<Rational>) -> Unproven {
-        let mut undecided: Vec<[Rational; 2]> = Vec::new();
-        for [from, to] in parts {
-            match undecided.last_mut().filter(|last| last[1] == from) {
+    fn undecided(all: Vec<[Rational; 2]>, untried_from: Option<Rational>) -> Unproven {
+        let mut parts: Vec<[Rational; 2]> = Vec::new();
+        for [from, to] in all {
+            match parts.last_mut().filter(|last| last[1] == from) {
                 Some(last) => last[1] = to,
-                None => undecided.push([from, to]),
+                None => parts.push([from, to]),
             }
         }
-        Unproven { why: "undecided".to_owned(), undecided, untried }
+        Unproven::Undecided { parts, untried_from }
+    }
+
+    /// The parts that are not decided.
+    pub fn parts(&self) -> &[[Rational; 2]] {
+        match self {
+            Unproven::Refused(_) => &[],
+            Unproven::Undecided { parts, .. } => parts,
+        }
     }
 }
 
@@ -82,7 +88,7 @@ pub(super) struct Arrivals {
 enum Beside<'a> {
     Scene(Over<'a>),
     FirstArrivals(&'a Arrivals),
-    Modes(Modes),
+    Modes(SumOfModes),
 }
 
 /// A claim that a simpler answer is enough, or that it is not.
@@ -98,6 +104,15 @@ struct Proof<'a> {
     quantity: String,
     window: [Fraction; 2],
     tolerance: &'a Rational,
+}
+
+/// What is known of a claim about a part of the values.
+enum Decided {
+    Proven,
+    /// Not yet: it is asked of two parts of it.
+    Cut,
+    Refused(NotOverSymbol),
+    Not,
 }
 
 /// The scene for some values of the symbol, in steps.
@@ -135,7 +150,7 @@ impl Problem {
         });
         let claims: Vec<Result<Claim<'_>, Unproven>> = compared.collect();
         match self.proof(asked, [from, to]) {
-            Ok(proof) => proof.of(&claims, [from, to], tell),
+            Ok(proof) => proof.decide(&claims, [from, to], tell),
             Err(unproven) => {
                 let why = |claim: Result<_, Unproven>| Err(claim.err().unwrap_or(unproven.clone()));
                 claims.into_iter().map(why).collect()
@@ -153,7 +168,7 @@ impl Problem {
         match (simpler, changed) {
             (Simpler::Arrivals(count), _) => {
                 let arrivals = self.arrivals(asked.quantity, *count).map_err(told)?;
-                let why = "its arrivals are not counted: it is no sum of waves, or not all times have one period";
+                let why = "echoes cannot be counted: it is an energy, or the travel times have no common period";
                 Ok(Compared::FirstArrivals(arrivals.ok_or_else(|| Unproven::because(why))?))
             }
             (Simpler::Modes(count), _) => Ok(Compared::Modes(*count)),
@@ -177,7 +192,9 @@ impl Problem {
             symbol: symbol.ok_or_else(|| Unproven::because("there is no such symbol"))?,
             quantity: language::normalise_name(asked.quantity),
             window: window.ok_or_else(|| {
-                Unproven::because("the default window may be another one for each value: give --to")
+                Unproven::because(
+                    "the default window changes with the symbol in a way that has no formula",
+                )
             })?,
             tolerance: &asked.tolerance,
         })
@@ -250,14 +267,14 @@ impl Arrivals {
         let [first, latest] = &window.from;
         let is_after = |at: &i64, time: &Rational| Rational::from_integer((*at).into()) > *time;
         steps.retain(|at| is_after(at, first));
-        let is_told = steps.iter().all(|at| is_after(at, latest));
-        Ok(is_told.then(|| steps.into_iter().map(|at| at as usize).collect()))
+        let is_certain = steps.iter().all(|at| is_after(at, latest));
+        Ok(is_certain.then(|| steps.into_iter().map(|at| at as usize).collect()))
     }
 }
 
 impl Proof<'_> {
     /// Proves claims of all values between two, each in parts where it must be.
-    fn of(
+    fn decide(
         &self,
         claims: &[Result<Claim<'_>, Unproven>],
         [from, to]: [&Rational; 2],
@@ -269,7 +286,7 @@ impl Proof<'_> {
             .map(|claim| claim.as_ref().map(|_| Vec::new()).map_err(Unproven::clone))
             .collect();
         let (last, mut looked) = (to, vec![0; claims.len()]);
-        // The first part is the last.
+        // A stack: the leftmost part is on top.
         let mut left =
             vec![([from.clone(), to.clone()], (0..claims.len()).collect::<Vec<usize>>())];
         while let Some(([from, to], asked)) = left.pop() {
@@ -281,28 +298,19 @@ impl Proof<'_> {
                     continue;
                 };
                 looked[place] += 1;
-                let failure = match self.is_proven(claim, [&from, &to], &mut known) {
-                    Ok(true) => continue,
-                    Ok(false) => None,
-                    Err(error) if error.may_pass_if_narrower() => Some(error),
-                    Err(error) => {
-                        open[place] = Err(Unproven::because(&error.to_string()));
-                        continue;
-                    }
-                };
                 let may_go_on = looked[place] < MAX_PARTS_OVER_SYMBOL;
-                if may_go_on && middle.is_some() {
-                    again.push(place);
-                    continue;
-                }
-                if let Some(error @ NotOverSymbol::TooManySteps) = failure {
-                    open[place] = Err(Unproven::because(&error.to_string()));
-                    continue;
-                }
-                undecided.push([from.clone(), to.clone()]);
-                if to < *last && !(may_go_on && undecided.len() < MOST_UNDECIDED) {
-                    let undecided = std::mem::take(undecided);
-                    open[place] = Err(Unproven::undecided(undecided, Some(to.clone())));
+                let may_cut = may_go_on && middle.is_some();
+                match self.decide_part(claim, [&from, &to], may_cut, &mut known) {
+                    Decided::Proven => {}
+                    Decided::Cut => again.push(place),
+                    Decided::Refused(why) => open[place] = Err(Unproven::because(why)),
+                    Decided::Not => {
+                        undecided.push([from.clone(), to.clone()]);
+                        if to < *last && !(may_go_on && undecided.len() < MOST_UNDECIDED) {
+                            let undecided = std::mem::take(undecided);
+                            open[place] = Err(Unproven::undecided(undecided, Some(to.clone())));
+                        }
+                    }
                 }
             }
             if let Some(middle) = middle.filter(|_| !again.is_empty()) {
@@ -318,6 +326,23 @@ impl Proof<'_> {
             }
         };
         open.into_iter().map(outcome).collect()
+    }
+
+    /// A claim about all values between two, which may be cut into parts.
+    fn decide_part(
+        &self,
+        claim: &Claim<'_>,
+        part: [&Rational; 2],
+        may_cut: bool,
+        known: &mut Vec<Exact>,
+    ) -> Decided {
+        match self.is_proven(claim, part, known) {
+            Ok(true) => Decided::Proven,
+            Err(error) if !error.may_pass_if_narrower() => Decided::Refused(error),
+            _ if may_cut => Decided::Cut,
+            Err(error @ NotOverSymbol::TooManySteps) => Decided::Refused(error),
+            _ => Decided::Not,
+        }
     }
 
     /// Whether a claim is proven of all values between two at once; `known` keeps what is known of the scene.
@@ -399,7 +424,7 @@ impl Exact {
 }
 
 fn told(error: ProblemError) -> Unproven {
-    Unproven::because(&super::advise::first_line(&error))
+    Unproven::because(super::advise::first_line(&error))
 }
 
 fn scaled(sizes: &Ends, by: &Rational) -> Ends {

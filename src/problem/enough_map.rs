@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::str::FromStr;
 use wavestep_polynomial::Rational;
 
-/// Neighbours of a border differ by one in so many.
+/// Neighbours at a border differ by at most one part in this many.
 const FINE: i64 = 1000;
 
 /// Significant digits of borders.
@@ -79,7 +79,7 @@ fn short(value: f64, digits: usize) -> Option<Rational> {
     parse_number(&format!("{value:.*e}", digits - 1)).ok()
 }
 
-/// A value between two others, with so many digits; none where they differ by less than one in so many.
+/// A value between two others, with `digits` significant digits; none where they differ by less than one part in `fine`.
 pub(super) fn middle(from: &Rational, to: &Rational, fine: i64, digits: usize) -> Option<Rational> {
     if (to - from) * Rational::from_integer(fine.into()) <= *from {
         return None;
@@ -157,7 +157,7 @@ pub struct MapRequest<'a> {
     pub tolerance: Rational,
     /// The window of a scene.
     pub window: &'a dyn Fn(&Problem) -> Result<[Rational; 2], ProblemError>,
-    /// Whether it has its usual length.
+    /// Whether it ends at its usual length, because no end was given.
     pub has_usual_end: bool,
 }
 
@@ -236,9 +236,6 @@ impl Problem {
             let runs = runs(looked.iter().cloned(), |value| {
                 Ok::<_, ProblemError>(first_enough(&off_at(value)?, tolerance))
             })?;
-            if is_zero.get() {
-                return Err(ProblemError::AllZero(asked.quantity.to_owned()));
-            }
             let (mut open, mut missed) = (Vec::new(), Vec::new());
             for Run { between, state } in &runs {
                 let key = (between.clone(), *state);
@@ -248,7 +245,7 @@ impl Problem {
                 }
                 let own = &known_open[&key];
                 // Where it is not decided there may be a border that no value has shown.
-                let undecided = own.iter().flat_map(|(_, unproven)| &unproven.undecided);
+                let undecided = own.iter().flat_map(|(_, unproven)| unproven.parts());
                 for value in undecided.flat_map(|undecided| beside(undecided, between)) {
                     if first_enough(&off_at(&value)?, tolerance) != *state {
                         missed.push(value);
@@ -263,6 +260,9 @@ impl Problem {
             looked.extend(missed);
             looked.sort();
         };
+        if is_zero.get() {
+            return Err(ProblemError::AllZero(asked.quantity.to_owned()));
+        }
         let columns = values.into_iter().map(|value| Ok(Column { off: off_at(&value)?, value }));
         let columns = columns.collect::<Result<_, ProblemError>>()?;
         Ok(EnoughMap { simpler, columns, runs, open })
@@ -298,7 +298,8 @@ impl Problem {
         let (unsure, claimed): (Vec<usize>, Vec<usize>) = before
             .chain(*first)
             .partition(|place| ends.iter().any(|off| off[*place].as_ref().is_some_and(is_unsure)));
-        let why = "at an end its difference is not known well enough";
+        let why =
+            "at one end of the range the bounds of its error lie on both sides of the tolerance";
         let unsure = unsure.into_iter().map(|place| (place, Unproven::because(why)));
         let claims: Vec<(&Simpler, bool)> =
             claimed.iter().map(|place| (&simpler[*place], *first == Some(*place))).collect();

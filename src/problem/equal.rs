@@ -98,7 +98,7 @@ impl EqualExtrema<'_> {
     fn sign(&self, problem: &Problem, value: &Rational) -> Result<Option<Ordering>, ProblemError> {
         let problem = problem.substituted(self.symbol, value)?;
         let wanted = problem.wanted(self.name)?;
-        problem.has_numbers()?;
+        problem.require_numbers()?;
         let mut times = Vec::new();
         for time in self.times {
             times.push(self.time(&problem, time, value)?);

@@ -93,7 +93,7 @@ const PASSAGES: i64 = 2;
 #[doc(hidden)]
 impl Problem {
     /// Refuses stated equations with a symbol that has no value.
-    pub(super) fn has_numbers(&self) -> Result<(), ProblemError> {
+    pub(super) fn require_numbers(&self) -> Result<(), ProblemError> {
         let Kind::Equations(solution) = &self.kind else { return Ok(()) };
         match solution.recurrence().symbols().next() {
             Some(symbol) => Err(EvaluateError::MissingValue(symbol.clone()).into()),
@@ -104,7 +104,7 @@ impl Problem {
     /// The usual length of a window: some periods, exactly where a period is rational, else a round number
     /// near them.
     pub fn usual_length(&self) -> Result<Rational, ProblemError> {
-        self.has_numbers()?;
+        self.require_numbers()?;
         let periods = Rational::from_integer(PERIODS.into());
         let network = match &self.kind {
             Kind::Equations(_) => {
@@ -120,7 +120,10 @@ impl Problem {
             return two_figures(passages);
         }
         let period = network.lattice().periods().first().and_then(Fraction::as_constant);
-        let periods = period.map_or(periods.clone(), |_| periods.max(passages(network).0));
+        let periods = match period {
+            Some(_) => periods.max(Passages::of(network).count),
+            None => periods,
+        };
         if let Some(period) = self.shortest_period() {
             return Ok(period * periods);
         }
@@ -134,17 +137,18 @@ impl Problem {
         two_figures(period * periods.to_f64().unwrap_or(f64::NAN))
     }
 
-    /// The same as a function of the symbols, where a scene has one period and all times are known in it.
+    /// The same as a function of the symbols; none unless the scene has one period of which every travel time and delay is a
+    /// known multiple.
     pub(super) fn usual_length_of_symbols(&self) -> Option<Fraction> {
         let network = self.network().ok()?;
-        let ([period], (passages, true)) = (network.lattice().periods(), passages(network)) else {
-            return None;
-        };
+        let [period] = network.lattice().periods() else { return None };
+        let Passages { count, is_exact: true } = Passages::of(network) else { return None };
         let length = period * &network.model().slowness.inverse().ok()?;
-        Some(length.scale(&passages.max(Rational::from_integer(PERIODS.into()))))
+        Some(length.scale(&count.max(Rational::from_integer(PERIODS.into()))))
     }
 
-    /// Whether the usual length is the same for all values of symbols: no time that it depends on has one.
+    /// Whether the usual length is the same for all values of symbols: no travel time, period, delay or unit of time contains
+    /// one.
     pub(super) fn has_one_usual_length(&self) -> bool {
         let Ok(network) = self.network() else { return false };
         let Model { bars, constants, slowness, .. } = network.model();
@@ -182,7 +186,7 @@ pub fn two_figures(length: f64) -> Result<Rational, ProblemError> {
 
 /// How long a wave needs to pass the whole line, in the user's time.
 fn travel_time(network: &Network) -> Result<f64, ProblemError> {
-    let Model { bars, constants, slowness, .. } = network.model();
+    let Model { constants, slowness, .. } = network.model();
     let numbers = Numbers::new(constants);
     let double = |value: &Fraction| -> Result<f64, ProblemError> {
         Ok(numbers
@@ -191,10 +195,7 @@ fn travel_time(network: &Network) -> Result<f64, ProblemError> {
             .to_double()
             .0)
     };
-    let mut travel = Fraction::zero();
-    for own in bars.values().filter_map(|bar| bar.travel.as_ref()) {
-        travel = &travel + own;
-    }
+    let travel = travel_of_line(network);
     Ok(double(&travel)? / double(slowness)?)
 }
 
@@ -207,26 +208,31 @@ fn delays(network: &Network) -> impl Iterator<Item = &Fraction> {
     waves.map(|wave| &wave.delay)
 }
 
-/// In how many periods a wave has passed the whole line twice and come to all places observed, as far as that is known; and
-/// whether it is known exactly.
-fn passages(network: &Network) -> (Rational, bool) {
-    let unknown = (Rational::default(), false);
-    let mut travel = Fraction::zero();
-    for bar in network.model().bars.values() {
-        if let Some(own) = &bar.travel {
-            travel = &travel + own;
-        }
-    }
-    let Some(period) = network.lattice().periods().first() else { return unknown };
-    let Ok(frequency) = period.inverse() else { return unknown };
-    let in_periods = |time: &Fraction| (time * &frequency).as_constant();
-    let delays: Vec<Option<Rational>> = delays(network).map(in_periods).collect();
-    let is_known = delays.iter().all(Option::is_some);
-    let latest = delays.into_iter().flatten().max().unwrap_or_default();
-    match in_periods(&travel) {
-        Some(travel) => {
-            ((travel * Rational::from_integer(PASSAGES.into()) + latest).ceil(), is_known)
-        }
-        None => unknown,
+/// How long a wave needs from one end of the line to the other, in its scale.
+fn travel_of_line(network: &Network) -> Fraction {
+    let travels = network.model().bars.values().filter_map(|bar| bar.travel.as_ref());
+    travels.fold(Fraction::zero(), |sum, own| &sum + own)
+}
+
+/// In how many periods a wave has passed the whole line twice and come to all places observed.
+#[derive(Default)]
+struct Passages {
+    /// As far as it is known; else none.
+    count: Rational,
+    /// Whether every travel time and delay is a known multiple of the period.
+    is_exact: bool,
+}
+
+impl Passages {
+    fn of(network: &Network) -> Passages {
+        let Some(period) = network.lattice().periods().first() else { return Passages::default() };
+        let Ok(frequency) = period.inverse() else { return Passages::default() };
+        let in_periods = |time: &Fraction| (time * &frequency).as_constant();
+        let Some(travel) = in_periods(&travel_of_line(network)) else { return Passages::default() };
+        let delays: Vec<Option<Rational>> = delays(network).map(in_periods).collect();
+        let is_exact = delays.iter().all(Option::is_some);
+        let latest = delays.into_iter().flatten().max().unwrap_or_default();
+        let count = (travel * Rational::from_integer(PASSAGES.into()) + latest).ceil();
+        Passages { count, is_exact }
     }
 }

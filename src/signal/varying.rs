@@ -3,7 +3,7 @@
 //! With balls in their place nothing would be left of the difference of two numbers that vary alike.
 
 use super::taylor::{Taylor, of_exponential};
-use crate::ball::{Arithmetic, Ball, BallError, ComplexBall, Magnitude, Number};
+use crate::ball::{Arithmetic, Ball, BallError, ComplexBall, Magnitude, Number, Trigonometric};
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
@@ -56,19 +56,23 @@ impl Varying {
         self.composed(&at_middle, |k| Rational::new((3 - 2 * k).into(), (2 * k).into()), bits).ok()
     }
 
-    /// `e^x cos y` and `e^x sin y`. With `z = x + iy = z₀ + d` it is `e^(z₀) Σ_k d^k/k!`, of which `Σ_{k>n} |d|^k/k!`
-    /// is left out, `|d|^(n+1)/(n+1)! e^|d|` at most.
+    /// `self − c₀`
+    fn about_middle(&self) -> Varying {
+        let mut change = self.clone();
+        if let Some(constant) = change.coefficients.first_mut() {
+            *constant = Ball::zero();
+        }
+        change
+    }
+
+    /// `e^x cos y` and `e^x sin y`. With `z = x + iy = z₀ + d` it is `e^z = e^(z₀) Σ_k d^k/k!`. Of the sum the terms `k > n`
+    /// are left out, `|d|^(n+1)/(n+1)! e^|d|` at most.
     ///
     /// # Errors
-    /// [`BallError::ArgumentTooLarge`] where it varies by more than a factor of `e^8`, or more than once around.
+    /// [`BallError::ArgumentTooLarge`] where `|Re d| + |Im d|` may exceed 8, or where `e^(z₀)` is too large.
     pub fn exp([x, y]: [&Varying; 2], bits: u64) -> Result<[Varying; 2], BallError> {
         let at_middle = ComplexBall::new(x.coefficient(0), y.coefficient(0)).exp(bits)?;
-        let mut change = [x, y].map(Varying::clone);
-        for part in &mut change {
-            if let Some(constant) = part.coefficients.first_mut() {
-                *constant = Ball::zero();
-            }
-        }
+        let change = [x, y].map(Varying::about_middle);
         let size = change[0].magnitude().add(&change[1].magnitude());
         let most = of_exponential(&size).filter(|_| size <= Magnitude::from_u64(8));
         let most = most.ok_or(BallError::ArgumentTooLarge)?;
@@ -96,9 +100,7 @@ impl Varying {
         bits: u64,
     ) -> Result<Varying, BallError> {
         let inverse = self.coefficient(0).reciprocal(bits)?;
-        let mut change = self.clone();
-        change.coefficients[0] = Ball::zero();
-        let change = change.scaled(&inverse, bits);
+        let change = self.about_middle().scaled(&inverse, bits);
         let size = change.magnitude();
         let one = Ball::from_integer(&1.into());
         let left = one.subtract(&Ball::new(size.to_binary(), Magnitude::ZERO), bits);
@@ -116,6 +118,12 @@ impl Varying {
         let beyond = size.power(DEGREE as u64 + 1).multiply(&left.reciprocal(bits)?.magnitude());
         sum.remainder = sum.remainder.add(&beyond);
         Ok(sum.scaled(at_middle, bits))
+    }
+}
+
+impl Trigonometric for Varying {
+    fn cos_sin(&self, bits: u64) -> Result<[Varying; 2], BallError> {
+        Varying::exp([&Varying::zero(), self], bits)
     }
 }
 

@@ -98,21 +98,25 @@ impl Told<'_> {
         };
         let value = |own: &Column| json!({ "value": number(&own.value), "tried": tried(&own.off) });
         let open = |(place, unproven): &(usize, Unproven)| {
-            let parts = unproven.undecided.iter().map(|ends| ends.each_ref().map(number));
+            let (why, untried_from) = match unproven {
+                Unproven::Refused(why) => (why.as_str(), None),
+                Unproven::Undecided { untried_from, .. } => ("undecided", untried_from.as_ref()),
+            };
+            let parts = unproven.parts().iter().map(|ends| ends.each_ref().map(number));
             json!({
                 "what": self.name(*place),
-                "why": unproven.why,
+                "why": why,
                 "undecided": parts.collect::<Vec<_>>(),
-                "untried_from": unproven.untried.as_ref().map(number),
+                "untried_from": untried_from.map(number),
             })
         };
-        let range = |(run, left): (&Run<Option<usize>>, &Vec<(usize, Unproven)>)| {
+        let range = |(run, all): (&Run<Option<usize>>, &Vec<(usize, Unproven)>)| {
             json!({
                 "from": number(&run.between[0]),
                 "to": number(&run.between[1]),
                 "enough": run.state.map(|place| self.name(place)),
-                "proven": left.is_empty(),
-                "open": left.iter().map(open).collect::<Vec<_>>(),
+                "proven": all.is_empty(),
+                "open": all.iter().map(open).collect::<Vec<_>>(),
             })
         };
         let Advise { scene, from, to, .. } = self.options;
@@ -163,8 +167,8 @@ impl Told<'_> {
             let how = match (open.is_empty(), from == to) {
                 (true, true) => "proven",
                 (true, false) => "proven for the whole range",
-                (false, true) => "at this value",
-                (false, false) => "at both ends only",
+                (false, true) => "enough; whether it is the simplest is open",
+                (false, false) => "proven at both ends; in between:",
             };
             let range = match from == to {
                 true => format!("{symbol} = {}", in_decimals(from)),
@@ -175,7 +179,7 @@ impl Told<'_> {
             for alike in open.chunk_by(|(_, one), (_, other)| one == other) {
                 let names = alike.iter().map(|(place, _)| self.name(*place));
                 let names = names.collect::<Vec<String>>().join(", ");
-                text += &format!("  not proven between, for {names}: {}\n", reason(&alike[0].1));
+                text += &format!("  {names}: {}\n", reason(&alike[0].1));
             }
         }
         text
@@ -224,8 +228,8 @@ impl Told<'_> {
                 "the largest difference in the window over the largest value, proven at the marks"
                     .to_owned(),
             remarks: vec![
-                "Above its line an answer is enough, proven at the marks and drawn between; a region has the colour of the \
-                 first that is enough."
+                "A model is enough above its line: proven at the marks, interpolated between. Each region has the colour of \
+                 the simplest model that is enough there."
                     .to_owned(),
             ],
             command: format!(
@@ -252,18 +256,20 @@ impl Told<'_> {
 }
 
 /// Why something is open.
-fn reason(Unproven { why, undecided, untried }: &Unproven) -> String {
-    if undecided.is_empty() {
-        return why.clone();
-    }
+fn reason(unproven: &Unproven) -> String {
+    let (parts, untried_from) = match unproven {
+        Unproven::Refused(why) => return format!("not proven: {why}"),
+        Unproven::Undecided { parts, untried_from } => (parts, untried_from),
+    };
     let part = |ends: &[BigRational; 2]| {
         let [from, to] = ends.each_ref().map(in_decimals);
         format!("from {from} to {to}")
     };
-    let parts = undecided.iter().map(part).collect::<Vec<String>>().join(", ");
-    let beyond = match untried {
-        Some(_) => "not tried beyond",
-        None => "proven for all others",
-    };
-    format!("undecided {parts}, {beyond}")
+    let parts = parts.iter().map(part).collect::<Vec<String>>().join(", ");
+    match untried_from {
+        Some(value) => {
+            format!("undecided {parts}; not tried above {}; proven elsewhere", in_decimals(value))
+        }
+        None => format!("undecided {parts}; proven elsewhere"),
+    }
 }

@@ -228,7 +228,7 @@ fn usual(cause: &ProblemError) -> Option<&'static str> {
         ProblemError::TooManyEchoes { .. } => "choose a smaller --through, or one wave",
         ProblemError::EchoesOfObservable(_) => "derive the waves with --form echo",
         ProblemError::NoCommonMeasure(_) => {
-            "derive the echoes of a wave with --quantity WAVE and --through N (`derive` without options has their names), \
+            "derive the echoes of a wave with --quantity WAVE and --through N (`derive` without options lists the waves), \
              or evaluate"
         }
         ProblemError::NoSourceForm => {
@@ -258,7 +258,7 @@ fn for_network(error: &NetworkError) -> Option<&'static str> {
 fn for_evaluate(error: &EvaluateError) -> Option<&'static str> {
     Some(match error {
         EvaluateError::AccuracyNotReached { .. } => {
-            "raise --max-bits, or ask for one digit more or less: the value may lie just between two decimals"
+            "ask for one digit more or fewer: the value may lie too close to a rounding boundary; or raise --max-bits"
         }
         EvaluateError::EmptyWindow => WINDOW,
         _ => return None,

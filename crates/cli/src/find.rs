@@ -12,7 +12,7 @@ use super::validity;
 use num_rational::BigRational;
 use wavestep::planner::Purpose;
 use wavestep::problem::Size;
-use wavestep::signal::{Extremum, Place, Search, Value};
+use wavestep::signal::{Extremum, Goal, Place, Search, Value};
 
 pub fn run(options: &Find) -> Result<String, Failure> {
     input::digits(options.digits)?;
@@ -50,7 +50,7 @@ pub fn run(options: &Find) -> Result<String, Failure> {
             let extremum = search.extremum(goal, digits, limit_bits)?;
             drop(progress);
             let undecided = usize::from(matches!(extremum.value, Value::Enclosed(_)));
-            note_default_end(options, &extremum, &window[1]);
+            note_default_end(options, &extremum, goal, &window[1]);
             settled(found::extremum(&extremum, goal, &told), undecided, "value")
         }
         None => {
@@ -68,14 +68,20 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     found
 }
 
-/// Says where an extremum is at the end of a window that nobody asked for.
-fn note_default_end(options: &Find, extremum: &Extremum, last: &BigRational) {
+/// Warns that an extremum may lie at the end of a default window.
+fn note_default_end(options: &Find, extremum: &Extremum, goal: Goal, last: &BigRational) {
     let is_last = |place: &Place| match place {
         Place::End(time) | Place::Arrival { time, .. } => time.exact() == Some(last),
         _ => false,
     };
     if options.to.is_none() && extremum.places.iter().any(is_last) {
-        eprintln!("note: it is at the end of the default window; give --to to look beyond");
+        let [here, beyond] = match goal {
+            Goal::Largest => ["largest", "larger"],
+            Goal::Smallest => ["smallest", "smaller"],
+        };
+        eprintln!(
+            "note: the default window ends where the value is {here}; a {beyond} one may follow: give --to"
+        );
     }
 }
 

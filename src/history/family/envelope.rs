@@ -1,9 +1,9 @@
 //! How large a function of time is at most and at least, for all values of a symbol.
 //!
 //! On a step `f(x, ν) = p₀(x) + p₁(x) ν + r` with `|r| ≤ R`, where the parameter `ν` of the symbol lies between −1 and 1. A
-//! linear function of `ν` lies between its ends, so sizes are told of both, `|p₀ ± p₁|` more or less `R`: in between they are no larger
-//! than the same mean of two bounds, and no smaller than that of two sizes that are reached at one instant. So sizes that change
-//! alike are compared as nearly as the curvature over the symbol allows.
+//! linear function of `ν` lies between its ends, so sizes are told of both, `|p₀ ± p₁|` more or less `R`: in between they are
+//! no larger than the same mean of two bounds, and no smaller than that of two sizes that are reached at one instant. So sizes
+//! that change alike are compared as nearly as the curvature over the symbol allows.
 
 use super::on_step::OnStep;
 use crate::ball::{Arithmetic as _, Ball, Magnitude};
@@ -12,10 +12,10 @@ use crate::signal::{Taylor, middle_and_half};
 use num_traits::{One as _, ToPrimitive as _, Zero as _};
 use wavestep_polynomial::Rational;
 
-/// In so many parts a step is cut for values that are taken.
+/// A step is sampled at the ends of this many equal parts.
 const PARTS: i64 = 64;
 
-/// How often values are taken nearer to the largest that was found.
+/// How often it is sampled again near the largest value that was found.
 const REFINED: usize = 2;
 
 /// How often a step is halved for a bound.
@@ -118,8 +118,8 @@ impl OneStep {
     fn at_least(&self, at: &Rational) -> Option<Ends> {
         let at = Ball::from_rational(at, BITS);
         let values = self.ends.each_ref().map(|end| end.value(&at, BITS));
-        let is_told = values[0].sign() == values[1].sign() && !values[0].contains_zero();
-        is_told.then(|| values.map(|value| value.smallest_size()))
+        let has_sign = values[0].sign() == values[1].sign() && !values[0].contains_zero();
+        has_sign.then(|| values.map(|value| value.smallest_size()))
     }
 
     fn is_within(&self, most: &Ends, [from, to]: &[Rational; 2], depth: usize) -> bool {

@@ -1,4 +1,4 @@
-//! The course of a load over a symbol, step by step.
+//! Sums of `Re p(t) e^(μt)` over a symbol, step by step: loads and modes.
 
 use super::Outcome;
 use super::motion::TERMS;
@@ -59,8 +59,8 @@ impl Exponential {
                 if polynomial.len() == TERMS {
                     return Ok(None);
                 }
-                let now = symbol.complex(&at_zero(&left)?)?;
-                polynomial.push(complex_product(&now, &factor, BITS));
+                let at_start = symbol.complex(&at_zero(&left)?)?;
+                polynomial.push(complex_product(&at_start, &factor, BITS));
                 let count = polynomial.len() as u64;
                 factor = scaled(&factor, length).map(|part| part.over(count, BITS));
                 left = left.derivative(time);
@@ -81,7 +81,7 @@ impl Exponential {
         Ok((0..count).map(sum).collect())
     }
 
-    /// How fast it changes.
+    /// A bound of `|μ|` per step.
     pub fn rate(&self) -> Magnitude {
         size(&self.rate)
     }
@@ -91,28 +91,29 @@ impl Exponential {
     fn on_steps(&self, count: usize) -> Outcome<Vec<OnStep>> {
         let rate = self.rate();
         let most = of_exponential(&rate).ok_or(BallError::ArgumentTooLarge)?;
-        let (mut series, mut left_out) = (vec![[Varying::one(), Varying::zero()]], vec![most]);
-        let terms = if rate.is_zero() { 1 } else { TERMS };
+        let mut left_out = vec![most];
         for i in 1..=TERMS as u64 {
-            let last = complex_product(&series[series.len() - 1], &self.rate, BITS);
-            if series.len() < terms {
-                series.push(last.map(|part| part.over(i, BITS)));
-            }
             left_out.push(left_out[left_out.len() - 1].multiply(&rate).divide(i));
+        }
+        let mut series = vec![[Varying::one(), Varying::zero()]];
+        let terms = if rate.is_zero() { 1 } else { TERMS };
+        for i in 1..terms as u64 {
+            let next = complex_product(&series[series.len() - 1], &self.rate, BITS);
+            series.push(next.map(|part| part.over(i, BITS)));
         }
         (0..count).map(|step| self.on_step(step, &series, &left_out)).collect()
     }
 
     fn on_step(&self, step: usize, series: &[Complex], left_out: &[Magnitude]) -> Outcome<OnStep> {
-        let now = Varying::constant(&Rational::from_integer(step.into()), BITS);
+        let number = Varying::constant(&Rational::from_integer(step.into()), BITS);
         let mut shifted = self.polynomial.clone();
         for first in 0..shifted.len() {
             for k in (first..shifted.len() - 1).rev() {
-                let next = scaled(&shifted[k + 1], &now);
+                let next = scaled(&shifted[k + 1], &number);
                 shifted[k] = [0, 1].map(|part| shifted[k][part].add(&next[part], BITS));
             }
         }
-        let [x, y] = scaled(&self.rate, &now);
+        let [x, y] = scaled(&self.rate, &number);
         let factor = Varying::exp([&x, &y], BITS)?;
         let count = TERMS.min(shifted.len() + series.len() - 1);
         let mut sum = vec![Varying::zero(); count];

@@ -5,8 +5,9 @@
 //! of a polynomial in time is a polynomial in the symbol, too. What both leave out is bounded by the energy of each node,
 //! as in `passivity`: its matrices hold for all values at once.
 //!
-//! Here a scene is made ready, loads by `exponential`; `motion` follows it, with functions on one step (`on_step`) whose coefficients are values over
-//! the symbol (`symbol`), and `envelope` tells how large they are.
+//! This file prepares a scene, and `exponential` its loads. `motion` follows it step by step, in functions on a step
+//! (`on_step`) with coefficients over the symbol (`symbol`); `modes` encloses its modes of vibration, and `envelope` bounds
+//! sizes.
 
 pub mod envelope;
 mod exponential;
@@ -20,6 +21,7 @@ use crate::enclosure::EnclosureError;
 use crate::expression::{Fraction, NotAUnit, Root};
 use crate::history::passivity::Passivity;
 use crate::limits::{MAX_STEPS_OVER_SYMBOL, MAX_SYMBOL_BITS as BITS};
+use crate::model::NotRepresented;
 use crate::network::{
     ElementLaw, Elements, Energy, Field, Measured, MeasuredValue, ModelLoad, Node, Reading,
     ScaledScene, Section, System, Term, common_measure,
@@ -27,7 +29,7 @@ use crate::network::{
 use crate::scene::ElementIndex;
 use crate::signal::Varying;
 use exponential::Exponential;
-use modes::Modes;
+use modes::SumOfModes;
 use motion::{Bar, Loading, Motion, NodeState, SteppedNode, Summand, TERMS};
 use num_traits::{One as _, ToPrimitive as _, Zero as _};
 use on_step::OnStep;
@@ -43,10 +45,14 @@ pub enum NotOverSymbol {
     Load(String),
     #[error("the travel times have no common divisor for all values of the symbol")]
     NoCommonMeasure,
-    #[error("more than {MAX_STEPS_OVER_SYMBOL} steps")]
+    #[error(
+        "the window takes more than {MAX_STEPS_OVER_SYMBOL} steps of time: choose an earlier end"
+    )]
     TooManySteps,
-    #[error("it has no modes of vibration over a symbol")]
-    Modes,
+    #[error("it has no modes of vibration: {0}")]
+    Modes(#[from] NotRepresented),
+    #[error("the frequencies of its modes are not enclosed")]
+    Frequency,
     #[error("a joint without mass moves, and nothing resists it")]
     Unresisted,
     #[error("`{0}` is not an observable of the scene")]
@@ -63,10 +69,14 @@ impl NotOverSymbol {
     /// Whether fewer values of the symbol at once may be followed.
     pub fn may_pass_if_narrower(&self) -> bool {
         use EnclosureError::NotReal;
-        use NotOverSymbol::{Ball, TooManySteps, Unresisted, Value};
+        use NotOverSymbol::{Ball, Frequency, TooManySteps, Unresisted, Value};
         matches!(
             self,
-            TooManySteps | Unresisted | Ball(_) | Value(EnclosureError::Ball(_) | NotReal)
+            TooManySteps
+                | Unresisted
+                | Frequency
+                | Ball(_)
+                | Value(EnclosureError::Ball(_) | NotReal)
         )
     }
 }
@@ -98,12 +108,12 @@ impl<'a> Over<'a> {
         Ok(Over { scaled, measured, symbol })
     }
 
-    /// A step that suits these scenes: the largest common measure of their travel times and of the delays of what is
-    /// observed, halved until no node is too fast for it.
+    /// The step for these scenes: the largest common measure of all travel times, of the times at which loads begin and end,
+    /// and of the delays of what is observed, halved until no rate of a node, a load or a mode exceeds two.
     ///
     /// # Errors
     /// [`NotOverSymbol::NoCommonMeasure`]; else as [`Over::follow`].
-    pub fn step(all: &[&Over<'_>], modes: Option<&Modes>) -> Outcome<Root> {
+    pub fn step(all: &[&Over<'_>], modes: Option<&SumOfModes>) -> Outcome<Root> {
         let times = all.iter().flat_map(|own| {
             let model = own.scaled.model();
             let travels = model.bars.values().filter_map(|bar| bar.travel.as_ref());
@@ -125,19 +135,18 @@ impl<'a> Over<'a> {
             measure = common_measure(&measure, &constant(&time.over(&first)?)?);
         }
         let step = |measure: &Rational| first.times(&Fraction::constant(measure).into());
-        let mut halvings = 0;
-        if let Some(modes) = modes {
-            let length = all[0].length(&step(&measure))?;
-            halvings =
-                length.magnitude().multiply(&modes.rate()).top().map_or(0, |top| top - 1).max(0);
-        }
+        let unit = step(&measure);
+        let mut fastest = match modes {
+            Some(modes) => all[0].length(&unit)?.magnitude().multiply(&modes.rate()),
+            None => Magnitude::ZERO,
+        };
         for own in all {
-            let nodes = own.nodes(&step(&measure), 0)?;
-            let driven = nodes.iter().flat_map(|place| &place.driven).map(|own| own.rate);
-            let rates = nodes.iter().map(|place| place.passivity.rate()).chain(driven);
-            let rates = rates.filter_map(|rate| rate.top());
-            halvings = rates.map(|top| top - 1).fold(halvings, i64::max);
+            for node in own.nodes(&unit, 0)? {
+                let loads = node.loads.iter().map(|load| load.rate);
+                fastest = loads.fold(fastest.max(node.passivity.rate()), Magnitude::max);
+            }
         }
+        let halvings = fastest.top().map_or(0, |top| (top - 1).max(0));
         if halvings > i64::from(MAX_STEPS_OVER_SYMBOL.ilog2()) {
             return Err(NotOverSymbol::TooManySteps);
         }
@@ -222,8 +231,8 @@ impl<'a> Over<'a> {
         Ok(self.symbol.fraction(value)?.reciprocal(BITS)?)
     }
 
-    /// The nodes at the start, and loads on so many steps. With a step as the unit of time a mass is so much lighter, and a spring so much stiffer; then
-    /// displacements are measured in steps, too.
+    /// The nodes at the start, and their loads on `count` steps. With the step `h` as the unit of time a mass counts as `M/h`
+    /// and a stiffness as `kh`, and displacements are in units of `h`.
     fn nodes(&self, step: &Root, count: usize) -> Outcome<Vec<SteppedNode>> {
         let length = self.length(step)?;
         let inverse = length.reciprocal(BITS)?;
@@ -244,15 +253,15 @@ impl<'a> Over<'a> {
             let numbers = node.map(|value| Ok::<_, NotOverSymbol>(value.number()))?;
             let passivity = Passivity::of(&numbers, &system.map(Varying::number))?;
             let start = NodeState::at_start(&node, &system, &passivity)?;
-            let driven = node.elements.iter().filter(|own| own.law.is_driven());
-            let driven = driven.map(|own| self.loading(own.element, step, count));
-            let driven = driven.collect::<Outcome<_>>()?;
-            Ok(SteppedNode { node, system, passivity, start, driven })
+            let loads = node.elements.iter().filter(|own| own.law.is_driven());
+            let loads = loads.map(|own| self.loading(own.element, step, count));
+            let loads = loads.collect::<Outcome<_>>()?;
+            Ok(SteppedNode { node, system, passivity, start, loads })
         };
         self.scaled.layout.nodes.iter().map(place).collect()
     }
 
-    /// A load on so many steps, with a step as the unit of time.
+    /// A load on `count` steps, with a step as the unit of time.
     fn loading(&self, element: ElementIndex, step: &Root, count: usize) -> Outcome<Loading> {
         let (scene, model) = (self.scaled.scene(), self.scaled.model());
         let ModelLoad { course, from, until } = &model.loads[&element];
@@ -289,7 +298,7 @@ impl<'a> Over<'a> {
                                 let factor = self.symbol.fraction(&term.coefficient)?;
                                 (factor, Summand::Square(factors, of))
                             }
-                            Energy::InBar(bar) => self.held(bar, OnStep::square, step)?,
+                            Energy::InBar(bar) => self.stored(bar, OnStep::square, step)?,
                             Energy::Work(..) => return Err(NotOverSymbol::Contacts),
                         };
                         parts.push((factor.multiply(&share, BITS), of));
@@ -301,7 +310,7 @@ impl<'a> Over<'a> {
     }
 
     /// What a bar holds, `Z ∫ (w₊ + w₋) dt` or the same of squares.
-    fn held(
+    fn stored(
         &self,
         bar: usize,
         of: fn(&OnStep) -> OnStep,
@@ -338,8 +347,8 @@ impl<'a> Over<'a> {
                 Summand::Now(Reading::Compression(*lump))
             }
             Reading::Momentum(bar) => {
-                let (held, of) = self.held(*bar, OnStep::clone, step)?;
-                factor = factor.multiply(&held, BITS);
+                let (stored, of) = self.stored(*bar, OnStep::clone, step)?;
+                factor = factor.multiply(&stored, BITS);
                 of
             }
             Reading::InBar(field, Section { bar, delays: [right, left] }) => {

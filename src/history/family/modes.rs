@@ -6,36 +6,33 @@ use super::{NotOverSymbol, Outcome, Over};
 use crate::ball::{Arithmetic as _, Ball, BallError, Magnitude};
 use crate::limits::MAX_SYMBOL_BITS as BITS;
 use crate::model::line::Bar;
-use crate::model::mode::{Chain, Sum};
-use crate::model::shape::{Part, Shape, Swinging, frequencies};
+use crate::model::modal_line::{ModalLine, Vibration};
+use crate::model::shape::{Part, Shape, frequencies};
+use crate::model::{NotRepresented, NotSeen};
 use crate::network::{MeasuredValue, Node, Term};
+use crate::scene::ElementIndex;
 use crate::signal::Varying;
 use num_traits::Signed as _;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
-/// Newton's method squares an error, and numbers that vary have seven powers: three times is enough, and one for roundings.
+/// Newton's method squares an error, and numbers that vary have seven powers: three steps are enough, and one more for
+/// roundings.
 const CORRECTIONS: usize = 4;
 
-/// Corrections lead elsewhere where they go as far as one in so many.
+/// Where the middle of a frequency moves by more than one part in this many, Newton's method has gone to another mode.
 const NEAR: i64 = 1 << 20;
 
 /// How often an enclosure of a frequency is widened where it does not prove itself.
 const WIDENINGS: usize = 3;
 
-impl Swinging for Varying {
-    fn cos_sin(&self, bits: u64) -> Result<[Varying; 2], BallError> {
-        Varying::exp([&Varying::zero(), self], bits)
-    }
-}
-
 /// What is observed, as a sum of modes, in the scale of the scene and the unit of the user.
-pub struct Modes(Sum<Varying>);
+pub struct SumOfModes(Vibration<Varying>);
 
-impl Modes {
+impl SumOfModes {
     /// How fast they swing in a unit of time at most.
     pub fn rate(&self) -> Magnitude {
-        let rates = self.0.waves.iter().map(|[frequency, ..]| frequency.magnitude());
+        let rates = self.0.modes.iter().map(|[frequency, ..]| frequency.magnitude());
         rates.max().unwrap_or(Magnitude::ZERO)
     }
 
@@ -44,45 +41,50 @@ impl Modes {
     /// # Errors
     /// [`NotOverSymbol::Ball`] where a frequency varies too much.
     pub fn on_steps(&self, count: usize, length: &Varying) -> Outcome<Vec<OnStep>> {
-        let Sum { drift: [constant, slope], waves } = &self.0;
-        let none = Varying::zero;
+        let Vibration { drift: [constant, slope], modes } = &self.0;
+        let zero = Varying::zero;
         let slope = slope.multiply(length, BITS);
-        let drift = vec![[constant.clone(), none()], [slope, none()]];
+        let drift = vec![[constant.clone(), zero()], [slope, zero()]];
         // a cos ωt + b sin ωt is the real part of (a − ib) e^(iωt).
         let wave = |[frequency, a, b]: &[Varying; 3]| Exponential {
-            rate: [none(), frequency.multiply(length, BITS)],
+            rate: [zero(), frequency.multiply(length, BITS)],
             polynomial: vec![[a.clone(), b.negate()]],
         };
-        let drift = Exponential { rate: [none(), none()], polynomial: drift };
-        let all: Vec<Exponential> = std::iter::once(drift).chain(waves.iter().map(wave)).collect();
+        let drift = Exponential { rate: [zero(), zero()], polynomial: drift };
+        let all: Vec<Exponential> = std::iter::once(drift).chain(modes.iter().map(wave)).collect();
         Exponential::total(&all, count)
     }
 }
 
 impl Over<'_> {
-    /// The first modes, which are those for each value of the symbol: a frequency that is the n-th for one value is it for
-    /// all, since frequencies of a line are never equal.
+    /// The first modes, which are those for each value of the symbol: a frequency that is the n-th for one value is the n-th
+    /// for all, since no two modes of a line share a frequency, so that their order cannot change.
     ///
     /// # Errors
-    /// [`NotOverSymbol::Modes`] for what has none; [`NotOverSymbol::Ball`] where a frequency varies too much.
-    pub fn modes(&self, count: usize) -> Outcome<Modes> {
+    /// [`NotOverSymbol::Modes`] for what has none; [`NotOverSymbol::Frequency`] where one is not enclosed.
+    pub fn modes(&self, count: usize) -> Outcome<SumOfModes> {
         let value = |value: &_| self.symbol.fraction(value).map_err(NotOverSymbol::from);
+        let refused = |term| {
+            let observable = self.measured.name.clone();
+            NotOverSymbol::Modes(NotRepresented::Observable { observable, term })
+        };
         let MeasuredValue::Linear(terms) = &self.measured.value else {
-            return Err(NotOverSymbol::Modes);
+            return Err(refused(NotSeen::Energy));
         };
         let layout = &self.scaled.layout;
         let bars = Bar::all(self.scaled, layout, value)?;
         let nodes = layout.nodes.iter().map(|node| node.map(value));
         let nodes = nodes.collect::<Outcome<Vec<Node<Varying>>>>()?;
-        let chain = Chain { bars: &bars, nodes: &nodes, bits: BITS };
-        let parts = chain.parts(|_| String::new()).map_err(|_| NotOverSymbol::Modes)?;
-        let held = chain.held();
+        let line = ModalLine { bars: &bars, nodes: &nodes, bits: BITS };
+        let name = |element: ElementIndex| self.scaled.scene().elements[element].name.clone();
+        let parts = line.parts(name)?;
+        let held = line.held();
         let middle = |own: &Varying| own.coefficient(0).midpoint().to_double();
         let doubles: Vec<Part> = parts.iter().map(|part| part.map(middle)).collect();
         let mut modes = Vec::with_capacity(count);
-        for near in frequencies(&doubles, held, chain.drifts(), count) {
+        for near in frequencies(&doubles, held, line.drifts(), count) {
             let frequency = near.map(|near| frequency(&parts, held, near)).transpose()?;
-            modes.push(chain.mode(Shape::of(&parts, held[0], frequency, BITS)?)?);
+            modes.push(line.mode(Shape::of(&parts, held[0], frequency, BITS)?)?);
         }
         let unit = self.symbol.root(&self.measured.unit)?;
         let term = |own: &Term| {
@@ -90,18 +92,18 @@ impl Over<'_> {
             Ok(Term { coefficient: own.coefficient.multiply(&unit, BITS), ..own })
         };
         let terms = terms.iter().map(term).collect::<Outcome<Vec<Term<Varying>>>>()?;
-        Ok(Modes(chain.sum(&terms, &modes)?.ok_or(NotOverSymbol::Modes)?))
+        Ok(SumOfModes(line.sum(&terms, &modes)?.ok_or(refused(NotSeen::Other))?))
     }
 }
 
 /// An enclosure of the frequency that is near a double at the middle of the values.
 ///
-/// What is to vanish at the right end, `u` or `S`, has one sign at one end of the enclosure and the other at the other, so it
-/// vanishes between; and since the angle of Prüfer rises, the other of the two vanishes once between two such
-/// frequencies. It vanishes nowhere in the enclosure, so there is but one.
+/// The condition at the right end, `u = 0` or `S = 0`, changes its sign across the enclosure for every value of the symbol, so a
+/// frequency lies inside. Between two such frequencies the other of `u` and `S` has a zero, since the Prüfer angle rises
+/// strictly; in the enclosure it has none, so the frequency is the only one.
 ///
 /// # Errors
-/// [`NotOverSymbol::Ball`] where it varies too much.
+/// [`NotOverSymbol::Frequency`] where it varies too much to be enclosed.
 pub fn frequency(parts: &[Part<Varying>], held: [bool; 2], near: f64) -> Outcome<Varying> {
     let shape = |frequency: &Varying| Shape::of(parts, held[0], Some(frequency.clone()), BITS);
     let correction = |frequency: &Varying| {
@@ -115,14 +117,14 @@ pub fn frequency(parts: &[Part<Varying>], held: [bool; 2], near: f64) -> Outcome
     }
     let [first, now] = [&near, &Rational::from(frequency.coefficient(0).midpoint())];
     if (now - first).abs() * Rational::from_integer(NEAR.into()) > *first {
-        return Err(BallError::DivisorMayBeZero.into());
+        return Err(NotOverSymbol::Frequency);
     }
     let (vanishing, other) = if held[1] { (0, 1) } else { (1, 0) };
     let mut width = correction(&frequency)?.magnitude().scale(1);
     for _ in 0..WIDENINGS {
         let away: Varying = Ball::new(width.to_binary(), Magnitude::ZERO).into();
         let sign = |frequency: &Varying, of: usize| -> Result<Option<Ordering>, BallError> {
-            Ok(shape(frequency)?.left_of(parts.len())[of].range().sign())
+            Ok(shape(frequency)?.right_end()[of].range().sign())
         };
         let signs = [
             sign(&frequency.subtract(&away, BITS), vanishing)?,
@@ -137,5 +139,5 @@ pub fn frequency(parts: &[Part<Varying>], held: [bool; 2], near: f64) -> Outcome
         }
         width = width.scale(2);
     }
-    Err(BallError::DivisorMayBeZero.into())
+    Err(NotOverSymbol::Frequency)
 }

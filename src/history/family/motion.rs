@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use wavestep_polynomial::Rational;
 
-/// So many powers of time are kept on a step, on which no rate of a node is above two.
+/// Powers of time kept on a step; no rate of a node, a load or a mode exceeds two per step.
 pub(super) const TERMS: usize = 20;
 
 /// What an observable is made of.
@@ -84,19 +84,19 @@ impl NodeState {
     }
 }
 
-/// A node, and its state at the start.
+/// A node, its state at the start, and its loads.
 pub(super) struct SteppedNode {
     pub(super) node: Node<Varying>,
     pub(super) system: System<Varying>,
     pub(super) passivity: Passivity,
     pub(super) start: NodeState,
-    pub(super) driven: Vec<Loading>,
+    pub(super) loads: Vec<Loading>,
 }
 
 /// A force or a velocity that is given on some steps.
 pub(super) struct Loading {
     pub(super) acts: Range<usize>,
-    /// How fast it changes at most.
+    /// The largest `|μ|` of its terms, per step.
     pub(super) rate: Magnitude,
     /// It on each step, as if it acted there.
     pub(super) course: Vec<OnStep>,
@@ -197,8 +197,8 @@ impl Motion {
                 Side::Bar(bar) => self.entered((bar, direction), self.bars[bar].lag, at),
                 _ => OnStep::constant(&Varying::zero()),
             });
-            let driven = place.driven.iter().map(|own| own.on(at));
-            place.solve(state, arriving.into_iter().chain(driven).collect())
+            let loads = place.loads.iter().map(|own| own.on(at));
+            place.solve(state, arriving.into_iter().chain(loads).collect())
         };
         self.nodes.iter().enumerate().map(solve).collect()
     }
@@ -249,7 +249,7 @@ impl Motion {
             Summand::Square(factors, of) => {
                 self.sum_along(path, factors, of).iter().map(OnStep::square).collect()
             }
-            Summand::InBar { bar, of } => self.held(*bar, *of, path),
+            Summand::InBar { bar, of } => self.stored(*bar, *of, path),
         }
     }
 
@@ -268,7 +268,7 @@ impl Motion {
 
     /// What a bar holds: at the start what its waves bring in a travel time, then what enters less what arrives. An
     /// endless bar loses nothing; one that holds something at the start is refused when its scene is read.
-    fn held(&self, bar: usize, of: fn(&OnStep) -> OnStep, path: &[Continued]) -> Vec<OnStep> {
+    fn stored(&self, bar: usize, of: fn(&OnStep) -> OnStep, path: &[Continued]) -> Vec<OnStep> {
         let own = &self.bars[bar];
         let directions = (0..2).filter(|d| own.ends[*d].is_some() || own.lag.is_some());
         let directions: Vec<usize> = directions.collect();
@@ -342,11 +342,11 @@ impl SteppedNode {
         ((0..start.len()).map(entry).collect(), left)
     }
 
-    /// What the node does on a step that begins with this state, where waves arrive from the left and from the right and loads
-    /// act.
+    /// What the node does on a step that begins with this state, where waves arrive from both sides and loads act.
     ///
     /// `P` solves `y' = A y + B u` up to a residual `ρ`, what is rounded and what the last term leaves. So the error
-    /// `e = y − P` obeys `e' = A e + B e_u + ρ`: where it begins with `|e| ≤ ε`, it is `ε + ∫|ρ| + |B e_u| ∫|e^(Ax)|` at most.
+    /// `e = y − P` obeys `e' = A e + B e_u + ρ`: where it begins with `|e| ≤ ε`, it is `ε + ∫|ρ| + |B e_u| ∫|e^(Ax)|` at most,
+    /// in the energy norm of a block, in which `|e^(Ax)| ≤ 1`.
     fn solve(&self, start: &NodeState, acting: Vec<OnStep>) -> Solved {
         let (system, blocks) = (&self.system, &self.passivity.blocks);
         debug_assert!(acting.iter().all(|own| own.coefficients.len() <= TERMS));

@@ -246,7 +246,7 @@ fn the_usual_window_is_told() {
         ("pile --max toe_force", false),
     ] {
         let (code, _, errors) = run(anywhere(), &words(&format!("find {line}")));
-        let note = "note: it is at the end of the default window; give --to to look beyond\n";
+        let note = "note: the default window ends where the value is largest; a larger one may follow: give --to\n";
         assert_eq!((code, errors.as_str()), (0, if is_noted { note } else { "" }), "{line}");
     }
 }

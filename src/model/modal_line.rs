@@ -1,15 +1,15 @@
 //! A conservative line in its modes, in doubles or in enclosures.
 
-use crate::ball::BallError;
+use crate::ball::{BallError, Trigonometric};
 use crate::model::error::NotRepresented;
 use crate::model::line::Bar;
-use crate::model::shape::{Part, Shape, Swinging};
+use crate::model::shape::{Part, Shape};
 use crate::network::{ElementLaw, Face, Field, Lump, Node, Reading, Side, Term};
 use crate::scene::ElementIndex;
 
 /// The bars and nodes of a line, from left to right.
 #[derive(Clone, Copy)]
-pub(crate) struct Chain<'a, V> {
+pub(crate) struct ModalLine<'a, V> {
     pub bars: &'a [Bar<V>],
     pub nodes: &'a [Node<V>],
     pub bits: u64,
@@ -26,14 +26,15 @@ pub(crate) struct Mode<V> {
 }
 
 /// `c + s t + Σ (a cos ωt + b sin ωt)`
-pub(crate) struct Sum<V> {
+#[derive(Clone, PartialEq, Debug)]
+pub struct Vibration<V = f64> {
     /// `c` and `s`.
     pub drift: [V; 2],
     /// `ω`, `a` and `b` of each mode.
-    pub waves: Vec<[V; 3]>,
+    pub modes: Vec<[V; 3]>,
 }
 
-impl<'a, V: Swinging> Chain<'a, V> {
+impl<'a, V: Trigonometric> ModalLine<'a, V> {
     /// The parts of the line from left to right.
     ///
     /// # Errors
@@ -118,9 +119,13 @@ impl<'a, V: Swinging> Chain<'a, V> {
     ///
     /// # Errors
     /// Those of enclosures.
-    pub fn sum(&self, terms: &[Term<V>], modes: &[Mode<V>]) -> Result<Option<Sum<V>>, BallError> {
+    pub fn sum(
+        &self,
+        terms: &[Term<V>],
+        modes: &[Mode<V>],
+    ) -> Result<Option<Vibration<V>>, BallError> {
         let bits = self.bits;
-        let mut sum = Sum { drift: [V::zero(), V::zero()], waves: Vec::new() };
+        let mut sum = Vibration { drift: [V::zero(), V::zero()], modes: Vec::new() };
         for Term { coefficient, of } in terms {
             if let Reading::InBar(Field::Force, section) = of {
                 let strained = coefficient.multiply(&self.bars[section.bar].force, bits);
@@ -144,37 +149,37 @@ impl<'a, V: Swinging> Chain<'a, V> {
     fn seen(&self, reading: &Reading<V>, shape: &Shape<V>) -> Result<Option<[V; 2]>, BallError> {
         let at = |lump: Lump| shape.left_of(self.part_of_node(lump.node) + lump.place);
         let law = |lump: Lump| &self.nodes[lump.node].elements[lump.place].law;
-        let none = V::zero;
+        let zero = V::zero;
         Ok(Some(match reading {
             Reading::InBar(field, section) => {
                 let part = self.part_of_bar(section.bar);
                 let [u, pulled] = shape.section(part, section.distance(), self.bits)?;
                 match field {
-                    Field::Velocity => [none(), u],
-                    Field::Displacement => [u, none()],
-                    Field::Force => [pulled.negate(), none()],
+                    Field::Velocity => [zero(), u],
+                    Field::Displacement => [u, zero()],
+                    Field::Force => [pulled.negate(), zero()],
                 }
             }
             Reading::Momentum(bar) => {
                 let part = self.part_of_bar(*bar);
-                [none(), self.bars[*bar].impedance.multiply(shape.integral(part), self.bits)]
+                [zero(), self.bars[*bar].impedance.multiply(shape.integral(part), self.bits)]
             }
-            Reading::Velocity(Face::Left(lump)) => [none(), at(*lump)[0].clone()],
-            Reading::Displacement(Face::Left(lump)) => [at(*lump)[0].clone(), none()],
+            Reading::Velocity(Face::Left(lump)) => [zero(), at(*lump)[0].clone()],
+            Reading::Displacement(Face::Left(lump)) => [at(*lump)[0].clone(), zero()],
             // Beyond a damper, which modes refuse.
             Reading::Velocity(Face::Right(_)) | Reading::Displacement(Face::Right(_)) => {
                 return Ok(None);
             }
             Reading::Compression(lump) => match law(*lump) {
                 ElementLaw::Spring { stiffness, .. } => {
-                    [at(*lump)[1].negate().quotient(stiffness, self.bits)?, none()]
+                    [at(*lump)[1].negate().quotient(stiffness, self.bits)?, zero()]
                 }
                 _ => return Ok(None),
             },
             Reading::Force(lump) => match law(*lump) {
-                ElementLaw::Spring { .. } => [at(*lump)[1].negate(), none()],
+                ElementLaw::Spring { .. } => [at(*lump)[1].negate(), zero()],
                 ElementLaw::Support { stiffness, .. } => {
-                    [stiffness.multiply(&at(*lump)[0], self.bits), none()]
+                    [stiffness.multiply(&at(*lump)[0], self.bits), zero()]
                 }
                 _ => return Ok(None),
             },
@@ -191,23 +196,29 @@ impl<'a, V: Swinging> Chain<'a, V> {
     }
 }
 
-impl<V: Swinging> Mode<V> {
+impl<V: Trigonometric> Mode<V> {
     /// Adds it with factors of `q` and `q'`.
-    fn add_to(&self, sum: &mut Sum<V>, [x, v]: [V; 2], bits: u64) -> Result<(), BallError> {
+    fn add_to(
+        &self,
+        sum: &mut Vibration<V>,
+        [of_q, of_rate]: [V; 2],
+        bits: u64,
+    ) -> Result<(), BallError> {
         let (constant, slope);
         match self.shape.frequency() {
             None => {
-                constant = v.multiply(&self.velocity, bits);
-                slope = x.multiply(&self.velocity, bits);
+                constant = of_rate.multiply(&self.velocity, bits);
+                slope = of_q.multiply(&self.velocity, bits);
             }
             Some(frequency) => {
-                let speed = self.velocity.quotient(frequency, bits)?;
-                let push = self.push.quotient(frequency, bits)?;
-                let bent = x.multiply(&push, bits).quotient(frequency, bits)?;
-                let cosine = v.multiply(&self.velocity, bits).subtract(&bent, bits);
-                let sine = x.multiply(&speed, bits).add(&v.multiply(&push, bits), bits);
+                let amplitude = self.velocity.quotient(frequency, bits)?;
+                let pushed = self.push.quotient(frequency, bits)?;
+                let bent = of_q.multiply(&pushed, bits).quotient(frequency, bits)?;
+                let cosine = of_rate.multiply(&self.velocity, bits).subtract(&bent, bits);
+                let sine =
+                    of_q.multiply(&amplitude, bits).add(&of_rate.multiply(&pushed, bits), bits);
                 if !cosine.is_zero() || !sine.is_zero() {
-                    sum.waves.push([frequency.clone(), cosine, sine]);
+                    sum.modes.push([frequency.clone(), cosine, sine]);
                 }
                 (constant, slope) = (bent, V::zero());
             }
