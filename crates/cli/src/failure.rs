@@ -258,7 +258,7 @@ fn for_network(error: &NetworkError) -> Option<&'static str> {
 fn for_evaluate(error: &EvaluateError) -> Option<&'static str> {
     Some(match error {
         EvaluateError::AccuracyNotReached { .. } => {
-            "ask for one digit more or fewer: the value may lie too close to a rounding boundary; or raise --max-bits"
+            "raise --max-bits, or ask for one digit more or fewer: the value may lie too close to a rounding boundary"
         }
         EvaluateError::EmptyWindow => WINDOW,
         _ => return None,
