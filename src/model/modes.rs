@@ -1,7 +1,7 @@
 //! A line as the sum of its first modes of vibration.
 //!
 //! A conservative line of bars, masses and springs swings in modes `u_n(x) cos ω_n t`. The frequencies
-//! are found one by one by the angle of Prüfer, which counts them, so that none is missed; then the
+//! are found one by one by the Prüfer angle, which counts them, so that none is missed; then the
 //! motion at the start is projected onto each mode with exact integrals over the uniform bars.
 //!
 //! Error law (measured, not proven): with `N` modes the mean error over time falls at least like `1/N`,
