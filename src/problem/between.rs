@@ -5,17 +5,16 @@
 
 use super::enough_map::{MapRequest, middle};
 use super::{Problem, ProblemError, Simpler};
-use crate::ball::Arithmetic as _;
 use crate::expression::{Fraction, Root};
 use crate::history::family::envelope::{Ends, Envelope, StepWindow};
+use crate::history::family::grid::Grid;
 use crate::history::family::modes::SumOfModes;
-use crate::history::family::on_step::OnStep;
-use crate::history::family::{Followed, NotOverSymbol, Over};
+use crate::history::family::on_cell::OnCell;
+use crate::history::family::{Change, Followed, NotOverSymbol, Over};
 use crate::language;
 use crate::limits::MAX_PARTS_OVER_SYMBOL;
 use crate::network::ScaledScene;
 use crate::recurrence::ObservedWave;
-use crate::signal::Varying;
 use num_traits::One as _;
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
@@ -67,6 +66,9 @@ impl Unproven {
     }
 }
 
+/// How often two scenes are followed again, each with the cuts of the other.
+const ROUNDS: usize = 4;
+
 /// What is compared with a scene.
 enum Compared<'a> {
     Scene(&'a ScaledScene),
@@ -115,12 +117,13 @@ enum Decided {
     Not,
 }
 
-/// The scene for some values of the symbol, in steps.
+/// The scene for some values of the symbol, on a grid.
 struct Exact {
-    step: Root,
+    /// The grid before contacts cut it.
+    asked: Grid,
     window: StepWindow,
     followed: Followed,
-    observed: Vec<OnStep>,
+    observed: Vec<OnCell>,
     size: Envelope,
     /// Sizes that are reached, and sizes that are never passed.
     reached: Option<Ends>,
@@ -168,7 +171,7 @@ impl Problem {
         match (simpler, changed) {
             (Simpler::Arrivals(count), _) => {
                 let arrivals = self.arrivals(asked.quantity, *count).map_err(told)?;
-                let why = "echoes cannot be counted: it is an energy, or the travel times have no common period";
+                let why = "echoes cannot be counted: it is an energy, contacts open, or the travel times have no common period";
                 Ok(Compared::FirstArrivals(arrivals.ok_or_else(|| Unproven::because(why))?))
             }
             (Simpler::Modes(count), _) => Ok(Compared::Modes(*count)),
@@ -233,7 +236,8 @@ impl Problem {
         count: usize,
     ) -> Result<Option<Arrivals>, ProblemError> {
         let (network, wanted) = (self.network()?, self.wanted(quantity)?);
-        let Some(seen) = wanted.observation() else { return Ok(None) };
+        let seen = wanted.observation().filter(|_| !network.scene().contacts_open);
+        let Some(seen) = seen else { return Ok(None) };
         let [period] = network.lattice().periods() else { return Ok(None) };
         let wave =
             |wave: &ObservedWave| Some((wave.delay.clone(), wave.coefficient.as_fraction()?));
@@ -359,26 +363,23 @@ impl Proof<'_> {
             Compared::FirstArrivals(arrivals) => Beside::FirstArrivals(arrivals),
             Compared::Modes(count) => Beside::Modes(own.modes(*count)?),
         };
-        let step = match &other {
-            Beside::Scene(other) => Over::step(&[&own, other], None),
-            Beside::FirstArrivals(_) => Over::step(&[&own], None),
-            Beside::Modes(modes) => Over::step(&[&own], Some(modes)),
+        let grid = match &other {
+            Beside::Scene(other) => Over::grid(&[&own, other], None),
+            Beside::FirstArrivals(_) => Over::grid(&[&own], None),
+            Beside::Modes(modes) => Over::grid(&[&own], Some(modes)),
         }?;
-        let place = match known.iter().position(|exact| exact.step == step) {
-            Some(place) => place,
-            None => {
-                known.push(self.exact(&own, step)?);
-                known.len() - 1
-            }
+        let (place, followed) = match &other {
+            Beside::Scene(other) => self.both(&own, other, grid, known)?,
+            _ => (self.place(&own, (grid, &[]), known)?, None),
         };
         let exact = &mut known[place];
-        let (step, count) = (&exact.step, exact.observed.len());
-        // From a step on both differ, as these functions do.
+        let (grid, count) = (exact.followed.grid.clone(), exact.observed.len());
+        // From a cell on both differ, as these functions do.
         let (first, other) = match other {
-            Beside::Scene(other) => (0, other.follow(step, count)?.observed()),
-            Beside::Modes(modes) => (0, modes.on_steps(count, &own.length(step)?)?),
+            Beside::Scene(_) => (0, followed.expect("it is followed").observed()),
+            Beside::Modes(modes) => (0, modes.on_cells(&grid, count, &own.length(&grid.step)?)?),
             Beside::FirstArrivals(arrivals) => {
-                let steps = arrivals.steps((&own, step), count, &exact.window)?;
+                let steps = arrivals.steps((&own, &grid.step), count, &exact.window)?;
                 let Some(steps) = steps else { return Ok(false) };
                 match steps[arrivals.count.saturating_sub(1).min(steps.len())..] {
                     [last, next, ..] => (next, exact.followed.observed_after(last)?),
@@ -386,10 +387,10 @@ impl Proof<'_> {
                 }
             }
         };
-        let mut off = vec![OnStep::constant(&Varying::zero()); first];
+        let mut off = vec![OnCell::zero(); first];
         let both = exact.observed.iter().zip(&other).skip(first);
         off.extend(both.map(|(one, other)| one.less(other)));
-        let off = Envelope::of(&off, &exact.window);
+        let off = Envelope::of(&off, &grid, &exact.window);
         let Some(reached) = &exact.reached else { return Ok(false) };
         if claim.is_enough {
             return Ok(off.is_within(&scaled(reached, self.tolerance)));
@@ -398,15 +399,47 @@ impl Proof<'_> {
         Ok(off.iter().zip(&scaled(most, self.tolerance)).all(|(off, most)| off > most))
     }
 
-    /// The scene, followed in such steps.
-    fn exact(&self, over: &Over<'_>, step: Root) -> Result<Exact, NotOverSymbol> {
-        let [from, to] = self.window.each_ref().map(|time| over.in_steps(time, &step));
+    /// The scene and another one, followed on one grid, which has the cuts of both.
+    fn both(
+        &self,
+        own: &Over<'_>,
+        other: &Over<'_>,
+        mut grid: Grid,
+        known: &mut Vec<Exact>,
+    ) -> Result<(usize, Option<Followed>), NotOverSymbol> {
+        let mut closings = [Vec::new(), Vec::new()];
+        for _ in 0..ROUNDS {
+            let place = self.place(own, (grid, &closings[0]), known)?;
+            let exact = &known[place];
+            let count = exact.window.count();
+            let followed = other.follow(&exact.followed.grid, &closings[1], count)?;
+            if followed.grid == exact.followed.grid {
+                return Ok((place, Some(followed)));
+            }
+            closings = [exact.followed.closings.clone(), followed.closings];
+            grid = followed.grid;
+        }
+        Err(NotOverSymbol::Undecided)
+    }
+
+    /// The place among those that are known of the scene followed on a grid.
+    fn place(
+        &self,
+        own: &Over<'_>,
+        (grid, closings): (Grid, &[Change]),
+        known: &mut Vec<Exact>,
+    ) -> Result<usize, NotOverSymbol> {
+        if let Some(place) = known.iter().position(|exact| exact.asked == grid) {
+            return Ok(place);
+        }
+        let [from, to] = self.window.each_ref().map(|time| own.in_steps(time, &grid.step));
         let window = StepWindow { from: from?, to: to? };
-        let followed = over.follow(&step, window.count())?;
+        let followed = own.follow(&grid, closings, window.count())?;
         let observed = followed.observed();
-        let size = Envelope::of(&observed, &window);
-        let reached = size.reached();
-        Ok(Exact { step, window, followed, observed, size, reached, most: OnceCell::new() })
+        let size = Envelope::of(&observed, &followed.grid, &window);
+        let (reached, most) = (size.reached(), OnceCell::new());
+        known.push(Exact { asked: grid, window, followed, observed, size, reached, most });
+        Ok(known.len() - 1)
     }
 }
 

@@ -34,7 +34,7 @@ const WIDE: i64 = 1 << 20;
 ///
 /// # Invariants
 /// - holds for one choice of points in the balls `c_m`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Taylor<V = Ball> {
     /// `c_0, c_1, …`
     pub coefficients: Vec<V>,

@@ -27,6 +27,7 @@ mod lock;
 mod measures;
 mod methods;
 mod models;
+mod opening_over_symbol;
 mod over_symbol;
 mod phases_fields;
 mod products;

@@ -6,8 +6,9 @@ use wavestep::ball::{Arithmetic, Ball, Binary, ComplexBall, Magnitude};
 use wavestep::expression::Fraction;
 use wavestep::history::family::Over;
 use wavestep::history::family::envelope::{Envelope, StepWindow};
+use wavestep::history::family::grid::Grid;
 use wavestep::history::family::modes::frequency;
-use wavestep::history::family::on_step::OnStep;
+use wavestep::history::family::on_cell::OnCell;
 use wavestep::model::shape::Part;
 use wavestep::model::{Model as _, Modes};
 use wavestep::planner::Purpose;
@@ -20,27 +21,32 @@ const BITS: u64 = 96;
 /// Told values are evaluated with more bits than they have.
 const FINE: u64 = 256;
 
-fn rational(numerator: i64, denominator: i64) -> Rational {
+pub(super) fn rational(numerator: i64, denominator: i64) -> Rational {
     Rational::new(numerator.into(), denominator.into())
 }
 
 /// A scene whose statements may be indented.
-fn scene(text: &str) -> Problem {
+pub(super) fn scene(text: &str) -> Problem {
     let lines: Vec<&str> = text.lines().map(str::trim).collect();
     Problem::read("test.wave", lines.join("\n")).unwrap()
 }
 
 /// So far between two values.
-fn at([low, high]: [&Rational; 2], place: &Rational) -> Rational {
+pub(super) fn at([low, high]: [&Rational; 2], place: &Rational) -> Rational {
     low + (high - low) * place
 }
 
+/// Steps that are one cell each.
+fn whole() -> Grid {
+    Grid::new(Fraction::one().into(), 1).unwrap()
+}
+
 /// The value at a parameter, which goes from −1 to 1 between two values.
-fn of_varying(own: &Varying, parameter: &Rational) -> Ball {
+pub(super) fn of_varying(own: &Varying, parameter: &Rational) -> Ball {
     own.value(&Ball::from_rational(parameter, FINE), FINE)
 }
 
-fn of_step(own: &OnStep, x: &Rational, parameter: &Rational) -> Ball {
+pub(super) fn of_step(own: &OnCell, x: &Rational, parameter: &Rational) -> Ball {
     let x = Ball::from_rational(x, FINE);
     let terms = own.coefficients.iter().rev();
     let sum = terms
@@ -48,7 +54,7 @@ fn of_step(own: &OnStep, x: &Rational, parameter: &Rational) -> Ball {
     sum.widened(&own.error)
 }
 
-fn meet(one: &Ball, [low, high]: &[Rational; 2]) -> bool {
+pub(super) fn meet(one: &Ball, [low, high]: &[Rational; 2]) -> bool {
     let (from, to) = one.endpoints();
     Rational::from(&from) <= *high && *low <= Rational::from(&to)
 }
@@ -119,8 +125,8 @@ fn sizes_hold_between_the_ends_of_a_symbol() {
         (below, &|x| rational(5, 1) - square(&(x - rational(3, 1)))),
     ];
     for (varying, exact) in functions {
-        let step = OnStep { coefficients: vec![varying], error: Magnitude::ZERO };
-        let envelope = Envelope::of(&[step], &window);
+        let step = OnCell::new(vec![varying], Magnitude::ZERO);
+        let envelope = Envelope::of(&[step], &whole(), &window);
         let reached = envelope.reached().unwrap();
         let mean =
             |ends: &[Rational; 2], place: &Rational| &ends[1] + (&ends[0] - &ends[1]) * place;
@@ -149,7 +155,7 @@ fn sizes_hold_between_the_ends_of_a_symbol() {
             from: [rational(1, 4), rational(1, 2)],
             to: [rational(3, 4), rational(7, 8)],
         };
-        Envelope::of(&[OnStep { coefficients, error: Magnitude::ZERO }], &window)
+        Envelope::of(&[OnCell::new(coefficients, Magnitude::ZERO)], &whole(), &window)
     };
     for (falls, reached, most) in
         [(false, rational(3, 4), rational(7, 8)), (true, rational(1, 2), rational(3, 4))]
@@ -162,8 +168,8 @@ fn sizes_hold_between_the_ends_of_a_symbol() {
     }
     // Of both signs it is zero between.
     let across = x.subtract(&Varying::constant(&rational(3, 2), BITS), BITS);
-    let step = OnStep { coefficients: vec![across], error: Magnitude::ZERO };
-    assert_eq!(Envelope::of(&[step], &window).reached(), None);
+    let step = OnCell::new(vec![across], Magnitude::ZERO);
+    assert_eq!(Envelope::of(&[step], &whole(), &window).reached(), None);
 }
 
 /// At sampled values of the symbol and sampled instants the values that are proven one by one lie in the enclosure that
@@ -252,10 +258,10 @@ fn enclosures_over_a_symbol_hold_single_values() {
                 let over =
                     Over::new(other.scaled().unwrap(), quantity, (&symbol_of, ends.each_ref()));
                 let over = [over.unwrap()];
-                let step = Over::step(&[&over[0]], None).unwrap();
-                let [_, last] = over[0].in_steps(&Fraction::constant(&to), &step).unwrap();
+                let grid = Over::grid(&[&over[0]], None).unwrap();
+                let [_, last] = over[0].in_steps(&Fraction::constant(&to), &grid.step).unwrap();
                 let window = StepWindow { from: Default::default(), to: [last.clone(), last] };
-                let mut followed = match over[0].follow(&step, window.count()) {
+                let mut followed = match over[0].follow(&grid, &[], window.count()) {
                     Ok(followed) => followed,
                     Err(error) => {
                         assert!(error.may_pass_if_narrower(), "{name}: {quantity}: {error}");
@@ -279,7 +285,7 @@ fn enclosures_over_a_symbol_hold_single_values() {
                     let length =
                         Over::new(other.scaled().unwrap(), quantity, (&symbol_of, [&own; 2]))
                             .unwrap();
-                    let [_, per_unit] = length.in_steps(&Fraction::one(), &step).unwrap();
+                    let [_, per_unit] = length.in_steps(&Fraction::one(), &grid.step).unwrap();
                     let time_of = |number: usize, x: &Rational| {
                         // The instant, rounded where the length of a step is no rational number.
                         (rational(number as i64, 1) + x) / &per_unit
@@ -330,7 +336,7 @@ fn enclosures_over_a_symbol_hold_single_values() {
                     }
                 }
                 // The largest size is between what is reached and what is never passed.
-                let envelope = Envelope::of(&told, &window);
+                let envelope = Envelope::of(&told, &grid, &window);
                 let Some(reached) = envelope.reached() else { continue };
                 assert!(!envelope.is_within(&reached.map(|own| own * rational(99, 100))));
             }
@@ -374,9 +380,10 @@ fn what_is_left_out_over_a_symbol_is_counted() {
     for (problem, exact, most) in cases {
         let scaled = problem.scaled().unwrap();
         let over = Over::new(scaled, "velocity", (&symbol, ends.each_ref())).unwrap();
-        let step = Over::step(&[&over], None).unwrap();
-        let [_, per_unit] = over.in_steps(&Fraction::one(), &step).unwrap();
-        for (number, on_step) in over.follow(&step, 200).unwrap().observed().iter().enumerate() {
+        let grid = Over::grid(&[&over], None).unwrap();
+        let [_, per_unit] = over.in_steps(&Fraction::one(), &grid.step).unwrap();
+        for (number, on_step) in over.follow(&grid, &[], 200).unwrap().observed().iter().enumerate()
+        {
             let exact = exact(rational(2 * number as i64 + 1, 2) / &per_unit);
             let told = of_step(on_step, &rational(1, 2), &rational(-1, 1));
             assert!(told.subtract(&exact, FINE).contains_zero(), "{number}: {told:?}");
@@ -419,14 +426,14 @@ fn modes_over_a_symbol_hold_those_in_doubles() {
                 }
                 Ok(modes) => modes,
             };
-            let step = Over::step(&[&over], Some(&modes)).unwrap();
-            let told = modes.on_steps(24, &over.length(&step).unwrap()).unwrap();
+            let grid = Over::grid(&[&over], Some(&modes)).unwrap();
+            let told = modes.on_cells(&grid, 24, &over.length(&grid.step).unwrap()).unwrap();
             for share in [rational(0, 1), rational(2, 7), rational(1, 1)] {
                 let own = at(ends.each_ref(), &share);
                 let single = problem.substituted(symbol, own.clone()).unwrap();
                 let single = Modes::new(single.network().unwrap(), count).unwrap();
                 let length = Over::new(scaled, quantity, (&symbol_of, [&own; 2])).unwrap();
-                let [_, per_unit] = length.in_steps(&Fraction::one(), &step).unwrap();
+                let [_, per_unit] = length.in_steps(&Fraction::one(), &grid.step).unwrap();
                 let parameter = &share * rational(2, 1) - rational(1, 1);
                 for (number, on_step) in told.iter().enumerate() {
                     let x = rational(3, 7);

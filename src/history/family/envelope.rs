@@ -1,27 +1,29 @@
 //! How large a function of time is at most and at least, for all values of a symbol.
 //!
-//! On a step `f(x, ν) = p₀(x) + p₁(x) ν + r` with `|r| ≤ R`, where the parameter `ν` of the symbol lies between −1 and 1. A
+//! On a cell `f(x, ν) = p₀(x) + p₁(x) ν + r` with `|r| ≤ R`, where the parameter `ν` of the symbol lies between −1 and 1. A
 //! linear function of `ν` lies between its ends, so sizes are told of both, `|p₀ ± p₁|` more or less `R`: in between they are
 //! no larger than the same mean of two bounds, and no smaller than that of two sizes that are reached at one instant. So sizes
 //! that change alike are compared as nearly as the curvature over the symbol allows.
 
-use super::on_step::OnStep;
-use crate::ball::{Arithmetic as _, Ball, Magnitude};
+use super::grid::Grid;
+use super::on_cell::OnCell;
+use super::opening::ends;
+use crate::ball::Ball;
 use crate::limits::MAX_SYMBOL_BITS as BITS;
 use crate::signal::{Taylor, middle_and_half};
-use num_traits::{One as _, ToPrimitive as _, Zero as _};
+use num_traits::{One as _, Signed as _, ToPrimitive as _, Zero as _};
 use wavestep_polynomial::Rational;
 
-/// A step is sampled at the ends of this many equal parts.
+/// A cell is sampled at the ends of this many equal parts.
 const PARTS: i64 = 64;
 
 /// How often it is sampled again near the largest value that was found.
 const REFINED: usize = 2;
 
-/// How often a step is halved for a bound.
+/// How often a cell is halved for a bound.
 const DEPTH: usize = 14;
 
-/// A function on a step.
+/// A function on a cell.
 struct OneStep {
     /// Its part that the window has for some value of the symbol, and for every one where there is such.
     reach: [Rational; 2],
@@ -50,30 +52,27 @@ impl StepWindow {
 }
 
 impl Envelope {
-    /// A function on the steps of a window.
-    pub fn of(steps: &[OnStep], window: &StepWindow) -> Envelope {
-        let one = |(number, own): (usize, &OnStep)| {
-            let start = Rational::from_integer(number.into());
-            let part = |[from, to]: [&Rational; 2]| {
-                let part =
-                    [(from - &start).max(Rational::zero()), (to - &start).min(Rational::one())];
-                // The end of a step is the beginning of the next.
+    /// A function on the cells of a window.
+    pub fn of(cells: &[OnCell], grid: &Grid, window: &StepWindow) -> Envelope {
+        let one = |(cell, own): (usize, &OnCell)| {
+            let start = ends(&grid.start(cell));
+            let length = ends(grid.length(cell));
+            // The first place (0) and the last (1) at which a time may be on this cell.
+            let place = |time: &Rational, which: usize| {
+                let since = time - &start[1 - which];
+                let is_longest = since.is_negative() != (which == 0);
+                since / &length[usize::from(is_longest)]
+            };
+            let part = |[from, to]: [Rational; 2]| {
+                let part = [from.max(Rational::zero()), to.min(Rational::one())];
+                // The end of a cell is the beginning of the next.
                 (part[0] <= part[1] && !part[0].is_one()).then_some(part)
             };
-            let reach = part([&window.from[0], &window.to[1]])?;
-            let within = part([&window.from[1], &window.to[0]]);
-            let of_power = |k| {
-                let own = own.coefficients.iter().map(|own| own.coefficient(k)).collect();
-                Taylor { coefficients: own, remainder: Magnitude::ZERO }
-            };
-            let (middle, slope) = (of_power(0), of_power(1));
-            let rests = own.coefficients.iter().map(|own| own.tail(2));
-            let rest = rests.fold(own.error, |sum, rest| sum.add(&rest));
-            let ends = [middle.add(&slope, BITS), middle.subtract(&slope, BITS)];
-            let ends = ends.map(|end| Taylor { remainder: rest, ..end });
-            Some(OneStep { reach, within, ends })
+            let reach = part([place(&window.from[0], 0), place(&window.to[1], 1)])?;
+            let within = part([place(&window.from[1], 1), place(&window.to[0], 0)]);
+            Some(OneStep { reach, within, ends: own.ends() })
         };
-        Envelope(steps.iter().enumerate().filter_map(one).collect())
+        Envelope(cells.iter().enumerate().filter_map(one).collect())
     }
 
     /// Sizes at both ends of the symbol that are reached at one instant, as near to the largest as is found; none where

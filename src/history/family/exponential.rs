@@ -1,14 +1,15 @@
 //! Sums of `Re p(t) e^(μt)` over a symbol, step by step: loads and modes.
 
 use super::Outcome;
+use super::grid::Grid;
 use super::motion::TERMS;
-use super::on_step::OnStep;
+use super::on_cell::OnCell;
 use super::symbol::OverSymbol;
 use crate::ball::{Arithmetic as _, BallError, Magnitude};
 use crate::expression::{Expression, Fraction};
 use crate::limits::MAX_SYMBOL_BITS as BITS;
 use crate::signal::{Varying, complex_product, of_exponential};
-use wavestep_polynomial::{Rational, Symbol};
+use wavestep_polynomial::Symbol;
 
 /// A number with its real and its imaginary part.
 type Complex = [Varying; 2];
@@ -71,13 +72,13 @@ impl Exponential {
         Ok(Some(terms))
     }
 
-    /// The sum of the real parts on the first steps.
+    /// The sum of the real parts on the first cells.
     ///
     /// # Errors
     /// [`NotOverSymbol::Ball`](super::NotOverSymbol::Ball) where one is too large.
-    pub fn total(all: &[Exponential], count: usize) -> Outcome<Vec<OnStep>> {
-        let parts = all.iter().map(|own| own.on_steps(count)).collect::<Outcome<Vec<_>>>()?;
-        let sum = |step: usize| OnStep::total(parts.iter().map(|own| &own[step]));
+    pub fn total(all: &[Exponential], grid: &Grid, count: usize) -> Outcome<Vec<OnCell>> {
+        let parts = all.iter().map(|own| own.on_cells(grid, count)).collect::<Outcome<Vec<_>>>()?;
+        let sum = |cell: usize| OnCell::total(parts.iter().map(|own| &own[cell]));
         Ok((0..count).map(sum).collect())
     }
 
@@ -86,49 +87,64 @@ impl Exponential {
         size(&self.rate)
     }
 
-    /// Its real part on the first steps, with `p(n + x) e^(μn) = Σ_j p_j x^j` and `e^(μx) = Σ_i (μx)^i/i!`. Of the
-    /// product the powers of `x` from `N` = [`TERMS`] on are left out, `Σ_j |p_j| |μ|^(N−j)/(N−j)! e^|μ|` at most.
-    fn on_steps(&self, count: usize) -> Outcome<Vec<OnStep>> {
-        let rate = self.rate();
-        let most = of_exponential(&rate).ok_or(BallError::ArgumentTooLarge)?;
-        let mut left_out = vec![most];
-        for i in 1..=TERMS as u64 {
-            left_out.push(left_out[left_out.len() - 1].multiply(&rate).divide(i));
-        }
-        let mut series = vec![[Varying::one(), Varying::zero()]];
-        let terms = if rate.is_zero() { 1 } else { TERMS };
-        for i in 1..terms as u64 {
-            let next = complex_product(&series[series.len() - 1], &self.rate, BITS);
-            series.push(next.map(|part| part.over(i, BITS)));
-        }
-        (0..count).map(|step| self.on_step(step, &series, &left_out)).collect()
+    /// Its real part on the first cells. On one that begins at `n` and has a length `h` it is `p(n + hx) e^(μn) e^(μhx)`, with
+    /// `p(n + hx) e^(μn) = Σ_j p_j x^j` and `e^(μhx) = Σ_i (μhx)^i/i!`. Of the product the powers of `x` from `N` = [`TERMS`]
+    /// on are left out, `Σ_j |p_j| |μh|^(N−j)/(N−j)! e^|μh|` at most.
+    fn on_cells(&self, grid: &Grid, count: usize) -> Outcome<Vec<OnCell>> {
+        let series = |cell| Series::of(&scaled(&self.rate, grid.length(cell)));
+        let series = (0..grid.cells()).map(series).collect::<Outcome<Vec<_>>>()?;
+        (0..count).map(|cell| self.on_cell(grid, cell, &series[cell % grid.cells()])).collect()
     }
 
-    fn on_step(&self, step: usize, series: &[Complex], left_out: &[Magnitude]) -> Outcome<OnStep> {
-        let number = Varying::constant(&Rational::from_integer(step.into()), BITS);
+    fn on_cell(&self, grid: &Grid, cell: usize, series: &Series) -> Outcome<OnCell> {
+        let start = grid.start(cell);
         let mut shifted = self.polynomial.clone();
         for first in 0..shifted.len() {
             for k in (first..shifted.len() - 1).rev() {
-                let next = scaled(&shifted[k + 1], &number);
+                let next = scaled(&shifted[k + 1], &start);
                 shifted[k] = [0, 1].map(|part| shifted[k][part].add(&next[part], BITS));
             }
         }
-        let [x, y] = scaled(&self.rate, &number);
+        let [x, y] = scaled(&self.rate, &start);
         let factor = Varying::exp([&x, &y], BITS)?;
-        let count = TERMS.min(shifted.len() + series.len() - 1);
+        let count = TERMS.min(shifted.len() + series.terms.len() - 1);
         let mut sum = vec![Varying::zero(); count];
         let mut error = Magnitude::ZERO;
+        let mut power = Varying::one();
         for (j, own) in shifted.iter().enumerate() {
-            let own = complex_product(own, &factor, BITS);
-            for (sum, [x, y]) in sum[j..].iter_mut().zip(series) {
+            let own = scaled(&complex_product(own, &factor, BITS), &power);
+            power = power.multiply(grid.length(cell), BITS);
+            for (sum, [x, y]) in sum[j..].iter_mut().zip(&series.terms) {
                 let real = own[0].multiply(x, BITS).subtract(&own[1].multiply(y, BITS), BITS);
                 *sum = sum.add(&real, BITS);
             }
-            error = error.add(&size(&own).multiply(&left_out[TERMS - j]));
+            error = error.add(&size(&own).multiply(&series.left_out[TERMS - j]));
         }
         let (coefficients, off): (Vec<Varying>, Vec<Magnitude>) =
             sum.iter().map(Varying::split).unzip();
-        let error = off.iter().fold(error, |sum, own| sum.add(own));
-        Ok(OnStep { coefficients, error })
+        Ok(OnCell::new(coefficients, off.iter().fold(error, |sum, own| sum.add(own))))
+    }
+}
+
+/// `e^(μhx) = Σ_i (μhx)^i/i!`, and what is left out from each term on.
+struct Series {
+    terms: Vec<Complex>,
+    left_out: Vec<Magnitude>,
+}
+
+impl Series {
+    fn of(rate: &Complex) -> Outcome<Series> {
+        let most = size(rate);
+        let mut left_out = vec![of_exponential(&most).ok_or(BallError::ArgumentTooLarge)?];
+        for i in 1..=TERMS as u64 {
+            left_out.push(left_out[left_out.len() - 1].multiply(&most).divide(i));
+        }
+        let mut terms = vec![[Varying::one(), Varying::zero()]];
+        let count = if most.is_zero() { 1 } else { TERMS };
+        for i in 1..count as u64 {
+            let next = complex_product(&terms[terms.len() - 1], rate, BITS);
+            terms.push(next.map(|part| part.over(i, BITS)));
+        }
+        Ok(Series { terms, left_out })
     }
 }

@@ -6,14 +6,17 @@
 //! as in `passivity`: its matrices hold for all values at once.
 //!
 //! This file prepares a scene, and `exponential` its loads. `motion` follows it step by step, in functions on a step
-//! (`on_step`) with coefficients over the symbol (`symbol`); `modes` encloses its modes of vibration, and `envelope` bounds
+//! (`on_cell`) with coefficients over the symbol (`symbol`); `modes` encloses its modes of vibration, and `envelope` bounds
 //! sizes.
 
 pub mod envelope;
 mod exponential;
+pub mod grid;
 pub mod modes;
 mod motion;
-pub mod on_step;
+mod node;
+pub mod on_cell;
+mod opening;
 mod symbol;
 
 use crate::ball::{Arithmetic as _, BallError, Magnitude};
@@ -23,24 +26,39 @@ use crate::history::passivity::Passivity;
 use crate::limits::{MAX_STEPS_OVER_SYMBOL, MAX_SYMBOL_BITS as BITS};
 use crate::model::NotRepresented;
 use crate::network::{
-    ElementLaw, Elements, Energy, Field, Measured, MeasuredValue, ModelLoad, Node, Reading,
-    ScaledScene, Section, System, Term, common_measure,
+    Contacts, ElementLaw, Elements, Energy, Field, Layout, Measured, MeasuredValue, ModelLoad,
+    Node, Reading, ScaledScene, Section, System, Term, common_measure,
 };
 use crate::scene::ElementIndex;
 use crate::signal::Varying;
 use exponential::Exponential;
+use grid::Grid;
 use modes::SumOfModes;
-use motion::{Bar, Loading, Motion, NodeState, SteppedNode, Summand, TERMS};
+use motion::{Bar, Loading, Motion, Summand, TERMS};
+use node::{Begins, Closed, NodeState, SteppedNode, Stop, Way};
 use num_traits::{One as _, ToPrimitive as _, Zero as _};
-use on_step::OnStep;
+use on_cell::OnCell;
+use opening::{Opened, ends};
 use symbol::OverSymbol;
 use wavestep_polynomial::{Rational, Symbol};
+
+/// How often a scene is followed again with another cut.
+const MOST_CUTS: usize = 32;
+
+/// A contact that opens no longer than this before the end of a cell, as a power of two of its length, does at that end.
+const NEAR: u32 = 20;
 
 /// Why motions are not followed over a symbol.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum NotOverSymbol {
-    #[error("contacts that open and local contacts are not supported over a symbol")]
-    Contacts,
+    #[error("local contacts are not supported over a symbol")]
+    LocalContact,
+    #[error(
+        "a contact that opens at the start, beside a load or a spring without mass between, or that closes between two masses is not supported over a symbol"
+    )]
+    BesideContact,
+    #[error("it is not decided when contacts open and close")]
+    Undecided,
     #[error("`{0}` is not supported over a symbol: it has powers of time above {most}", most = TERMS - 1)]
     Load(String),
     #[error("the travel times have no common divisor for all values of the symbol")]
@@ -69,10 +87,11 @@ impl NotOverSymbol {
     /// Whether fewer values of the symbol at once may be followed.
     pub fn may_pass_if_narrower(&self) -> bool {
         use EnclosureError::NotReal;
-        use NotOverSymbol::{Ball, Frequency, TooManySteps, Unresisted, Value};
+        use NotOverSymbol::{Ball, Frequency, TooManySteps, Undecided, Unresisted, Value};
         matches!(
             self,
             TooManySteps
+                | Undecided
                 | Unresisted
                 | Frequency
                 | Ball(_)
@@ -86,6 +105,8 @@ type Outcome<T> = Result<T, NotOverSymbol>;
 /// A scene with a symbol, the values that it takes, and what is observed.
 pub struct Over<'a> {
     scaled: &'a ScaledScene,
+    /// With contacts that may open as links.
+    layout: Layout,
     measured: &'a Measured,
     symbol: OverSymbol<'a>,
 }
@@ -98,22 +119,24 @@ impl<'a> Over<'a> {
         name: &str,
         (symbol, between): (&'a Symbol, [&'a Rational; 2]),
     ) -> Outcome<Over<'a>> {
-        let (scene, model) = (scaled.scene(), scaled.model());
-        if scene.contacts_open || scaled.local_contact().is_some() {
-            return Err(NotOverSymbol::Contacts);
+        let model = scaled.model();
+        if scaled.local_contact().is_some() {
+            return Err(NotOverSymbol::LocalContact);
         }
         let measured = scaled.measures.iter().find(|own| own.name == name);
         let measured = measured.ok_or_else(|| NotOverSymbol::Unknown(name.to_owned()))?;
         let symbol = OverSymbol { symbol, between, constants: &model.constants };
-        Ok(Over { scaled, measured, symbol })
+        let layout = Layout::of(scaled.scene(), model, Contacts::of(scaled.scene()));
+        Ok(Over { scaled, layout, measured, symbol })
     }
 
-    /// The step for these scenes: the largest common measure of all travel times, of the times at which loads begin and end,
-    /// and of the delays of what is observed, halved until no rate of a node, a load or a mode exceeds two.
+    /// The steps for these scenes: the largest common measure of all travel times, of the times at which loads begin and end,
+    /// and of the delays of what is observed, halved until no rate of a node, a load or a mode exceeds two. Where contacts
+    /// open, steps are cut instead, and once more, since a cut may be left out.
     ///
     /// # Errors
     /// [`NotOverSymbol::NoCommonMeasure`]; else as [`Over::follow`].
-    pub fn step(all: &[&Over<'_>], modes: Option<&SumOfModes>) -> Outcome<Root> {
+    pub fn grid(all: &[&Over<'_>], modes: Option<&SumOfModes>) -> Outcome<Grid> {
         let times = all.iter().flat_map(|own| {
             let model = own.scaled.model();
             let travels = model.bars.values().filter_map(|bar| bar.travel.as_ref());
@@ -141,16 +164,25 @@ impl<'a> Over<'a> {
             None => Magnitude::ZERO,
         };
         for own in all {
-            for node in own.nodes(&unit, 0)? {
-                let loads = node.loads.iter().map(|load| load.rate);
-                fastest = loads.fold(fastest.max(node.passivity.rate()), Magnitude::max);
+            for node in own.nodes(&Grid::new(unit.clone(), 1)?, &[], 0)? {
+                let rates = node.loads.iter().map(|load| load.rate);
+                let rates = rates.chain(node.ways.iter().map(|way| way.passivity.rate()));
+                fastest = rates.fold(fastest, Magnitude::max);
             }
         }
         let halvings = fastest.top().map_or(0, |top| (top - 1).max(0));
         if halvings > i64::from(MAX_STEPS_OVER_SYMBOL.ilog2()) {
             return Err(NotOverSymbol::TooManySteps);
         }
-        Ok(step(&(measure / Rational::from_integer((1_i64 << halvings).into()))))
+        let parts = 1_usize << halvings;
+        match all.iter().any(|own| own.has_contacts()) {
+            true => Grid::new(unit, 2 * parts),
+            false => Grid::new(step(&(measure / Rational::from_integer(parts.into()))), 1),
+        }
+    }
+
+    fn has_contacts(&self) -> bool {
+        self.scaled.scene().contacts_open
     }
 
     /// A time of the user's in steps: between which numbers it lies.
@@ -163,17 +195,45 @@ impl<'a> Over<'a> {
         Ok([Rational::from(&low).max(Rational::zero()), Rational::from(&high)])
     }
 
-    /// The first steps, and what is observed on them in the user's unit.
+    /// The first steps, and what is observed on them in the user's unit. Where contacts open and close, the grid is cut; it may
+    /// have cuts already where it is known that contacts close.
     ///
     /// # Errors
     /// [`NotOverSymbol`].
-    pub fn follow(&self, step: &Root, count: usize) -> Outcome<Followed> {
-        if count > MAX_STEPS_OVER_SYMBOL {
-            return Err(NotOverSymbol::TooManySteps);
+    pub fn follow(&self, grid: &Grid, closings: &[Change], steps: usize) -> Outcome<Followed> {
+        let (mut grid, mut changes) = (grid.clone(), closings.to_vec());
+        for _ in 0..MOST_CUTS {
+            let count = steps.saturating_mul(grid.cells());
+            if count > MAX_STEPS_OVER_SYMBOL {
+                return Err(NotOverSymbol::TooManySteps);
+            }
+            let (bars, nodes) = (self.bars(&grid)?, self.nodes(&grid, &changes, count)?);
+            match Motion::of(&grid, bars, nodes, count) {
+                Ok(motion) => {
+                    let (factors, summands) = self.observed(&grid)?.into_iter().unzip();
+                    changes.retain(|change| change.now == Now::Closed);
+                    return Ok(Followed { grid, closings: changes, motion, factors, summands });
+                }
+                Err((_, Stop::Refused(why))) => return Err(why),
+                Err((cell, Stop::Opens { contact, place })) => {
+                    grid = opened(&grid, &mut changes, contact, (cell, place.as_ref()))?;
+                }
+                Err((cell, Stop::TooLong(place))) => {
+                    grid = grid.with_cut(&grid.place(cell, &place).split().0)?.0;
+                }
+                Err((cell, Stop::AboutEnd)) => {
+                    grid = grid.coarser(cell).ok_or(NotOverSymbol::Undecided)??;
+                }
+                Err((cell, Stop::Closes { contact, place })) => {
+                    let (at, off) = grid.place(cell, &place).split();
+                    let (cut, at, _) = grid.with_cut(&Varying { remainder: off, ..at })?;
+                    let step = cell / grid.cells();
+                    changes.push(Change { contact, now: Now::Closed, step, at });
+                    grid = cut;
+                }
+            }
         }
-        let (factors, summands) = self.observed(step)?.into_iter().unzip();
-        let motion = Motion::of(self.bars(step)?, self.nodes(step, count)?, count);
-        Ok(Followed { motion, factors, summands })
+        Err(NotOverSymbol::Undecided)
     }
 
     /// The step in the scale of the scene.
@@ -207,12 +267,15 @@ impl<'a> Over<'a> {
         Ok(self.symbol.fraction(value)?.range().contains_zero())
     }
 
-    fn lag(&self, time: &Fraction, step: &Root) -> Outcome<usize> {
-        self.whole_steps(time, step)?.try_into().map_err(|_| NotOverSymbol::NoCommonMeasure)
+    /// The same in cells.
+    fn lag(&self, time: &Fraction, grid: &Grid) -> Outcome<usize> {
+        let steps = usize::try_from(self.whole_steps(time, &grid.step)?);
+        let cells = steps.ok().and_then(|steps| steps.checked_mul(grid.cells()));
+        cells.ok_or(NotOverSymbol::NoCommonMeasure)
     }
 
     /// The bars, and the waves in them before the start, `(V ± X_0/Z)/2`.
-    fn bars(&self, step: &Root) -> Outcome<Vec<Bar>> {
+    fn bars(&self, grid: &Grid) -> Outcome<Vec<Bar>> {
         let bar = |(place, element)| {
             let bar = &self.scaled.model().bars[element];
             let [velocity, force] =
@@ -220,21 +283,21 @@ impl<'a> Over<'a> {
             let (velocity, pressed) =
                 (velocity?, force?.multiply(&self.inverse(&bar.impedance)?, BITS));
             let before = [velocity.add(&pressed, BITS), velocity.subtract(&pressed, BITS)];
-            let before = before.map(|own| OnStep::constant(&own.over(2, BITS)));
-            let lag = bar.travel.as_ref().map(|travel| self.lag(travel, step)).transpose()?;
-            Ok(Bar { before, lag, ends: self.scaled.layout.ends[place] })
+            let before = before.map(|own| OnCell::constant(&own.over(2, BITS)));
+            let lag = bar.travel.as_ref().map(|travel| self.lag(travel, grid)).transpose()?;
+            Ok(Bar { before, lag, ends: self.layout.ends[place] })
         };
-        self.scaled.layout.bars.iter().enumerate().map(bar).collect()
+        self.layout.bars.iter().enumerate().map(bar).collect()
     }
 
     fn inverse(&self, value: &Fraction) -> Outcome<Varying> {
         Ok(self.symbol.fraction(value)?.reciprocal(BITS)?)
     }
 
-    /// The nodes at the start, and their loads on `count` steps. With the step `h` as the unit of time a mass counts as `M/h`
+    /// The nodes at the start, and their loads on `count` cells. With the step `h` as the unit of time a mass counts as `M/h`
     /// and a stiffness as `kh`, and displacements are in units of `h`.
-    fn nodes(&self, step: &Root, count: usize) -> Outcome<Vec<SteppedNode>> {
-        let length = self.length(step)?;
+    fn nodes(&self, grid: &Grid, changes: &[Change], count: usize) -> Outcome<Vec<SteppedNode>> {
+        let length = self.length(&grid.step)?;
         let inverse = length.reciprocal(BITS)?;
         let place = |exact: &Node<Fraction>| {
             let mut node = exact.map(|value| self.symbol.fraction(value))?;
@@ -248,58 +311,55 @@ impl<'a> Over<'a> {
                     _ => {}
                 }
             }
-            let system =
-                System::of(&node, |_| true, BITS).map_err(|_| NotOverSymbol::Unresisted)?;
-            let numbers = node.map(|value| Ok::<_, NotOverSymbol>(value.number()))?;
-            let passivity = Passivity::of(&numbers, &system.map(Varying::number))?;
-            let start = NodeState::at_start(&node, &system, &passivity)?;
+            let ways = ways(&node, grid, changes)?;
+            let start = NodeState::at_start(&node, &ways[0])?;
             let loads = node.elements.iter().filter(|own| own.law.is_driven());
-            let loads = loads.map(|own| self.loading(own.element, step, count));
+            let loads = loads.map(|own| self.loading(own.element, grid, count));
             let loads = loads.collect::<Outcome<_>>()?;
-            Ok(SteppedNode { node, system, passivity, start, loads })
+            Ok(SteppedNode { node, ways, start, loads })
         };
-        self.scaled.layout.nodes.iter().map(place).collect()
+        self.layout.nodes.iter().map(place).collect()
     }
 
-    /// A load on `count` steps, with a step as the unit of time.
-    fn loading(&self, element: ElementIndex, step: &Root, count: usize) -> Outcome<Loading> {
+    /// A load on `count` cells, with a step as the unit of time.
+    fn loading(&self, element: ElementIndex, grid: &Grid, count: usize) -> Outcome<Loading> {
         let (scene, model) = (self.scaled.scene(), self.scaled.model());
         let ModelLoad { course, from, until } = &model.loads[&element];
-        let length = self.length(step)?;
+        let length = self.length(&grid.step)?;
         let terms = Exponential::all(course, &scene.time, &length, &self.symbol)?;
         let terms =
             terms.ok_or_else(|| NotOverSymbol::Load(scene.elements[element].name.clone()))?;
         let rate = terms.iter().map(Exponential::rate).max().unwrap_or(Magnitude::ZERO);
-        let course = Exponential::total(&terms, count)?;
-        let until = until.as_ref().map(|until| self.lag(until, step)).transpose()?;
-        Ok(Loading { acts: self.lag(from, step)?..until.unwrap_or(usize::MAX), rate, course })
+        let course = Exponential::total(&terms, grid, count)?;
+        let until = until.as_ref().map(|until| self.lag(until, grid)).transpose()?;
+        Ok(Loading { acts: self.lag(from, grid)?..until.unwrap_or(usize::MAX), rate, course })
     }
 
     /// What is observed, with factors in the user's unit.
-    fn observed(&self, step: &Root) -> Outcome<Vec<(Varying, Summand)>> {
+    fn observed(&self, grid: &Grid) -> Outcome<Vec<(Varying, Summand)>> {
         let unit = self.symbol.root(&self.measured.unit)?;
         let mut parts = Vec::new();
         match &self.measured.value {
             MeasuredValue::Linear(terms) => {
                 for term in terms {
-                    parts.extend(self.linear(term, step)?);
+                    parts.extend(self.linear(term, grid)?);
                 }
             }
             MeasuredValue::Energy(shares) => {
-                let (model, layout) = (self.scaled.model(), &self.scaled.layout);
+                let (model, layout) = (self.scaled.model(), &self.layout);
                 for (share, element) in shares {
                     let share = self.symbol.fraction(share)?;
                     let energy = Elements { model, layout }.energy(*element);
-                    for own in energy.map_err(|_| NotOverSymbol::Contacts)? {
+                    for own in energy.map_err(|_| NotOverSymbol::LocalContact)? {
                         let (factor, of) = match own {
                             Energy::Square(term) => {
                                 let one = Term { coefficient: Fraction::one(), of: term.of };
-                                let (factors, of) = self.linear(&one, step)?.into_iter().unzip();
+                                let (factors, of) = self.linear(&one, grid)?.into_iter().unzip();
                                 let factor = self.symbol.fraction(&term.coefficient)?;
                                 (factor, Summand::Square(factors, of))
                             }
-                            Energy::InBar(bar) => self.stored(bar, OnStep::square, step)?,
-                            Energy::Work(..) => return Err(NotOverSymbol::Contacts),
+                            Energy::InBar(bar) => self.stored(bar, OnCell::square, grid)?,
+                            Energy::Work(..) => return Err(NotOverSymbol::LocalContact),
                         };
                         parts.push((factor.multiply(&share, BITS), of));
                     }
@@ -313,27 +373,27 @@ impl<'a> Over<'a> {
     fn stored(
         &self,
         bar: usize,
-        of: fn(&OnStep) -> OnStep,
-        step: &Root,
+        of: fn(&OnCell) -> OnCell,
+        grid: &Grid,
     ) -> Outcome<(Varying, Summand)> {
-        let own = &self.scaled.model().bars[&self.scaled.layout.bars[bar]];
+        let own = &self.scaled.model().bars[&self.layout.bars[bar]];
         let impedance = self.symbol.fraction(&own.impedance)?;
-        let step = self.length(step)?;
+        let step = self.length(&grid.step)?;
         Ok((impedance.multiply(&step, BITS), Summand::InBar { bar, of }))
     }
 
-    /// What is linear in the motion, with its delays in steps.
-    fn linear(&self, term: &Term, step: &Root) -> Outcome<Vec<(Varying, Summand)>> {
-        let (model, layout) = (self.scaled.model(), &self.scaled.layout);
+    /// What is linear in the motion, with its delays in cells.
+    fn linear(&self, term: &Term, grid: &Grid) -> Outcome<Vec<(Varying, Summand)>> {
+        let (model, layout) = (self.scaled.model(), &self.layout);
         let mut factor = self.symbol.fraction(&term.coefficient)?;
-        let in_steps = || self.length(step);
+        let in_steps = || self.length(&grid.step);
         let of = match &term.of {
             Reading::Force(lump) => {
                 let terms = Elements { model, layout }.force(*lump);
                 let mut parts = Vec::new();
-                for own in terms.ok_or(NotOverSymbol::Contacts)? {
+                for own in terms.ok_or(NotOverSymbol::LocalContact)? {
                     let coefficient = &term.coefficient * &own.coefficient;
-                    parts.extend(self.linear(&Term { coefficient, of: own.of }, step)?);
+                    parts.extend(self.linear(&Term { coefficient, of: own.of }, grid)?);
                 }
                 return Ok(parts);
             }
@@ -347,13 +407,13 @@ impl<'a> Over<'a> {
                 Summand::Now(Reading::Compression(*lump))
             }
             Reading::Momentum(bar) => {
-                let (stored, of) = self.stored(*bar, OnStep::clone, step)?;
+                let (stored, of) = self.stored(*bar, OnCell::clone, grid)?;
                 factor = factor.multiply(&stored, BITS);
                 of
             }
             Reading::InBar(field, Section { bar, delays: [right, left] }) => {
                 let lag = |delay: &Option<Fraction>| {
-                    delay.as_ref().map(|delay| self.lag(delay, step)).transpose()
+                    delay.as_ref().map(|delay| self.lag(delay, grid)).transpose()
                 };
                 let section = Section { bar: *bar, delays: [lag(right)?, lag(left)?] };
                 match field {
@@ -376,27 +436,121 @@ impl<'a> Over<'a> {
 
 /// A scene on some steps.
 pub struct Followed {
+    pub grid: Grid,
+    /// Where contacts close.
+    pub closings: Vec<Change>,
     motion: Motion,
     factors: Vec<Varying>,
     summands: Vec<Summand>,
 }
 
 impl Followed {
-    /// What is observed on each step.
-    pub fn observed(&self) -> Vec<OnStep> {
+    /// What is observed on each cell.
+    pub fn observed(&self) -> Vec<OnCell> {
         self.motion.sum(&self.factors, &self.summands)
     }
 
-    /// The same where the function of one of the steps is continued to the end.
+    /// The same where the function of one of the cells is continued to the end.
     ///
     /// # Errors
     /// [`NotOverSymbol::TooManySteps`].
     ///
     /// # Panics
-    /// Where it is none of the steps.
-    pub fn observed_after(&mut self, last: usize) -> Outcome<Vec<OnStep>> {
+    /// Where it is none of the cells.
+    pub fn observed_after(&mut self, last: usize) -> Outcome<Vec<OnCell>> {
         self.motion.sum_after(last, &self.factors, &self.summands)
     }
+}
+
+/// What a contact becomes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Now {
+    Open,
+    Closed,
+}
+
+/// A contact that opens or closes at the beginning of a cell, which is so far into a step.
+#[derive(Clone, Debug)]
+pub struct Change {
+    contact: usize,
+    now: Now,
+    step: usize,
+    at: Varying,
+}
+
+/// With a contact that opens on a cell, at this part of it or at its beginning, and the grid that has a cut there.
+fn opened(
+    grid: &Grid,
+    changes: &mut Vec<Change>,
+    contact: usize,
+    (cell, place): (usize, Option<&[Varying; 2]>),
+) -> Outcome<Grid> {
+    let (step, now) = (cell / grid.cells(), Now::Open);
+    let Some(place) = place else {
+        if cell == 0 {
+            return Err(NotOverSymbol::BesideContact);
+        }
+        changes.push(Change { contact, now, step, at: grid.within_step(cell).clone() });
+        return Ok(grid.clone());
+    };
+    let [root, later] = place;
+    let [low, high] = ends(root);
+    let near = Rational::new(1.into(), (1_i64 << NEAR).into());
+    if high <= Rational::one() && Rational::one() - low <= near {
+        let step = (cell + 1) / grid.cells();
+        changes.push(Change { contact, now, step, at: grid.within_step(cell + 1).clone() });
+        return Ok(grid.clone());
+    }
+    if ends(later)[1] >= Rational::one()
+        && let Some(coarser) = grid.coarser(cell)
+    {
+        return coarser;
+    }
+    let (grid, at, moved) = grid.with_cut(&grid.place(cell, later).split().0)?;
+    if let Some(moved) = moved {
+        changes.iter_mut().filter(|own| own.at == moved).for_each(|own| own.at = at.clone());
+    }
+    changes.push(Change { contact, now, step, at });
+    Ok(grid)
+}
+
+/// How a node moves: with all contacts closed, and after each change.
+fn ways(node: &Node<Varying>, grid: &Grid, changes: &[Change]) -> Outcome<Vec<Way>> {
+    let numbers = node.map(|value| Ok::<_, NotOverSymbol>(value.number()))?;
+    let of = |open: &[(usize, usize)]| {
+        let is_closed = |contact| open.iter().all(|(own, _)| *own != contact);
+        let system = System::of(node, is_closed, BITS).map_err(|_| NotOverSymbol::Unresisted)?;
+        let passivity = Passivity::of(&numbers, &system.map(Varying::number))?;
+        Ok::<_, NotOverSymbol>((system, passivity))
+    };
+    let (system, passivity) = of(&[])?;
+    let (begins, mut open) = (Begins::AtStart, Vec::new());
+    let mut ways = vec![Way { from: 0, system, passivity, begins, open: open.clone() }];
+    let place = |change: &Change| {
+        let run = node.contacts().find(|(own, _)| *own == change.contact)?.1;
+        Some((grid.cell_at(change.step, &change.at), change.contact, run, change.now))
+    };
+    let mut own: Vec<_> = changes.iter().filter_map(place).collect();
+    own.sort_unstable_by_key(|(from, ..)| *from);
+    for (from, contact, run, now) in own {
+        let before = ways.last().expect("one at least");
+        let Some(from) = from.filter(|from| *from > before.from) else {
+            return Err(NotOverSymbol::Undecided);
+        };
+        match now {
+            Now::Open => open.push((contact, run)),
+            Now::Closed => open.retain(|(own, _)| *own != contact),
+        }
+        let (system, passivity) = of(&open)?;
+        let begins = match now {
+            Now::Open => {
+                Begins::Opening(Opened::of(node, before, (contact, (&system, &passivity)))?)
+            }
+            Now::Closed => Begins::Closing(Closed::of(node, contact, (&before.system, &system))?),
+        };
+        ways.push(Way { from, system, passivity, begins, open: open.clone() });
+    }
+    Ok(ways)
 }
 
 /// A value that is one number, whatever the symbol is.

@@ -1,7 +1,8 @@
 //! The first modes of a scene for all values of a symbol between two.
 
 use super::exponential::Exponential;
-use super::on_step::OnStep;
+use super::grid::Grid;
+use super::on_cell::OnCell;
 use super::{NotOverSymbol, Outcome, Over};
 use crate::ball::{Arithmetic as _, Ball, BallError, Magnitude};
 use crate::limits::MAX_SYMBOL_BITS as BITS;
@@ -36,11 +37,11 @@ impl SumOfModes {
         rates.max().unwrap_or(Magnitude::ZERO)
     }
 
-    /// The sum on the first steps of this length.
+    /// The sum on the first cells, with this length of a step.
     ///
     /// # Errors
     /// [`NotOverSymbol::Ball`] where a frequency varies too much.
-    pub fn on_steps(&self, count: usize, length: &Varying) -> Outcome<Vec<OnStep>> {
+    pub fn on_cells(&self, grid: &Grid, count: usize, length: &Varying) -> Outcome<Vec<OnCell>> {
         let Vibration { drift: [constant, slope], modes } = &self.0;
         let zero = Varying::zero;
         let slope = slope.multiply(length, BITS);
@@ -52,7 +53,7 @@ impl SumOfModes {
         };
         let drift = Exponential { rate: [zero(), zero()], polynomial: drift };
         let all: Vec<Exponential> = std::iter::once(drift).chain(modes.iter().map(wave)).collect();
-        Exponential::total(&all, count)
+        Exponential::total(&all, grid, count)
     }
 }
 

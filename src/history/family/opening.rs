@@ -1,0 +1,406 @@
+//! Where a contact opens, for all values of a symbol.
+//!
+//! The motion `Z` that is followed lets a contact open at the beginning of a cell, a little later than its force vanishes. When
+//! the true motion `Y` does so is known nearly, and whether it parts there once or more often is not. Both are compared while
+//! the contact of `Y` may be open or closed: with the size `|y|² = Σ w y²` of a state where it is open, `F` the force
+//! in the contact and `w` the velocity with which it parts, the difference `e = Y − Z` obeys
+//!
+//! ```text
+//! ½ (|e|²)' ≤ Σ_sides Z_s e_s² + |e| |r| + (F_Y − F_Z)(w_Y − w_Z),
+//! ```
+//!
+//! where `e_s` arrives in a bar with the impedance `Z_s`, and `r` is what loads and roundings are off. A closed contact has
+//! `w = 0` and an open one `F = 0`, so `F_Y w_Y ≤ 0`, where two bodies that meet lose energy if any.
+//!
+//! - While `Z` is closed, the last term is `−F_Z w_Y` at most, and zero as long as `Y` is known to be closed. After that
+//!   `|F_Z| ≤ f`, and an open `Y` parts with `w_Y = a·e + D (−F_Z)`, where the *yielding* `D` is zero unless a side of the
+//!   contact has no mass.
+//! - While `Z` is open and `w_Z ≥ 0`, it is `−F_Y w_Z ≤ 0`.
+//!
+//! With `s` the largest `|e|` on a cell of length `h` this gives `s² ≤ s₀² + 2as + 2q`, so `s ≤ s₀ + 2a + √(2q)`. Once the gap of `Z`
+//! is larger than its error, `Y` is open for certain.
+
+use super::node::{NodeError, NodeState, Way};
+use super::on_cell::OnCell;
+use super::{NotOverSymbol, Outcome};
+use crate::ball::{Arithmetic as _, Ball, Magnitude};
+use crate::history::passivity::Passivity;
+use crate::limits::MAX_SYMBOL_BITS as BITS;
+use crate::network::{ElementLaw, Node, System};
+use crate::scene::Drive;
+use crate::signal::Varying;
+use num_traits::{One as _, Signed as _};
+use wavestep_polynomial::Rational;
+
+/// How much later than the root a contact opens, as a part of a cell and a power of two.
+const LATER: i64 = -40;
+
+/// Places on a cell at which a change of sign is looked for.
+const PLACES: usize = 64;
+
+/// A gap falls for this part of a cell, one over this number, after it is zero.
+const FALLS: i64 = 64;
+
+/// Newton's method squares an error; the first guess is a double.
+const CORRECTIONS: usize = 4;
+
+/// What acts on a node on a cell: how far off it is, and for how long.
+pub(super) struct Arrived {
+    pub(super) acting: Vec<Magnitude>,
+    pub(super) length: Magnitude,
+}
+
+/// Bounds of errors on a cell on which a contact may be open or closed.
+pub(super) struct Bound {
+    /// Of the state that is followed.
+    pub(super) entries: Vec<Magnitude>,
+    /// Of each output, beyond what follows from those of the state.
+    pub(super) further: Vec<Magnitude>,
+    pub(super) size: Magnitude,
+    pub(super) gap: Magnitude,
+}
+
+/// An output where the contact is closed, where it is open, and how much it changes with a force in the contact.
+struct Output {
+    /// Its places among the outputs, and its rows.
+    places: [usize; 2],
+    rows: [Vec<Varying>; 2],
+    yielding: Magnitude,
+}
+
+const CLOSED: usize = 0;
+const OPEN: usize = 1;
+
+/// A contact that opens, between two ways of a node.
+pub(super) struct Opened {
+    pub(super) contact: usize,
+    /// The velocity with which it parts while it is open, by state and input.
+    pub(super) parting: Vec<Varying>,
+    /// Its force while it is closed.
+    force: Vec<Varying>,
+    /// For each entry of the open state the same of the closed one.
+    counterparts: Vec<usize>,
+    closed_states: usize,
+    /// The roots of the weights of the open state, and their inverses.
+    roots: Vec<Magnitude>,
+    inverse_roots: Vec<Magnitude>,
+    /// `|B_j|` of each load.
+    driven: Vec<Magnitude>,
+    impedances: [Magnitude; 2],
+    /// How fast it parts for each unit of force.
+    yielding: Magnitude,
+    /// All but its own force, and how many these are.
+    outputs: Vec<Output>,
+    count: usize,
+}
+
+/// How an output changes with the force in a contact: what opening adds to one input or state it adds to all.
+fn yielding(closed: &[Varying], open: &[Varying], force: &[Varying]) -> Outcome<Varying> {
+    let size = |own: &Varying| own.coefficient(0).magnitude();
+    let largest = (0..force.len()).max_by_key(|place| size(&force[*place]));
+    let place = largest.ok_or(NotOverSymbol::BesideContact)?;
+    let change = closed[place].subtract(&open[place], BITS);
+    Ok(change.multiply(&force[place].reciprocal(BITS)?, BITS))
+}
+
+impl Opened {
+    /// A contact that is closed in one way, and open in the next.
+    ///
+    /// # Errors
+    /// [`NotOverSymbol::BesideContact`] for a load that moves a run, a load beside the contact without mass, and a spring
+    /// that ends at the contact.
+    pub(super) fn of(
+        node: &Node<Varying>,
+        before: &Way,
+        (contact, open): (usize, (&System<Varying>, &Passivity)),
+    ) -> Outcome<Opened> {
+        let closed = &before.system;
+        let (open, passivity) = open;
+        let place = closed.closed.iter().position(|(own, _)| *own == contact);
+        let run = closed.closed[place.ok_or(NotOverSymbol::BesideContact)?].1;
+        let loads = || node.elements.iter().filter(|own| own.law.is_driven());
+        let is_light = |run: usize| !open.has_inertia(run);
+        let moves = |own: &ElementLaw<Varying>| matches!(own, ElementLaw::Load(Drive::Velocity));
+        if loads().any(|own| moves(&own.law) || is_light(own.run))
+            || open.displacements() != closed.displacements()
+        {
+            return Err(NotOverSymbol::BesideContact);
+        }
+        let heavy = |group: &usize| {
+            let run = open.group.iter().position(|own| own == group)?;
+            closed.place_of_velocity(run)
+        };
+        let counterparts = open.heavy.iter().map(heavy).collect::<Option<Vec<usize>>>();
+        let mut counterparts = counterparts.ok_or(NotOverSymbol::BesideContact)?;
+        counterparts.extend(closed.heavy.len()..closed.states());
+        // The rows of the closed system by the states of the open one.
+        let opened = |row: &[Varying]| -> Vec<Varying> {
+            let mut row = row.to_vec();
+            let mut own: Vec<Varying> = Vec::with_capacity(counterparts.len());
+            for counterpart in &counterparts {
+                own.push(std::mem::replace(&mut row[*counterpart], Varying::zero()));
+            }
+            own.extend(row.drain(closed.states()..));
+            own
+        };
+        let one = Magnitude::from_u64(1);
+        let (mut roots, mut inverse_roots) =
+            (vec![Magnitude::ZERO; open.states()], vec![Magnitude::ZERO; open.states()]);
+        for block in &passivity.blocks {
+            for (place, member) in block.members.iter().enumerate() {
+                let unit = |own: &usize| if own == member { one } else { Magnitude::ZERO };
+                roots[*member] = block.size(block.members.iter().map(unit));
+                inverse_roots[*member] = block.entry(place, &one);
+            }
+        }
+        let driven = |input: usize| {
+            let squares = passivity.blocks.iter().map(|own| own.pushed_by(input));
+            let squares = squares.map(|own| own.multiply(own));
+            squares.fold(Magnitude::ZERO, |sum, own| sum.add(&own)).square_root()
+        };
+        let runs = node.runs();
+        let force = opened(&closed.output[runs + place.expect("it is closed")]);
+        let parting = subtracted(&open.output[run + 1], &open.output[run]);
+        let is_heavy = open.has_inertia(run) && open.has_inertia(run + 1);
+        let yields = |of: &[Varying], by: &[Varying]| match is_heavy {
+            true => Ok(Magnitude::ZERO),
+            false => yielding(of, by, &force).map(|own| own.magnitude()),
+        };
+        let zero = vec![Varying::zero(); parting.len()];
+        let others = closed.closed.iter().enumerate().filter(|(_, (own, _))| *own != contact);
+        let others = others.map(|(number, (own, _))| {
+            let among = open.closed.iter().position(|(other, _)| other == own);
+            (runs + number, runs + among.expect("it stays closed"))
+        });
+        let outputs = (0..runs).map(|run| (run, run)).chain(others);
+        let output = |(of_closed, of_open): (usize, usize)| {
+            let rows = [opened(&closed.output[of_closed]), open.output[of_open].clone()];
+            let yielding = yields(&rows[CLOSED], &rows[OPEN])?;
+            Ok(Output { places: [of_closed, of_open], rows, yielding })
+        };
+        Ok(Opened {
+            contact,
+            yielding: yields(&zero, &parting)?,
+            outputs: outputs.map(output).collect::<Outcome<_>>()?,
+            count: open.output.len(),
+            parting,
+            force,
+            closed_states: closed.states(),
+            roots,
+            inverse_roots,
+            driven: (2..open.inputs()).map(driven).collect(),
+            impedances: node.impedance.each_ref().map(|own| own.magnitude()),
+            counterparts,
+        })
+    }
+
+    /// The state with which the contact opens.
+    pub(super) fn enter(&self, before: &NodeState, closed: &Way) -> NodeState {
+        let values = self.counterparts.iter().map(|own| before.values[*own].clone()).collect();
+        let size = self.size_at_start(&before.error, closed);
+        let gap = match &before.error {
+            NodeError::OfBlocks(_) => Magnitude::ZERO,
+            NodeError::Undecided { gap, .. } => *gap,
+        };
+        let mut gaps = before.gaps.clone();
+        gaps.insert(self.contact, OnCell::zero().widened(&gap));
+        NodeState { values, error: NodeError::Undecided { size, gap }, gaps }
+    }
+
+    /// The size of an error, of the node in this way.
+    pub(super) fn size_at_start(&self, error: &NodeError, way: &Way) -> Magnitude {
+        let errors = match error {
+            NodeError::Undecided { size, .. } => return *size,
+            NodeError::OfBlocks(errors) => errors,
+        };
+        self.size_of(&way.entries_of(errors))
+    }
+
+    /// The size of a state with entries of these sizes, those of the open one or of the closed one.
+    pub(super) fn size_of(&self, entries: &[Magnitude]) -> Magnitude {
+        let own: Vec<Magnitude> = match entries.len() == self.roots.len() {
+            true => entries.to_vec(),
+            false => self.counterparts.iter().map(|own| entries[*own]).collect(),
+        };
+        root_of_squares(self.roots.iter().zip(&own).map(|(root, own)| root.multiply(own)))
+    }
+
+    /// A bound of a sum over state and input.
+    fn sum(&self, row: &[Varying], sizes: &[Magnitude]) -> Magnitude {
+        let terms = row.iter().zip(sizes).map(|(own, size)| own.magnitude().multiply(size));
+        terms.fold(Magnitude::ZERO, |sum, own| sum.add(&own))
+    }
+
+    /// While the motion that is followed is closed, with this force, and the true one may be open.
+    pub(super) fn while_closed(
+        &self,
+        start: Magnitude,
+        left: &[Magnitude],
+        force: &OnCell,
+        arrived: &Arrived,
+    ) -> Bound {
+        let largest = force.largest_from(&force.positive_until());
+        self.bound((start, self.size_of(left)), arrived, Some(largest))
+    }
+
+    /// While the motion that is followed is open, and the true one may be closed.
+    pub(super) fn while_open(
+        &self,
+        start: Magnitude,
+        left: &[Magnitude],
+        arrived: &Arrived,
+    ) -> Bound {
+        self.bound((start, self.size_of(left)), arrived, None)
+    }
+
+    fn bound(
+        &self,
+        (start, left): (Magnitude, Magnitude),
+        Arrived { acting, length }: &Arrived,
+        force: Option<Magnitude>,
+    ) -> Bound {
+        let (product, states) = (Magnitude::multiply, self.roots.len());
+        let f = force.unwrap_or(Magnitude::ZERO);
+        let inverse = self.inverse_roots.iter();
+        let of_state =
+            inverse.zip(&self.parting).map(|(root, own)| root.multiply(&own.magnitude()));
+        let of_state = root_of_squares(of_state);
+        // What parts by inputs alone, and by the force.
+        let of_others = self.sum(&self.parting[states..], acting).add(&self.yielding.multiply(&f));
+        let loads = self.driven.iter().zip(&acting[2..]).map(|(driven, own)| driven.multiply(own));
+        let pushed = loads.fold(of_state.multiply(&f), |sum, own| sum.add(&own));
+        let linear = left.add(&pushed.multiply(length));
+        let arrive =
+            self.impedances.iter().zip(acting).map(|(z, own)| z.multiply(&own.multiply(own)));
+        let square = arrive.fold(f.multiply(&of_others), |sum, own| sum.add(&own));
+        let square = product(&square, length);
+        let size = start.add(&linear.scale(1)).add(&square.scale(1).square_root());
+        let mut sizes: Vec<Magnitude> =
+            self.inverse_roots.iter().map(|root| root.multiply(&size)).collect();
+        sizes.extend(acting);
+        // A true force in the contact is as far off.
+        let force_is_off = match force {
+            Some(force) => force,
+            None => self.sum(&self.force, &sizes),
+        };
+        let own = if force.is_some() { CLOSED } else { OPEN };
+        let mut further = vec![Magnitude::ZERO; self.count + 1 - own];
+        for output in &self.outputs {
+            let other = self.sum(&output.rows[1 - own], &sizes);
+            further[output.places[own]] = other.add(&output.yielding.multiply(&force_is_off));
+        }
+        let entries = match force {
+            None => sizes[..states].to_vec(),
+            // What moves together is as far off as either.
+            Some(_) => {
+                (0..self.closed_states).map(|entry| self.largest_of(entry, &sizes)).collect()
+            }
+        };
+        let parts = of_state.multiply(&size).add(&of_others);
+        Bound { entries, further, size, gap: parts.multiply(length) }
+    }
+
+    /// The largest of the entries that are this one while the contact is closed.
+    fn largest_of(&self, entry: usize, sizes: &[Magnitude]) -> Magnitude {
+        let both = self.counterparts.iter().zip(sizes).filter(|(own, _)| **own == entry);
+        both.map(|(_, size)| *size).max().unwrap_or(Magnitude::ZERO)
+    }
+}
+
+fn root_of_squares(all: impl Iterator<Item = Magnitude>) -> Magnitude {
+    all.fold(Magnitude::ZERO, |sum, own| sum.add(&own.multiply(&own))).square_root()
+}
+
+fn subtracted(one: &[Varying], other: &[Varying]) -> Vec<Varying> {
+    one.iter().zip(other).map(|(one, other)| one.subtract(other, BITS)).collect()
+}
+
+/// Where a force becomes negative, about, and a little later, as parts of its cell and polynomials in the symbol. They may be
+/// beyond the end of the cell.
+///
+/// # Errors
+/// [`NotOverSymbol::Undecided`] where it may be negative at the start, or does not fall clearly.
+pub(super) fn root(force: &OnCell) -> Outcome<[Varying; 2]> {
+    let place = zero_of_polynomial(force)?;
+    let [_, slope] = ends(&force.slope(&place));
+    if !slope.is_negative() || ends(&place)[0].is_negative() {
+        return Err(NotOverSymbol::Undecided);
+    }
+    let off = Magnitude::from_rational(&slope.recip()).multiply(&force.value(&place).magnitude());
+    let later = off.scale(1).add(&Magnitude::power_of_two(LATER));
+    let later: Varying = Ball::new(later.to_binary(), Magnitude::ZERO).into();
+    let later = place.add(&later, BITS).split().0;
+    Ok([place, later])
+}
+
+/// Where a gap is zero for the first time: a polynomial in the symbol and a remainder. None where that may be about the end of
+/// the cell, or beyond.
+///
+/// Up to a place `x₁` the gap less its error is positive. From there on, or from an earlier place, its polynomial `P` falls with
+/// `σ` at least until a place `x₂`. So about a place `r` in between the gap is positive until `r − τ`, and negative at `r + τ`,
+/// where `στ` is more than its error and `|P(r)|`, if `r + τ` is not beyond `x₂`.
+///
+/// # Errors
+/// [`NotOverSymbol::Undecided`] where it does not fall clearly.
+pub(super) fn first_zero(gap: &OnCell) -> Outcome<Option<Varying>> {
+    let place = zero_of_polynomial(gap)?;
+    let [low, high] = ends(&place);
+    let from = gap.positive_until().min(low);
+    let until = &high + Rational::new(1.into(), FALLS.into());
+    if until > Rational::one() {
+        return Ok(None);
+    }
+    if from.is_negative() {
+        return Err(NotOverSymbol::Undecided);
+    }
+    let slope = gap.largest_slope([&from, &until]);
+    if !slope.is_negative() {
+        return Err(NotOverSymbol::Undecided);
+    }
+    let off = gap.error.add(&gap.value(&place).magnitude());
+    let off = off.multiply(&Magnitude::from_rational(&slope.recip())).scale(1);
+    let zero = Varying { remainder: off, ..place };
+    match ends(&zero)[1] <= until {
+        true => Ok(Some(zero)),
+        false => Err(NotOverSymbol::Undecided),
+    }
+}
+
+/// Between which numbers a number lies.
+pub(super) fn ends(value: &Varying) -> [Rational; 2] {
+    let (low, high) = value.range().endpoints();
+    [Rational::from(&low), Rational::from(&high)]
+}
+
+/// About half way to where a gap is zero again, one place for all values of the symbol.
+///
+/// # Errors
+/// [`NotOverSymbol::Undecided`] where that is not on its cell.
+pub(super) fn half_way(gap: &OnCell) -> Outcome<Varying> {
+    let place = Rational::from(zero_of_polynomial(gap)?.coefficient(0).midpoint());
+    match place.is_positive() && place < Rational::one() {
+        true => Ok(Varying::constant(&(place / Rational::from_integer(2.into())), BITS).split().0),
+        false => Err(NotOverSymbol::Undecided),
+    }
+}
+
+/// The first place at which a polynomial changes its sign, by Newton's method, without a bound.
+fn zero_of_polynomial(own: &OnCell) -> Outcome<Varying> {
+    let at_middle = |part: usize| {
+        let x = part as f64 / PLACES as f64;
+        let own = own.coefficients.iter().rev();
+        own.fold(0.0, |sum, own| sum * x + own.coefficient(0).midpoint().to_double())
+    };
+    if at_middle(0) < 0.0 {
+        return Err(NotOverSymbol::Undecided);
+    }
+    let after = (1..=PLACES).find(|part| at_middle(*part) < 0.0);
+    let near = after.map_or(2 * PLACES, |after| 2 * after - 1);
+    let near = Rational::new(near.into(), (2 * PLACES).into());
+    let mut place = Varying::constant(&near, BITS);
+    for _ in 0..CORRECTIONS {
+        let correction = own.value(&place).quotient(&own.slope(&place), BITS)?;
+        place = place.subtract(&correction, BITS).split().0;
+    }
+    Ok(place)
+}
