@@ -8,6 +8,7 @@ use super::comparison::Comparison;
 use super::{Problem, ProblemError, Simpler, number};
 use crate::language::syntax::Declared;
 use crate::language::{self, Beyond, Change, ChangeError, parse_number};
+use crate::planner::Purpose;
 use num_traits::{One as _, Signed as _, ToPrimitive as _};
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -285,6 +286,7 @@ impl Problem {
             Simpler::Scene(changes) => {
                 let is_observed = |other: Problem| {
                     other.wanted(asked.quantity).is_ok_and(|wanted| wanted.place.is_some())
+                        && [from, to].into_iter().any(|value| other.moves_at(asked, value))
                 };
                 self.changed(changes).is_ok_and(is_observed)
             }
@@ -312,6 +314,16 @@ impl Problem {
         let mut open: Vec<(usize, Unproven)> = unsure.chain(open).collect();
         open.sort_by_key(|(place, _)| *place);
         open
+    }
+
+    /// Whether there is a motion at a value of the symbol: there is none where masses collide.
+    fn moves_at(&self, asked: &MapRequest<'_>, value: &Rational) -> bool {
+        let signal = || {
+            let own = self.substituted(&asked.range.symbol, value)?;
+            let (wanted, window) = (own.wanted(asked.quantity)?, (asked.window)(&own)?);
+            own.signal_on(&wanted, window.each_ref(), Purpose::Search).map(drop)
+        };
+        signal().is_ok()
     }
 
     /// How far simpler answers are off, over the largest value; none where that is zero.

@@ -77,6 +77,13 @@ fn motions_with_contacts_that_open_hold_those_at_each_value() {
     let mut places = 0;
     for (problem, symbol, ends, to) in [
         (builtin("saint-venant"), "mu", [rational(1, 1), rational(10001, 10000)], rational(6, 1)),
+        // It opens at the end of a step.
+        (
+            builtin("saint-venant"),
+            "mu",
+            [rational(1060014, 1000000), rational(1060016, 1000000)],
+            rational(4, 1),
+        ),
         (builtin("saint-venant"), "mu", [rational(5, 2), rational(2501, 1000)], rational(6, 1)),
         (builtin("mass-on-free-bar"), "m", [rational(1, 1), rational(1001, 1000)], rational(4, 1)),
         (builtin("bars-that-part"), "r", [rational(1, 2), rational(5, 8)], rational(5, 1)),

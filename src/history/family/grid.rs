@@ -4,8 +4,9 @@
 //! one cell, however many steps before. Where a contact opens, a cut is made that moves with the symbol: the waves that
 //! leave there have it in every step that they arrive in.
 
+use super::opening::size;
 use super::{NotOverSymbol, Outcome};
-use crate::ball::{Arithmetic as _, Ball, Magnitude};
+use crate::ball::Arithmetic as _;
 use crate::expression::Root;
 use crate::limits::MAX_SYMBOL_BITS as BITS;
 use crate::signal::Varying;
@@ -121,8 +122,7 @@ impl Grid {
                 return Err(NotOverSymbol::Undecided);
             }
             Some((off, own)) => {
-                let off: Varying = Ball::new(off.to_binary(), Magnitude::ZERO).into();
-                let later = own.add(&off, BITS).split().0;
+                let later = own.add(&size(&off), BITS).split().0;
                 (later.clone(), Some(std::mem::replace(own, later)))
             }
             None => {

@@ -36,7 +36,7 @@ use grid::Grid;
 use modes::SumOfModes;
 use motion::{Bar, Loading, Motion, Summand, TERMS};
 use node::{Begins, Closed, NodeState, SteppedNode, Stop, Way};
-use num_traits::{One as _, ToPrimitive as _, Zero as _};
+use num_traits::{One as _, Signed as _, ToPrimitive as _, Zero as _};
 use on_cell::OnCell;
 use opening::{Opened, ends};
 use symbol::OverSymbol;
@@ -47,6 +47,9 @@ const MOST_CUTS: usize = 32;
 
 /// A contact that opens no longer than this before the end of a cell, as a power of two of its length, does at that end.
 const NEAR: u32 = 20;
+
+/// A contact that opens beyond the end of a step does so no more than one part of a cell over this number beyond it.
+const MOST_BEYOND: i64 = 64;
 
 /// Why motions are not followed over a symbol.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
@@ -501,10 +504,22 @@ fn opened(
         changes.push(Change { contact, now, step, at: grid.within_step(cell + 1).clone() });
         return Ok(grid.clone());
     }
-    if ends(later)[1] >= Rational::one()
-        && let Some(coarser) = grid.coarser(cell)
-    {
-        return coarser;
+    let beyond = &ends(later)[1] - Rational::one();
+    if !beyond.is_negative() {
+        if let Some(coarser) = grid.coarser(cell) {
+            return coarser;
+        }
+        // In the next step, for all values at once.
+        let next = cell + 1;
+        if beyond > Rational::new(1.into(), MOST_BEYOND.into()) || next % grid.cells() != 0 {
+            return Err(NotOverSymbol::Undecided);
+        }
+        let place = Varying::constant(&(&beyond + &near), BITS);
+        let [_, at] = ends(&grid.length(cell).multiply(&place, BITS));
+        let at = Varying::constant(&at, BITS).split().0;
+        let (cut, at, _) = grid.with_cut(&at)?;
+        changes.push(Change { contact, now, step: step + 1, at });
+        return Ok(cut);
     }
     let (grid, at, moved) = grid.with_cut(&grid.place(cell, later).split().0)?;
     if let Some(moved) = moved {

@@ -9,7 +9,9 @@ use crate::history::passivity::{Block, Passivity, StateError};
 use crate::limits::MAX_SYMBOL_BITS as BITS;
 use crate::network::{ElementLaw, Node, System, dot};
 use crate::signal::Varying;
+use num_traits::Zero as _;
 use std::collections::{BTreeMap, BTreeSet};
+use wavestep_polynomial::Rational;
 
 /// Why a node does not go on as it does.
 pub(super) enum Stop {
@@ -56,7 +58,17 @@ pub(super) enum NodeError {
     /// Of each block, of a node whose contacts are known to be as they are taken to be.
     OfBlocks(Vec<StateError>),
     /// Of all of a node of which one contact may be open or closed, in the norm where it is open; and how far off its gap is.
-    Undecided { size: Magnitude, gap: Magnitude },
+    Undecided { contact: usize, size: Magnitude, gap: Magnitude },
+}
+
+impl NodeError {
+    /// How far off the gap of a contact is that may be open or closed; none of any other.
+    pub(super) fn gap_of(&self, contact: usize) -> Option<Magnitude> {
+        match self {
+            NodeError::Undecided { contact: own, gap, .. } if *own == contact => Some(*gap),
+            _ => None,
+        }
+    }
 }
 
 /// How a node moves while its contacts stay as they are.
@@ -216,7 +228,7 @@ impl Way {
         entries
     }
 
-    fn errors_of(&self, error: &NodeError) -> Vec<StateError> {
+    pub(super) fn errors_of(&self, error: &NodeError) -> Vec<StateError> {
         match error {
             NodeError::OfBlocks(errors) => errors.clone(),
             NodeError::Undecided { size, .. } => {
@@ -261,7 +273,9 @@ impl SteppedNode {
             }
             (undecided, further) = (Some(opened.contact), bound.further);
             let size = bound.size.add(&opened.size_of(&own.rounded));
-            error = NodeError::Undecided { size, gap: bound.gap };
+            let before = before.error.gap_of(opened.contact).unwrap_or(Magnitude::ZERO);
+            let gap = before.add(&bound.gap);
+            error = NodeError::Undecided { contact: opened.contact, size, gap };
         }
         let output =
             |row: &[Varying], place: usize| OnCell::sum(row, both.iter()).widened(&further[place]);
@@ -305,26 +319,30 @@ impl SteppedNode {
             way.system.output.iter().map(|row| OnCell::sum(row, both.iter())).collect();
         let acting = both[way.system.states()..].iter().map(|own| own.error).collect();
         let arrived = Arrived { acting, length: length.magnitude() };
-        let next = self.ways.get(place + 1).filter(|next| next.from == cell + 1);
+        let next = self.ways.get(place + 1);
+        let closes = next.filter(|next| next.from == cell + 1);
+        // Where it may open at the end of a step it does so on the first cell of the next.
+        let opens_soon = next.filter(|next| next.from <= cell + 2).and_then(Way::opened);
         let mut opens = None;
         for (number, (contact, _)) in way.system.closed.iter().enumerate() {
             let force = &outputs[way.system.group.len() + number];
-            if force.is_not_negative() {
+            if force.is_not_negative() && before.error.gap_of(*contact).is_none() {
                 continue;
             }
-            let opened = next.and_then(Way::opened).filter(|next| next.contact == *contact);
+            let opened = opens_soon.filter(|next| next.contact == *contact);
             opens = Some((opened.ok_or_else(|| opening(*contact, force))?, force));
         }
-        let was_undecided = matches!(before.error, NodeError::Undecided { .. });
         let mut may_close = None;
         for (contact, gap) in way.gaps(before, &outputs, length) {
-            let closes = next.is_some_and(
+            let closes = closes.is_some_and(
                 |next| matches!(&next.begins, Begins::Closing(own) if own.contact == contact),
             );
             if closes || gap.is_not_negative() {
                 continue;
             }
-            may_close = way.opened().filter(|own| own.contact == contact && was_undecided);
+            may_close = way
+                .opened()
+                .filter(|own| own.contact == contact && before.error.gap_of(contact).is_some());
             if may_close.is_none() {
                 return Err(closing(contact, &gap));
             }
@@ -333,6 +351,12 @@ impl SteppedNode {
         match (opens, may_close) {
             (Some(_), Some(_)) => Err(Stop::Refused(NotOverSymbol::Undecided)),
             (Some((next, force)), None) => {
+                // Until when it is known to be closed.
+                let closed = match before.error.gap_of(next.contact) {
+                    None => force.positive_until(),
+                    Some(_) => Rational::zero(),
+                };
+                let force = force.largest_from(&closed);
                 Ok(Some((next, next.while_closed(start(next), &own.left, force, &arrived))))
             }
             (None, Some(opened)) => {

@@ -198,22 +198,19 @@ impl Opened {
     pub(super) fn enter(&self, before: &NodeState, closed: &Way) -> NodeState {
         let values = self.counterparts.iter().map(|own| before.values[*own].clone()).collect();
         let size = self.size_at_start(&before.error, closed);
-        let gap = match &before.error {
-            NodeError::OfBlocks(_) => Magnitude::ZERO,
-            NodeError::Undecided { gap, .. } => *gap,
-        };
+        let gap = before.error.gap_of(self.contact).unwrap_or(Magnitude::ZERO);
         let mut gaps = before.gaps.clone();
         gaps.insert(self.contact, OnCell::zero().widened(&gap));
-        NodeState { values, error: NodeError::Undecided { size, gap }, gaps }
+        let error = NodeError::Undecided { contact: self.contact, size, gap };
+        NodeState { values, error, gaps }
     }
 
     /// The size of an error, of the node in this way.
     pub(super) fn size_at_start(&self, error: &NodeError, way: &Way) -> Magnitude {
-        let errors = match error {
-            NodeError::Undecided { size, .. } => return *size,
-            NodeError::OfBlocks(errors) => errors,
-        };
-        self.size_of(&way.entries_of(errors))
+        match error {
+            NodeError::Undecided { contact, size, .. } if *contact == self.contact => *size,
+            _ => self.size_of(&way.entries_of(&way.errors_of(error))),
+        }
     }
 
     /// The size of a state with entries of these sizes, those of the open one or of the closed one.
@@ -231,16 +228,15 @@ impl Opened {
         terms.fold(Magnitude::ZERO, |sum, own| sum.add(&own))
     }
 
-    /// While the motion that is followed is closed, with this force, and the true one may be open.
+    /// While the motion that is followed is closed, with no larger force, and the true one may be open.
     pub(super) fn while_closed(
         &self,
         start: Magnitude,
         left: &[Magnitude],
-        force: &OnCell,
+        force: Magnitude,
         arrived: &Arrived,
     ) -> Bound {
-        let largest = force.largest_from(&force.positive_until());
-        self.bound((start, self.size_of(left)), arrived, Some(largest))
+        self.bound((start, self.size_of(left)), arrived, Some(force))
     }
 
     /// While the motion that is followed is open, and the true one may be closed.
@@ -328,9 +324,13 @@ pub(super) fn root(force: &OnCell) -> Outcome<[Varying; 2]> {
     }
     let off = Magnitude::from_rational(&slope.recip()).multiply(&force.value(&place).magnitude());
     let later = off.scale(1).add(&Magnitude::power_of_two(LATER));
-    let later: Varying = Ball::new(later.to_binary(), Magnitude::ZERO).into();
-    let later = place.add(&later, BITS).split().0;
+    let later = place.add(&size(&later), BITS).split().0;
     Ok([place, later])
+}
+
+/// A bound as a number.
+pub(super) fn size(bound: &Magnitude) -> Varying {
+    Ball::new(bound.to_binary(), Magnitude::ZERO).into()
 }
 
 /// Where a gap is zero for the first time: a polynomial in the symbol and a remainder. None where that may be about the end of
