@@ -77,11 +77,11 @@ fn motions_with_contacts_that_open_hold_those_at_each_value() {
     let mut places = 0;
     for (problem, symbol, ends, to) in [
         (builtin("saint-venant"), "mu", [rational(1, 1), rational(10001, 10000)], rational(6, 1)),
-        // It opens at the end of a step.
+        // It opens at the end of a step, before or after it.
         (
             builtin("saint-venant"),
             "mu",
-            [rational(1060014, 1000000), rational(1060016, 1000000)],
+            [rational(105_999, 100_000), rational(106_004, 100_000)],
             rational(4, 1),
         ),
         (builtin("saint-venant"), "mu", [rational(5, 2), rational(2501, 1000)], rational(6, 1)),
@@ -101,7 +101,6 @@ fn motions_with_contacts_that_open_hold_those_at_each_value() {
             let window = StepWindow { from: Default::default(), to: [last.clone(), last] };
             let followed = own.follow(&asked, &[], window.count()).unwrap();
             let grid = &followed.grid;
-            println!("{name} {quantity}: {} of {} cells", grid.cells(), asked.cells());
             for place in [rational(0, 1), rational(2, 7), rational(1, 1)] {
                 let at_value = at(ends.each_ref(), &place);
                 let single = problem.substituted(symbol, at_value.clone()).unwrap();
@@ -141,5 +140,5 @@ fn motions_with_contacts_that_open_hold_those_at_each_value() {
             }
         }
     }
-    assert!(places >= 1000, "{places}");
+    assert!(places >= 4000, "{places}");
 }

@@ -517,16 +517,34 @@ fn off(
 /// Neither a claim nor its opposite is proven of values with a border between them; of those at one side one is.
 #[test]
 fn nothing_is_proven_across_a_border() {
-    let problem = Problem::builtin("mass-on-fixed-bar").unwrap();
-    let range: SymbolRange = "mu=1/10..10".parse().unwrap();
-    let window = |_: &Problem| Ok([rational(0, 1), rational(2, 1)]);
-    for (simpler, quantity, tolerance, border, is_below) in [
-        ("third", "velocity", rational(1, 10), rational(3258, 10_000), true),
-        ("endless:rod.right", "velocity", rational(1, 10), rational(9737, 10_000), false),
+    let fixed = || ("mass-on-fixed-bar", "mu", 2);
+    for ((name, symbol, to), simpler, quantity, tolerance, border, is_below) in [
+        (fixed(), "third", "velocity", rational(1, 10), rational(3258, 10_000), true),
+        (fixed(), "endless:rod.right", "velocity", rational(1, 10), rational(9737, 10_000), false),
         // Beyond the border the wave that makes the strain large comes too late for the window.
-        ("third", "strain_impact", rational(7, 10), rational(1, 1), true),
-        ("echoes:1", "velocity", rational(1, 10), rational(4859, 10_000), false),
+        (fixed(), "third", "strain_impact", rational(7, 10), rational(1, 1), true),
+        (fixed(), "echoes:1", "velocity", rational(1, 10), rational(4859, 10_000), false),
+        // Contacts open.
+        (
+            ("saint-venant", "mu", 3),
+            "closed",
+            "velocity",
+            rational(1, 10),
+            rational(16_667, 10_000),
+            true,
+        ),
+        (
+            ("mass-on-free-bar", "m", 4),
+            "endless:rod.right",
+            "velocity",
+            rational(1, 10),
+            rational(9160, 10_000),
+            true,
+        ),
     ] {
+        let problem = Problem::builtin(name).unwrap();
+        let range: SymbolRange = format!("{symbol}=1/10..10").parse().unwrap();
+        let window = |_: &Problem| Ok([rational(0, 1), rational(to, 1)]);
         // Below its border it is enough, or above it.
         let asked = asked(&range, &[], (quantity, tolerance), &window);
         let simpler: Simpler = simpler.parse().unwrap();
@@ -689,7 +707,22 @@ fn what_is_not_followed_over_a_symbol_is_told() {
         ))
     };
     let builtin = |name| Problem::builtin(name).unwrap();
-    let cases: [(Problem, &str, &str, &str, Window<'_>, &str); 9] = [
+    let dented = "scene \"Dented\"
+        symbol a > 0
+        bar striker { impedance = 1, travel = 1, velocity = 1 }
+        hertz dome { stiffness = a }
+        bar rod { impedance = 1 }
+        line free - striker - dome - rod - endless
+        observe force = force(dome)";
+    let pulled = "scene \"Pulled\"
+        symbol k > 0
+        bar striker { impedance = 1, travel = 1/4, velocity = 1 }
+        load pull { force = k/9 }
+        bar long { impedance = 1 + k }
+        line free - striker | pull - long - endless
+        contacts open
+        observe force = force(long.left)";
+    let cases: [(Problem, &str, &str, &str, Window<'_>, &str); 10] = [
         (driven("force = t^20"), "z", "force", "echoes:1", &zero_to_two, "`push` is not supported"),
         (
             builtin("striker-on-long-bar"),
@@ -718,7 +751,9 @@ fn what_is_not_followed_over_a_symbol_is_told() {
             "the default window changes",
         ),
         (hidden("mu + 1/mu", "20"), "mu", "v", "echoes:4", &usual, "the default window changes"),
-        (builtin("saint-venant"), "mu", "velocity", "closed", &zero_to_two, "contacts that open"),
+        (scene(dented), "a", "force", "rigid:striker", &zero_to_two, "local contacts are not"),
+        // What it acts on has no mass once the contact is open.
+        (scene(pulled), "k", "force", "rigid:striker", &zero_to_two, "a contact that opens"),
         (apart(), "a", "force", "endless:one.left", &zero_to_two, "no common divisor"),
         (builtin("mass-on-fixed-bar"), "mu", "velocity", "without:rod", &zero_to_two, ""),
     ];
