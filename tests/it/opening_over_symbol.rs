@@ -4,8 +4,10 @@ use crate::over_symbol::{at, meet, of_step, of_varying, rational, scene};
 use wavestep::Problem;
 use wavestep::ball::{Ball, Magnitude};
 use wavestep::expression::Fraction;
+use wavestep::history::EventKind;
 use wavestep::history::family::Over;
 use wavestep::history::family::envelope::StepWindow;
+use wavestep::history::family::grid::Grid;
 use wavestep::planner::Purpose;
 use wavestep::signal::{Limit, value};
 use wavestep_polynomial::{Rational, Symbol};
@@ -55,6 +57,18 @@ const TWO: &str = "scene \"Two\"
     observe left = velocity(anvil.right)
     observe force = force(rod.left)";
 
+/// Nothing but waves meets at the contact, which opens where its force falls to zero.
+const PULLED_BACK: &str = "scene \"Pulled back\"
+    symbol a > 0
+    load pull { force = -1/5 }
+    mass hammer { mass = a, velocity = 1 }
+    bar anvil { impedance = 1/2, travel = 1/2 }
+    bar rod { impedance = 1 }
+    line free - pull - hammer - anvil | rod - endless
+    contacts open
+    observe left = velocity(anvil.right)
+    observe right = velocity(rod.left)";
+
 /// In units, and a striker whose impedance is known but for a factor.
 const UNITS: &str = "scene \"Units\"
     symbol k > 0
@@ -70,11 +84,18 @@ const UNITS: &str = "scene \"Units\"
     observe gauge = strain(incident.at(1/2))
     observe velocity = velocity(striker.left)";
 
+/// Where the last cell ends.
+fn grid_end(grid: &Grid, count: usize) -> Rational {
+    Rational::from_integer((count / grid.cells()).into())
+}
+
 /// At each value the motion is that of the scene with this value, on both sides of where a contact opens.
 #[test]
 fn motions_with_contacts_that_open_hold_those_at_each_value() {
     let builtin = |name| Problem::builtin(name).unwrap();
-    let mut places = 0;
+    let (mut places, mut changes) = (0, 0);
+    // Where a contact is closed still that is open in truth.
+    let end = rational(1, 1) - rational(1, 1 << 42);
     for (problem, symbol, ends, to) in [
         (builtin("saint-venant"), "mu", [rational(1, 1), rational(10001, 10000)], rational(6, 1)),
         // It opens at the end of a step, before or after it.
@@ -90,6 +111,12 @@ fn motions_with_contacts_that_open_hold_those_at_each_value() {
         (scene(CAP), "a", [rational(1, 2), rational(501, 1000)], rational(4, 1)),
         (scene(SMOOTH), "a", [rational(1, 1), rational(1001, 1000)], rational(4, 1)),
         (scene(TWO), "a", [rational(1, 1), rational(1001, 1000)], rational(4, 1)),
+        (
+            scene(PULLED_BACK),
+            "a",
+            [rational(1, 1), rational(100_000_001, 100_000_000)],
+            rational(4, 1),
+        ),
         (scene(UNITS), "k", [rational(1, 1), rational(1001, 1000)], rational(1, 2000)),
     ] {
         let (name, symbol_of) = (problem.title().to_owned(), Symbol::new(symbol).unwrap());
@@ -113,10 +140,32 @@ fn motions_with_contacts_that_open_hold_those_at_each_value() {
                 let [_, per_unit] = one.in_steps(&Fraction::one(), &grid.step).unwrap();
                 let parameter = &place * rational(2, 1) - rational(1, 1);
                 let middle = |own: Ball| Rational::from(own.midpoint());
+                let events = match problem.observables().first() {
+                    Some(first) if *first == quantity => single.events(30).unwrap().events,
+                    _ => Vec::new(),
+                };
+                for event in events.iter().skip(1) {
+                    let time = event.time.bounds().map(|end| end * &per_unit);
+                    let cut = |cell: usize| {
+                        let own = of_varying(&grid.start(cell), &parameter);
+                        match event.kind {
+                            // Contacts open a little later there.
+                            EventKind::Opening => own.widened(&Magnitude::power_of_two(-10)),
+                            _ => own,
+                        }
+                    };
+                    let count = followed.observed().len();
+                    assert!(
+                        time[0] > grid_end(grid, count)
+                            || (0..count).any(|cell| meet(&cut(cell), &time)),
+                        "{name}: {symbol} = {at_value}: {event:?}"
+                    );
+                    changes += 1;
+                }
                 for (cell, told) in followed.observed().iter().enumerate() {
                     let start = middle(of_varying(&grid.start(cell), &parameter));
                     let length = middle(of_varying(grid.length(cell), &parameter));
-                    for x in [rational(1, 50), rational(2, 7), rational(49, 50)] {
+                    for x in [rational(1, 50), rational(2, 7), rational(49, 50), end.clone()] {
                         let time = (&start + &length * &x) / &per_unit;
                         if time > to {
                             continue;
@@ -140,5 +189,5 @@ fn motions_with_contacts_that_open_hold_those_at_each_value() {
             }
         }
     }
-    assert!(places >= 4000, "{places}");
+    assert!(places >= 4000 && changes >= 25, "{places} {changes}");
 }

@@ -5,9 +5,9 @@
 //! of a polynomial in time is a polynomial in the symbol, too. What both leave out is bounded by the energy of each node,
 //! as in `passivity`: its matrices hold for all values at once.
 //!
-//! This file prepares a scene, and `exponential` its loads. `motion` follows it step by step, in functions on a step
-//! (`on_cell`) with coefficients over the symbol (`symbol`); `modes` encloses its modes of vibration, and `envelope` bounds
-//! sizes.
+//! This file prepares a scene, and `exponential` its loads. `motion` follows it cell by cell (`grid`), in functions on a cell
+//! (`on_cell`) with coefficients over the symbol (`symbol`). `node` tells what a node does on a cell, and `opening` when its
+//! contacts change; `modes` encloses modes of vibration, and `envelope` bounds sizes.
 
 pub mod envelope;
 mod exponential;

@@ -27,7 +27,7 @@ pub(super) enum Stop {
     },
     /// A contact closes about the end of a cell.
     AboutEnd,
-    /// A contact opens and closes on one cell, which is cut here.
+    /// What opens comes nearer again on the same cell, which is cut here.
     TooLong(Varying),
     Refused(NotOverSymbol),
 }
@@ -337,7 +337,9 @@ impl SteppedNode {
             let closes = closes.is_some_and(
                 |next| matches!(&next.begins, Begins::Closing(own) if own.contact == contact),
             );
-            if closes || gap.is_not_negative() {
+            // Whether it is open at the start is not told by its gap, which is zero there.
+            let is_new = way.from == cell && way.opened().is_some_and(|own| own.contact == contact);
+            if closes || (gap.is_not_negative() && !is_new) {
                 continue;
             }
             may_close = way
@@ -361,10 +363,9 @@ impl SteppedNode {
             }
             (None, Some(opened)) => {
                 let both: Vec<OnCell> = both.iter().map(OnCell::polynomial).collect();
-                if !OnCell::sum(&opened.parting, both.iter()).is_not_negative() {
-                    // It may close on the same cell.
-                    let gaps = way.gaps(before, &outputs, length);
-                    let half = half_way(&gaps[&opened.contact]).map(Stop::TooLong);
+                let parting = OnCell::sum(&opened.parting, both.iter());
+                if !parting.is_not_negative() {
+                    let half = half_way(&parting).map(Stop::TooLong);
                     return Err(half.unwrap_or_else(Stop::Refused));
                 }
                 Ok(Some((opened, opened.while_open(start(opened), &own.left, &arrived))))

@@ -372,12 +372,12 @@ pub(super) fn ends(value: &Varying) -> [Rational; 2] {
     [Rational::from(&low), Rational::from(&high)]
 }
 
-/// About half way to where a gap is zero again, one place for all values of the symbol.
+/// About half way to where a velocity that is positive at first changes its sign, one place for all values of the symbol.
 ///
 /// # Errors
 /// [`NotOverSymbol::Undecided`] where that is not on its cell.
-pub(super) fn half_way(gap: &OnCell) -> Outcome<Varying> {
-    let place = Rational::from(zero_of_polynomial(gap)?.coefficient(0).midpoint());
+pub(super) fn half_way(velocity: &OnCell) -> Outcome<Varying> {
+    let place = Rational::from(zero_of_polynomial(velocity)?.coefficient(0).midpoint());
     match place.is_positive() && place < Rational::one() {
         true => Ok(Varying::constant(&(place / Rational::from_integer(2.into())), BITS).split().0),
         false => Err(NotOverSymbol::Undecided),
