@@ -559,7 +559,7 @@ fn ways(node: &Node<Varying>, grid: &Grid, changes: &[Change]) -> Outcome<Vec<Wa
         let (system, passivity) = of(&open)?;
         let begins = match now {
             Now::Open => {
-                Begins::Opening(Opened::of(node, before, (contact, (&system, &passivity)))?)
+                Begins::Opening(Opened::of(node, before, (contact, (&system, &passivity)))?.into())
             }
             Now::Closed => Begins::Closing(Closed::of(node, contact, (&before.system, &system))?),
         };

@@ -85,7 +85,7 @@ pub(super) struct Way {
 /// How a node comes to move in a way.
 pub(super) enum Begins {
     AtStart,
-    Opening(Opened),
+    Opening(Box<Opened>),
     Closing(Closed),
 }
 

@@ -162,7 +162,7 @@ impl OnCell {
     ///
     /// About the start it is compared power by power, since it may be zero there.
     pub fn is_not_negative(&self) -> bool {
-        self.from_start().iter().all(|own| is_not_negative(own, DEPTH))
+        self.about_start().iter().all(|own| is_not_negative(own, DEPTH))
     }
 
     /// Whether it is proven to be negative from the start on, at once.
@@ -172,12 +172,12 @@ impl OnCell {
             let first = left.find(|own| !(own.is_exact() && own.contains_zero()));
             first.is_some_and(|own| own.sign() == Some(Ordering::Greater))
         };
-        self.from_start().iter().all(falls)
+        self.about_start().iter().all(falls)
     }
 
     /// Its coefficients at both ends of the symbol, with what is left out of each.
-    fn from_start(&self) -> [Vec<Ball>; 2] {
-        let ends = self.ends().map(|end| {
+    fn about_start(&self) -> [Vec<Ball>; 2] {
+        self.ends().map(|end| {
             let rests = self.coefficients.iter().map(|own| own.tail(2));
             let both = end.coefficients.iter().zip(rests);
             let mut own: Vec<Ball> = both.map(|(own, rest)| own.widened(&rest)).collect();
@@ -187,8 +187,7 @@ impl OnCell {
                 own[1] = own[1].widened(&self.error);
             }
             own
-        });
-        ends
+        })
     }
 
     /// The largest size on `from ≤ x ≤ 1`.
@@ -226,7 +225,7 @@ impl OnCell {
             if next <= Rational::one() && self.ends().iter().all(is_above) {
                 known = next;
             } else {
-                part = part * &half;
+                part *= &half;
             }
         }
         known
