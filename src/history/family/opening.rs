@@ -71,6 +71,44 @@ struct Output {
 const CLOSED: usize = 0;
 const OPEN: usize = 1;
 
+/// The size `|y|` of a state.
+struct Norm {
+    /// The roots of the weights, and their inverses.
+    roots: Vec<Magnitude>,
+    inverse_roots: Vec<Magnitude>,
+    /// `|B_j|` of each load.
+    driven: Vec<Magnitude>,
+}
+
+impl Norm {
+    fn of(system: &System<Varying>, passivity: &Passivity) -> Norm {
+        let (one, states) = (Magnitude::from_u64(1), system.states());
+        let mut roots = vec![Magnitude::ZERO; states];
+        let mut inverse_roots = roots.clone();
+        for block in &passivity.blocks {
+            for (place, member) in block.members.iter().enumerate() {
+                let unit = |own: &usize| if own == member { one } else { Magnitude::ZERO };
+                roots[*member] = block.size(block.members.iter().map(unit));
+                inverse_roots[*member] = block.entry(place, &one);
+            }
+        }
+        let driven = |input: usize| {
+            let blocks = passivity.blocks.iter();
+            root_of_squares(blocks.map(|own| *own.pushed_by(input)))
+        };
+        let driven = (2..system.inputs()).map(driven).collect();
+        Norm { roots, inverse_roots, driven }
+    }
+
+    fn states(&self) -> usize {
+        self.roots.len()
+    }
+
+    fn size(&self, entries: &[Magnitude]) -> Magnitude {
+        root_of_squares(self.roots.iter().zip(entries).map(|(root, own)| root.multiply(own)))
+    }
+}
+
 /// A contact that opens, between two ways of a node.
 pub(super) struct Opened {
     pub(super) contact: usize,
@@ -81,11 +119,7 @@ pub(super) struct Opened {
     /// For each entry of the open state the same of the closed one.
     counterparts: Vec<usize>,
     closed_states: usize,
-    /// The roots of the weights of the open state, and their inverses.
-    roots: Vec<Magnitude>,
-    inverse_roots: Vec<Magnitude>,
-    /// `|B_j|` of each load.
-    driven: Vec<Magnitude>,
+    norm: Norm,
     impedances: [Magnitude; 2],
     /// How fast it parts for each unit of force.
     yielding: Magnitude,
@@ -143,21 +177,6 @@ impl Opened {
             own.extend(row.drain(closed.states()..));
             own
         };
-        let one = Magnitude::from_u64(1);
-        let (mut roots, mut inverse_roots) =
-            (vec![Magnitude::ZERO; open.states()], vec![Magnitude::ZERO; open.states()]);
-        for block in &passivity.blocks {
-            for (place, member) in block.members.iter().enumerate() {
-                let unit = |own: &usize| if own == member { one } else { Magnitude::ZERO };
-                roots[*member] = block.size(block.members.iter().map(unit));
-                inverse_roots[*member] = block.entry(place, &one);
-            }
-        }
-        let driven = |input: usize| {
-            let squares = passivity.blocks.iter().map(|own| own.pushed_by(input));
-            let squares = squares.map(|own| own.multiply(own));
-            squares.fold(Magnitude::ZERO, |sum, own| sum.add(&own)).square_root()
-        };
         let runs = node.runs();
         let force = opened(&closed.output[runs + place.expect("it is closed")]);
         let parting = subtracted(&open.output[run + 1], &open.output[run]);
@@ -186,9 +205,7 @@ impl Opened {
             parting,
             force,
             closed_states: closed.states(),
-            roots,
-            inverse_roots,
-            driven: (2..open.inputs()).map(driven).collect(),
+            norm: Norm::of(open, passivity),
             impedances: node.impedance.each_ref().map(|own| own.magnitude()),
             counterparts,
         })
@@ -215,11 +232,11 @@ impl Opened {
 
     /// The size of a state with entries of these sizes, those of the open one or of the closed one.
     pub(super) fn size_of(&self, entries: &[Magnitude]) -> Magnitude {
-        let own: Vec<Magnitude> = match entries.len() == self.roots.len() {
-            true => entries.to_vec(),
-            false => self.counterparts.iter().map(|own| entries[*own]).collect(),
-        };
-        root_of_squares(self.roots.iter().zip(&own).map(|(root, own)| root.multiply(own)))
+        if entries.len() == self.norm.states() {
+            return self.norm.size(entries);
+        }
+        let own: Vec<Magnitude> = self.counterparts.iter().map(|own| entries[*own]).collect();
+        self.norm.size(&own)
     }
 
     /// A bound of a sum over state and input.
@@ -249,30 +266,28 @@ impl Opened {
         self.bound((start, self.size_of(left)), arrived, None)
     }
 
+    /// The bounds with the names of the head of this file: while the motion that is followed is closed, its force is given.
     fn bound(
         &self,
         (start, left): (Magnitude, Magnitude),
         Arrived { acting, length }: &Arrived,
         force: Option<Magnitude>,
     ) -> Bound {
-        let (product, states) = (Magnitude::multiply, self.roots.len());
+        let (norm, states) = (&self.norm, self.norm.states());
         let f = force.unwrap_or(Magnitude::ZERO);
-        let inverse = self.inverse_roots.iter();
-        let of_state =
-            inverse.zip(&self.parting).map(|(root, own)| root.multiply(&own.magnitude()));
-        let of_state = root_of_squares(of_state);
+        let parting = norm.inverse_roots.iter().zip(&self.parting);
+        let of_state = root_of_squares(parting.map(|(root, own)| root.multiply(&own.magnitude())));
         // What parts by inputs alone, and by the force.
         let of_others = self.sum(&self.parting[states..], acting).add(&self.yielding.multiply(&f));
-        let loads = self.driven.iter().zip(&acting[2..]).map(|(driven, own)| driven.multiply(own));
+        let loads = norm.driven.iter().zip(&acting[2..]).map(|(driven, own)| driven.multiply(own));
         let pushed = loads.fold(of_state.multiply(&f), |sum, own| sum.add(&own));
-        let linear = left.add(&pushed.multiply(length));
-        let arrive =
-            self.impedances.iter().zip(acting).map(|(z, own)| z.multiply(&own.multiply(own)));
-        let square = arrive.fold(f.multiply(&of_others), |sum, own| sum.add(&own));
-        let square = product(&square, length);
-        let size = start.add(&linear.scale(1)).add(&square.scale(1).square_root());
+        let a = left.add(&pushed.multiply(length));
+        let arriving = self.impedances.iter().zip(acting);
+        let arriving = arriving.map(|(z, own)| z.multiply(&own.multiply(own)));
+        let q = arriving.fold(f.multiply(&of_others), |sum, own| sum.add(&own)).multiply(length);
+        let size = start.add(&a.scale(1)).add(&q.scale(1).square_root());
         let mut sizes: Vec<Magnitude> =
-            self.inverse_roots.iter().map(|root| root.multiply(&size)).collect();
+            norm.inverse_roots.iter().map(|root| root.multiply(&size)).collect();
         sizes.extend(acting);
         // A true force in the contact is as far off.
         let force_is_off = match force {
