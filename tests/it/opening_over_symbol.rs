@@ -2,14 +2,15 @@
 
 use crate::over_symbol::{at, meet, of_step, of_varying, rational, scene};
 use wavestep::Problem;
-use wavestep::ball::{Ball, Magnitude};
+use wavestep::ball::Magnitude;
 use wavestep::expression::Fraction;
 use wavestep::history::EventKind;
-use wavestep::history::family::Over;
 use wavestep::history::family::envelope::StepWindow;
 use wavestep::history::family::grid::Grid;
+use wavestep::history::family::on_cell::OnCell;
+use wavestep::history::family::{NotOverSymbol, Over};
 use wavestep::planner::Purpose;
-use wavestep::signal::{Limit, value};
+use wavestep::signal::{Limit, Varying, value};
 use wavestep_polynomial::{Rational, Symbol};
 
 /// A hammer that is pushed against a cap: both have a mass.
@@ -84,110 +85,220 @@ const UNITS: &str = "scene \"Units\"
     observe gauge = strain(incident.at(1/2))
     observe velocity = velocity(striker.left)";
 
-/// Where the last cell ends.
-fn grid_end(grid: &Grid, count: usize) -> Rational {
-    Rational::from_integer((count / grid.cells()).into())
+/// Of all lines that can be put together one in so many is tested.
+const STEP: usize = 11;
+
+/// A scene with a symbol, the values that it takes, and a time.
+struct Case {
+    problem: Problem,
+    symbol: &'static str,
+    ends: [Rational; 2],
+    to: Rational,
+}
+
+/// What was compared.
+#[derive(Default)]
+struct Compared {
+    places: usize,
+    changes: usize,
+}
+
+impl Case {
+    fn new(
+        problem: Problem,
+        symbol: &'static str,
+        (from, part): (Rational, i64),
+        to: Rational,
+    ) -> Case {
+        let ends = [from.clone(), &from + &from * rational(1, part)];
+        Case { problem, symbol, ends, to }
+    }
+
+    /// Compares what is told for all values with the digits of single scenes; `radius` is how far off it may be at most.
+    fn compare(&self, radius: &Rational, compared: &mut Compared) -> Result<(), NotOverSymbol> {
+        let symbol = Symbol::new(self.symbol).unwrap();
+        let scaled = self.problem.scaled().unwrap();
+        for quantity in self.problem.observables() {
+            let own = Over::new(scaled, quantity, (&symbol, self.ends.each_ref()))?;
+            let asked = Over::grid(&[&own], None)?;
+            let [_, last] = own.in_steps(&Fraction::constant(&self.to), &asked.step)?;
+            let window = StepWindow { from: Default::default(), to: [last.clone(), last] };
+            let followed = own.follow(&asked, &[], window.count())?;
+            let told = followed.observed();
+            for place in [rational(0, 1), rational(2, 7), rational(1, 1)] {
+                let at_value = at(self.ends.each_ref(), &place);
+                let one = Over::new(scaled, quantity, (&symbol, [&at_value; 2]))?;
+                let [_, per_unit] = one.in_steps(&Fraction::one(), &asked.step)?;
+                let here = Here {
+                    case: self,
+                    single: self.problem.substituted(self.symbol, at_value).unwrap(),
+                    parameter: &place * rational(2, 1) - rational(1, 1),
+                    per_unit,
+                    grid: &followed.grid,
+                };
+                if self.problem.observables().first() == Some(&quantity) {
+                    here.compare_changes(told.len(), compared);
+                }
+                here.compare_values(quantity, &told, radius, compared);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// One value of the symbol.
+struct Here<'a> {
+    case: &'a Case,
+    single: Problem,
+    /// From −1 to 1.
+    parameter: Rational,
+    /// Steps in a unit of time.
+    per_unit: Rational,
+    grid: &'a Grid,
+}
+
+impl Here<'_> {
+    /// Where contacts open and close is the beginning of a cell.
+    fn compare_changes(&self, count: usize, compared: &mut Compared) {
+        let last = Rational::from_integer((count / self.grid.cells()).into());
+        for event in self.single.events(30).unwrap().events.iter().skip(1) {
+            let time = event.time.bounds().map(|end| end * &self.per_unit);
+            if time[0] > last {
+                continue;
+            }
+            let cut = |cell: usize| {
+                let own = of_varying(&self.grid.start(cell), &self.parameter);
+                match event.kind {
+                    // Contacts open a little later there.
+                    EventKind::Opening => own.widened(&Magnitude::power_of_two(-10)),
+                    _ => own,
+                }
+            };
+            let is_cut = (0..count).any(|cell| meet(&cut(cell), &time));
+            assert!(is_cut, "{}: {event:?}", self.single.source().text());
+            compared.changes += 1;
+        }
+    }
+
+    fn compare_values(
+        &self,
+        quantity: &str,
+        told: &[OnCell],
+        radius: &Rational,
+        compared: &mut Compared,
+    ) {
+        let (zero, to) = (rational(0, 1), &self.case.to);
+        let wanted = self.single.wanted(quantity).unwrap();
+        let purpose = Purpose::Values { digits: 30 };
+        let signal = self.single.signal_on(&wanted, [&zero, to], purpose).unwrap();
+        let middle = |own: &Varying| Rational::from(of_varying(own, &self.parameter).midpoint());
+        // Where a contact is closed still that is open in truth.
+        let end = rational(1, 1) - rational(1, 1 << 42);
+        for (cell, told) in told.iter().enumerate() {
+            let (start, length) = (middle(&self.grid.start(cell)), middle(self.grid.length(cell)));
+            for x in [rational(1, 50), rational(2, 7), rational(49, 50), end.clone()] {
+                let time = (&start + &length * &x) / &self.per_unit;
+                if time > *to {
+                    continue;
+                }
+                let exact = value(&*signal, &time, Limit::Right, 30, 1 << 10).unwrap().bounds();
+                let here = of_step(told, &x, &self.parameter);
+                let name = || {
+                    format!(
+                        "{} at t = {time}: {:?}",
+                        self.single.source().text(),
+                        self.single.values()
+                    )
+                };
+                let off = here.radius().to_double();
+                assert!(*here.radius() <= Magnitude::from_rational(radius), "{off}: {}", name());
+                let here = here.widened(&Magnitude::power_of_two(-60));
+                assert!(meet(&here, &exact), "{quantity}, {here:?} and {exact:?}: {}", name());
+                compared.places += 1;
+            }
+        }
+    }
 }
 
 /// At each value the motion is that of the scene with this value, on both sides of where a contact opens.
 #[test]
 fn motions_with_contacts_that_open_hold_those_at_each_value() {
     let builtin = |name| Problem::builtin(name).unwrap();
-    let (mut places, mut changes) = (0, 0);
-    // Where a contact is closed still that is open in truth.
-    let end = rational(1, 1) - rational(1, 1 << 42);
-    for (problem, symbol, ends, to) in [
-        (builtin("saint-venant"), "mu", [rational(1, 1), rational(10001, 10000)], rational(6, 1)),
+    let mut compared = Compared::default();
+    let at_end = [rational(105_999, 100_000), rational(106_004, 100_000)];
+    let saint_venant = || builtin("saint-venant");
+    for case in [
+        Case::new(saint_venant(), "mu", (rational(1, 1), 10_000), rational(6, 1)),
         // It opens at the end of a step, before or after it.
-        (
-            builtin("saint-venant"),
-            "mu",
-            [rational(105_999, 100_000), rational(106_004, 100_000)],
-            rational(4, 1),
-        ),
-        (builtin("saint-venant"), "mu", [rational(5, 2), rational(2501, 1000)], rational(6, 1)),
-        (builtin("mass-on-free-bar"), "m", [rational(1, 1), rational(1001, 1000)], rational(4, 1)),
-        (builtin("bars-that-part"), "r", [rational(1, 2), rational(5, 8)], rational(5, 1)),
-        (scene(CAP), "a", [rational(1, 2), rational(501, 1000)], rational(4, 1)),
-        (scene(SMOOTH), "a", [rational(1, 1), rational(1001, 1000)], rational(4, 1)),
-        (scene(TWO), "a", [rational(1, 1), rational(1001, 1000)], rational(4, 1)),
-        (
-            scene(PULLED_BACK),
-            "a",
-            [rational(1, 1), rational(100_000_001, 100_000_000)],
-            rational(4, 1),
-        ),
-        (scene(UNITS), "k", [rational(1, 1), rational(1001, 1000)], rational(1, 2000)),
+        Case { problem: saint_venant(), symbol: "mu", ends: at_end, to: rational(4, 1) },
+        Case::new(saint_venant(), "mu", (rational(5, 2), 2500), rational(6, 1)),
+        Case::new(builtin("mass-on-free-bar"), "m", (rational(1, 1), 1000), rational(4, 1)),
+        Case::new(builtin("bars-that-part"), "r", (rational(1, 2), 4), rational(5, 1)),
+        Case::new(scene(CAP), "a", (rational(1, 2), 1000), rational(4, 1)),
+        Case::new(scene(SMOOTH), "a", (rational(1, 1), 1000), rational(4, 1)),
+        Case::new(scene(TWO), "a", (rational(1, 1), 1000), rational(4, 1)),
+        Case::new(scene(PULLED_BACK), "a", (rational(1, 1), 100_000_000), rational(4, 1)),
+        Case::new(scene(UNITS), "k", (rational(1, 1), 1000), rational(1, 2000)),
     ] {
-        let (name, symbol_of) = (problem.title().to_owned(), Symbol::new(symbol).unwrap());
-        let scaled = problem.scaled().unwrap();
-        for quantity in problem.observables() {
-            let own = Over::new(scaled, quantity, (&symbol_of, ends.each_ref())).unwrap();
-            let asked = Over::grid(&[&own], None).unwrap();
-            let [_, last] = own.in_steps(&Fraction::constant(&to), &asked.step).unwrap();
-            let window = StepWindow { from: Default::default(), to: [last.clone(), last] };
-            let followed = own.follow(&asked, &[], window.count()).unwrap();
-            let grid = &followed.grid;
-            for place in [rational(0, 1), rational(2, 7), rational(1, 1)] {
-                let at_value = at(ends.each_ref(), &place);
-                let single = problem.substituted(symbol, at_value.clone()).unwrap();
-                let wanted = single.wanted(quantity).unwrap();
-                let zero = rational(0, 1);
-                let signal = single
-                    .signal_on(&wanted, [&zero, &to], Purpose::Values { digits: 30 })
-                    .unwrap();
-                let one = Over::new(scaled, quantity, (&symbol_of, [&at_value; 2])).unwrap();
-                let [_, per_unit] = one.in_steps(&Fraction::one(), &grid.step).unwrap();
-                let parameter = &place * rational(2, 1) - rational(1, 1);
-                let middle = |own: Ball| Rational::from(own.midpoint());
-                let events = match problem.observables().first() {
-                    Some(first) if *first == quantity => single.events(30).unwrap().events,
-                    _ => Vec::new(),
-                };
-                for event in events.iter().skip(1) {
-                    let time = event.time.bounds().map(|end| end * &per_unit);
-                    let cut = |cell: usize| {
-                        let own = of_varying(&grid.start(cell), &parameter);
-                        match event.kind {
-                            // Contacts open a little later there.
-                            EventKind::Opening => own.widened(&Magnitude::power_of_two(-10)),
-                            _ => own,
-                        }
-                    };
-                    let count = followed.observed().len();
-                    assert!(
-                        time[0] > grid_end(grid, count)
-                            || (0..count).any(|cell| meet(&cut(cell), &time)),
-                        "{name}: {symbol} = {at_value}: {event:?}"
-                    );
-                    changes += 1;
-                }
-                for (cell, told) in followed.observed().iter().enumerate() {
-                    let start = middle(of_varying(&grid.start(cell), &parameter));
-                    let length = middle(of_varying(grid.length(cell), &parameter));
-                    for x in [rational(1, 50), rational(2, 7), rational(49, 50), end.clone()] {
-                        let time = (&start + &length * &x) / &per_unit;
-                        if time > to {
-                            continue;
-                        }
-                        let exact = value(&*signal, &time, Limit::Right, 30, 1 << 10).unwrap();
-                        let here = of_step(told, &x, &parameter);
-                        assert!(
-                            *here.radius() <= Magnitude::from_rational(&rational(1, 1000)),
-                            "{name}: {quantity} {:?}",
-                            here.radius().to_double()
-                        );
-                        let here = here.widened(&Magnitude::power_of_two(-60));
-                        assert!(
-                            meet(&here, &exact.bounds()),
-                            "{name}: {quantity} at t = {time}, {symbol} = {at_value}: {here:?} and {:?}",
-                            exact.bounds()
-                        );
-                        places += 1;
-                    }
-                }
-            }
+        case.compare(&rational(1, 1000), &mut compared).unwrap();
+    }
+    let Compared { places, changes } = compared;
+    assert!(places >= 4000 && changes >= 25, "{places} {changes}");
+}
+
+/// The same of lines that are put together at random, where it is decided.
+#[test]
+fn lines_with_contacts_that_open_hold_those_at_each_value() {
+    let lefts = [
+        "hammer |",
+        "striker |",
+        "hammer - anvil |",
+        "pull - hammer - anvil |",
+        "hammer | anvil |",
+        "striker - block |",
+    ];
+    let rights =
+        ["fixed", "free", "end - free", "ground - free", "far - endless", "pad - end - free"];
+    let values = [(1, 3), (1, 2), (1, 1), (3, 2), (2, 1), (3, 1)];
+    let (mut compared, mut decided, mut all) = (Compared::default(), 0, 0);
+    let count = lefts.len() * rights.len() * values.len();
+    let step: usize = std::env::var("STEP").map_or(STEP, |own| own.parse().unwrap());
+    for number in (0..count).step_by(step) {
+        let left = lefts[number % lefts.len()];
+        let right = rights[number / lefts.len() % rights.len()];
+        let (numerator, denominator) = values[number / lefts.len() / rights.len()];
+        let declared = [
+            ("pull", "load pull { force = -1/5 }"),
+            ("hammer", "mass hammer { mass = a, velocity = 1 }"),
+            ("striker", "bar striker { impedance = a, travel = 3/4, velocity = 1 }"),
+            ("anvil", "bar anvil { impedance = 1/2, travel = 1/2 }"),
+            ("block", "mass block { mass = 1/3, velocity = 1 }"),
+            ("ground", "support ground { stiffness = 1, damping = 1/2 }"),
+            ("far", "bar far { impedance = 2 }"),
+            ("pad", "spring pad { stiffness = 3 }"),
+            ("end", "mass end { mass = 1/2 }"),
+        ];
+        let line = format!("line free - {left} rod - {right}");
+        let named = |name: &str| line.split(' ').any(|own| own == name);
+        let elements = declared.iter().filter(|(name, _)| named(name)).map(|(_, text)| *text);
+        let text = [
+            "scene \"Line\"",
+            "symbol a > 0",
+            &elements.collect::<Vec<_>>().join("\n"),
+            "bar rod { impedance = 1, travel = 1 }",
+            &line,
+            "contacts open",
+            "observe left = velocity(rod.left)",
+            "observe right = force(rod.right)",
+        ];
+        let from = (rational(numerator, denominator), 20_000);
+        let case = Case::new(scene(&text.join("\n")), "a", from, rational(5, 1));
+        all += 1;
+        match case.compare(&rational(1, 10), &mut compared) {
+            Ok(()) => decided += 1,
+            Err(error) => assert!(error.may_pass_if_narrower(), "{line}: {error}"),
         }
     }
-    assert!(places >= 4000 && changes >= 25, "{places} {changes}");
+    println!("{decided} of {all}: {} {}", compared.places, compared.changes);
+    assert!(decided * 2 >= all && compared.changes >= 20, "{decided} of {all}");
 }
