@@ -1,8 +1,8 @@
 //! How time is cut: into steps, and each step into cells.
 //!
 //! Every travel time is a whole number of steps, and all steps are cut alike. So what arrives on a cell left another node on
-//! one cell, however many steps before. Where a contact opens, a cut is made that moves with the symbol: the waves that
-//! leave there have it in every step that they arrive in.
+//! one cell, however many steps before. Where a contact opens or closes, a cut is made that moves with the symbol: the waves
+//! that leave there have it in every step that they arrive in.
 
 use super::opening::size;
 use super::{NotOverSymbol, Outcome};
@@ -20,14 +20,15 @@ const TOGETHER: i64 = -20;
 /// Steps, and the cells that each is cut into.
 ///
 /// # Invariants
-/// `starts[0] = 0`, and the cells follow each other for every value of the symbol. Cuts have no radii.
+/// `starts[0] = 0`, and the cells follow each other for every value of the symbol. Only a cut where a
+/// contact closes has a remainder.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     pub step: Root,
     /// Each step is cut into so many equal parts, but for the cuts that are left out.
     parts: usize,
     left_out: BTreeSet<usize>,
-    /// Further cuts, where contacts open.
+    /// Further cuts, where contacts open or close.
     cuts: Vec<Varying>,
     starts: Vec<Varying>,
     lengths: Vec<Varying>,
@@ -65,11 +66,6 @@ impl Grid {
     /// Into how many cells a step is cut.
     pub fn cells(&self) -> usize {
         self.starts.len()
-    }
-
-    /// Whether a step is one cell.
-    pub fn is_whole(&self) -> bool {
-        self.cells() == 1
     }
 
     /// Where a cell begins, in steps since the start.
@@ -134,7 +130,7 @@ impl Grid {
         Ok((grid, at, moved))
     }
 
-    /// Without the cut at the end of a cell; none where that is the end of a step, or where a contact opens.
+    /// Without the cut at the end of a cell; none where that is the end of a step, or where a contact opens or closes.
     ///
     /// # Errors
     /// As [`Grid::new`].

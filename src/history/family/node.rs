@@ -315,6 +315,9 @@ impl SteppedNode {
         length: &Varying,
     ) -> Result<Option<(&Opened, Bound)>, Stop> {
         let way = &self.ways[place];
+        if way.system.closed.is_empty() && way.open.is_empty() {
+            return Ok(None);
+        }
         let outputs: Vec<OnCell> =
             way.system.output.iter().map(|row| OnCell::sum(row, both.iter())).collect();
         let acting = both[way.system.states()..].iter().map(|own| own.error).collect();

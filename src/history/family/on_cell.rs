@@ -158,9 +158,7 @@ impl OnCell {
         ends.map(|end| Taylor { remainder: rest, ..end })
     }
 
-    /// Whether it is proven not to be negative: not on the part that begins at this place, for any value.
-    ///
-    /// About the start it is compared power by power, since it may be zero there.
+    /// Whether it is proven not to be negative anywhere on its cell, for any value of the symbol. It may be zero at the start.
     pub fn is_not_negative(&self) -> bool {
         self.about_start().iter().all(|own| is_not_negative(own, DEPTH))
     }
