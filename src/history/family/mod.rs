@@ -7,7 +7,7 @@
 //!
 //! This file prepares a scene, and `exponential` its loads. `motion` follows it cell by cell (`grid`), in functions on a cell
 //! (`on_cell`) with coefficients over the symbol (`symbol`). `node` tells what a node does on a cell, and `opening` when its
-//! contacts change; `modes` encloses modes of vibration, and `envelope` bounds sizes.
+//! contacts change, which `plan` collects; `modes` encloses modes of vibration, and `envelope` bounds sizes.
 
 pub mod envelope;
 mod exponential;
@@ -17,17 +17,17 @@ mod motion;
 mod node;
 pub mod on_cell;
 mod opening;
+mod plan;
 mod symbol;
 
 use crate::ball::{Arithmetic as _, BallError, Magnitude};
 use crate::enclosure::EnclosureError;
 use crate::expression::{Fraction, NotAUnit, Root};
-use crate::history::passivity::Passivity;
 use crate::limits::{MAX_STEPS_OVER_SYMBOL, MAX_SYMBOL_BITS as BITS};
 use crate::model::NotRepresented;
 use crate::network::{
     Contacts, ElementLaw, Elements, Energy, Field, Layout, Measured, MeasuredValue, ModelLoad,
-    Node, Reading, ScaledScene, Section, System, Term, common_measure,
+    Node, Reading, ScaledScene, Section, Term, common_measure,
 };
 use crate::scene::ElementIndex;
 use crate::signal::Varying;
@@ -35,21 +35,16 @@ use exponential::Exponential;
 use grid::Grid;
 use modes::SumOfModes;
 use motion::{Bar, Loading, Motion, Summand, TERMS};
-use node::{Begins, Closed, NodeState, SteppedNode, Stop, Way};
-use num_traits::{One as _, Signed as _, ToPrimitive as _, Zero as _};
+use node::{NodeState, SteppedNode};
+use num_traits::{One as _, ToPrimitive as _, Zero as _};
 use on_cell::OnCell;
-use opening::{Opened, ends};
+pub use plan::Change;
+use plan::{Plan, ways};
 use symbol::OverSymbol;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// How often a scene is followed again with another cut.
 const MOST_CUTS: usize = 32;
-
-/// A contact that opens no longer than this before the end of a cell, as a power of two of its length, does at that end.
-const NEAR: u32 = 20;
-
-/// A contact that opens beyond the end of a step does so no more than one part of a cell over this number beyond it.
-const MOST_BEYOND: i64 = 64;
 
 /// Why motions are not followed over a symbol.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
@@ -204,36 +199,21 @@ impl<'a> Over<'a> {
     /// # Errors
     /// [`NotOverSymbol`].
     pub fn follow(&self, grid: &Grid, closings: &[Change], steps: usize) -> Outcome<Followed> {
-        let (mut grid, mut changes) = (grid.clone(), closings.to_vec());
+        let mut plan = Plan { grid: grid.clone(), changes: closings.to_vec() };
         for _ in 0..MOST_CUTS {
+            let Plan { grid, changes } = &plan;
             let count = steps.saturating_mul(grid.cells());
             if count > MAX_STEPS_OVER_SYMBOL {
                 return Err(NotOverSymbol::TooManySteps);
             }
-            let (bars, nodes) = (self.bars(&grid)?, self.nodes(&grid, &changes, count)?);
-            match Motion::of(&grid, bars, nodes, count) {
+            let (bars, nodes) = (self.bars(grid)?, self.nodes(grid, changes, count)?);
+            match Motion::of(grid, bars, nodes, count) {
                 Ok(motion) => {
-                    let (factors, summands) = self.observed(&grid)?.into_iter().unzip();
-                    changes.retain(|change| change.now == Now::Closed);
-                    return Ok(Followed { grid, closings: changes, motion, factors, summands });
+                    let (factors, summands) = self.observed(grid)?.into_iter().unzip();
+                    let closings = plan.closings();
+                    return Ok(Followed { grid: plan.grid, closings, motion, factors, summands });
                 }
-                Err((_, Stop::Refused(why))) => return Err(why),
-                Err((cell, Stop::Opens { contact, place })) => {
-                    grid = opened(&grid, &mut changes, contact, (cell, place.as_ref()))?;
-                }
-                Err((cell, Stop::TooLong(place))) => {
-                    grid = grid.with_cut(&grid.place(cell, &place).split().0)?.0;
-                }
-                Err((cell, Stop::AboutEnd)) => {
-                    grid = grid.coarser(cell).ok_or(NotOverSymbol::Undecided)??;
-                }
-                Err((cell, Stop::Closes { contact, place })) => {
-                    let (at, off) = grid.place(cell, &place).split();
-                    let (cut, at, _) = grid.with_cut(&Varying { remainder: off, ..at })?;
-                    let step = cell / grid.cells();
-                    changes.push(Change { contact, now: Now::Closed, step, at });
-                    grid = cut;
-                }
+                Err((cell, stop)) => plan = plan.after(cell, stop)?,
             }
         }
         Err(NotOverSymbol::Undecided)
@@ -463,109 +443,6 @@ impl Followed {
     pub fn observed_after(&mut self, last: usize) -> Outcome<Vec<OnCell>> {
         self.motion.sum_after(last, &self.factors, &self.summands)
     }
-}
-
-/// What a contact becomes.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Now {
-    Open,
-    Closed,
-}
-
-/// A contact that opens or closes at the beginning of a cell, which is so far into a step.
-#[derive(Clone, Debug)]
-pub struct Change {
-    contact: usize,
-    now: Now,
-    step: usize,
-    at: Varying,
-}
-
-/// With a contact that opens on a cell, at this part of it or at its beginning, and the grid that has a cut there.
-fn opened(
-    grid: &Grid,
-    changes: &mut Vec<Change>,
-    contact: usize,
-    (cell, place): (usize, Option<&[Varying; 2]>),
-) -> Outcome<Grid> {
-    let (step, now) = (cell / grid.cells(), Now::Open);
-    let Some(place) = place else {
-        if cell == 0 {
-            return Err(NotOverSymbol::BesideContact);
-        }
-        changes.push(Change { contact, now, step, at: grid.within_step(cell).clone() });
-        return Ok(grid.clone());
-    };
-    let [root, later] = place;
-    let [low, high] = ends(root);
-    let near = Rational::new(1.into(), (1_i64 << NEAR).into());
-    if high <= Rational::one() && Rational::one() - low <= near {
-        let step = (cell + 1) / grid.cells();
-        changes.push(Change { contact, now, step, at: grid.within_step(cell + 1).clone() });
-        return Ok(grid.clone());
-    }
-    let beyond = &ends(later)[1] - Rational::one();
-    if !beyond.is_negative() {
-        if let Some(coarser) = grid.coarser(cell) {
-            return coarser;
-        }
-        // In the next step, for all values at once.
-        let next = cell + 1;
-        if beyond > Rational::new(1.into(), MOST_BEYOND.into()) || next % grid.cells() != 0 {
-            return Err(NotOverSymbol::Undecided);
-        }
-        let place = Varying::constant(&(&beyond + &near), BITS);
-        let [_, at] = ends(&grid.length(cell).multiply(&place, BITS));
-        let at = Varying::constant(&at, BITS).split().0;
-        let (cut, at, _) = grid.with_cut(&at)?;
-        changes.push(Change { contact, now, step: step + 1, at });
-        return Ok(cut);
-    }
-    let (grid, at, moved) = grid.with_cut(&grid.place(cell, later).split().0)?;
-    if let Some(moved) = moved {
-        changes.iter_mut().filter(|own| own.at == moved).for_each(|own| own.at = at.clone());
-    }
-    changes.push(Change { contact, now, step, at });
-    Ok(grid)
-}
-
-/// How a node moves: with all contacts closed, and after each change.
-fn ways(node: &Node<Varying>, grid: &Grid, changes: &[Change]) -> Outcome<Vec<Way>> {
-    let numbers = node.map(|value| Ok::<_, NotOverSymbol>(value.number()))?;
-    let of = |open: &[(usize, usize)]| {
-        let is_closed = |contact| open.iter().all(|(own, _)| *own != contact);
-        let system = System::of(node, is_closed, BITS).map_err(|_| NotOverSymbol::Unresisted)?;
-        let passivity = Passivity::of(&numbers, &system.map(Varying::number))?;
-        Ok::<_, NotOverSymbol>((system, passivity))
-    };
-    let (system, passivity) = of(&[])?;
-    let (begins, mut open) = (Begins::AtStart, Vec::new());
-    let mut ways = vec![Way { from: 0, system, passivity, begins, open: open.clone() }];
-    let place = |change: &Change| {
-        let run = node.contacts().find(|(own, _)| *own == change.contact)?.1;
-        Some((grid.cell_at(change.step, &change.at), change.contact, run, change.now))
-    };
-    let mut own: Vec<_> = changes.iter().filter_map(place).collect();
-    own.sort_unstable_by_key(|(from, ..)| *from);
-    for (from, contact, run, now) in own {
-        let before = ways.last().expect("one at least");
-        let Some(from) = from.filter(|from| *from > before.from) else {
-            return Err(NotOverSymbol::Undecided);
-        };
-        match now {
-            Now::Open => open.push((contact, run)),
-            Now::Closed => open.retain(|(own, _)| *own != contact),
-        }
-        let (system, passivity) = of(&open)?;
-        let begins = match now {
-            Now::Open => {
-                Begins::Opening(Opened::of(node, before, (contact, (&system, &passivity)))?.into())
-            }
-            Now::Closed => Begins::Closing(Closed::of(node, contact, (&before.system, &system))?),
-        };
-        ways.push(Way { from, system, passivity, begins, open: open.clone() });
-    }
-    Ok(ways)
 }
 
 /// A value that is one number, whatever the symbol is.
