@@ -126,21 +126,31 @@ impl Magnitude {
         self.mantissa == 0
     }
 
-    /// An upper bound of the sum.
+    /// The least magnitude of at least the sum.
     pub fn add(&self, other: &Self) -> Self {
-        let (large, small) = if self < other { (other, self) } else { (self, other) };
+        let (large, small) = match self.is_zero() || self.exponent < other.exponent {
+            true => (other, self),
+            false => (self, other),
+        };
         if small.is_zero() {
             return *large;
         }
-        // 31 further bits below the larger mantissa hold the smaller one; whatever falls below them counts as one
-        // unit.
+        if large.is_zero() {
+            return *small;
+        }
         let gap = large.exponent.abs_diff(small.exponent);
-        let [high, low] = [large, small].map(|size| size.mantissa << (BITS - 1));
-        let low = match gap < 64 {
-            true => (low >> gap) + u64::from(u64::from(low.trailing_zeros()) < gap),
-            false => 1,
-        };
-        Self::rounded_up(high + low, shifted(large.exponent, 1 - i64::from(BITS)))
+        if gap >= u64::from(BITS) {
+            // It is less than one unit.
+            return Self::rounded_up(large.mantissa + 1, large.exponent);
+        }
+        // At most 31 bits below the larger mantissa, and one above.
+        let sum = (large.mantissa << gap) + small.mantissa;
+        let carry = sum >> (u64::from(BITS) + gap);
+        let below = gap + carry;
+        let short = (sum >> below) + u64::from(sum & ((1 << below) - 1) != 0);
+        let carry_again = short >> BITS;
+        let exponent = shifted(large.exponent, (carry + carry_again) as i64);
+        Self { mantissa: short >> carry_again, exponent }
     }
 
     /// An upper bound of the product.

@@ -4,9 +4,10 @@
 //! Where that does not decide, the values are cut into two parts.
 
 use super::enough_map::{MapRequest, middle};
+use super::largest::{Exact, scaled};
 use super::{Problem, ProblemError, Simpler};
 use crate::expression::{Fraction, Root};
-use crate::history::family::envelope::{Ends, Envelope, StepWindow};
+use crate::history::family::envelope::{Envelope, StepWindow};
 use crate::history::family::grid::Grid;
 use crate::history::family::modes::SumOfModes;
 use crate::history::family::on_cell::OnCell;
@@ -15,8 +16,6 @@ use crate::language;
 use crate::limits::MAX_PARTS_OVER_SYMBOL;
 use crate::network::ScaledScene;
 use crate::recurrence::ObservedWave;
-use num_traits::One as _;
-use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use wavestep_polynomial::{Rational, Symbol};
 
@@ -28,9 +27,6 @@ const MOST_UNDECIDED: usize = 8;
 
 /// Significant digits of where it is cut.
 const DIGITS: usize = 9;
-
-/// Bounds that are tried for the largest value: what is reached, times `1 + 2^-k`.
-const ABOVE: [i64; 6] = [24, 19, 14, 11, 8, 1];
 
 /// Why something is not proven of all values between two.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -108,6 +104,27 @@ struct Proof<'a> {
     tolerance: &'a Rational,
 }
 
+/// What claims about a part of the values share.
+#[derive(Default)]
+struct Known {
+    /// The scene, each time on another grid.
+    exact: Vec<Exact>,
+    /// The most modes that were asked for.
+    modes: Option<SumOfModes>,
+}
+
+impl Known {
+    /// The first modes; those of more, where they are known.
+    fn modes(&mut self, own: &Over<'_>, count: usize) -> Result<SumOfModes, NotOverSymbol> {
+        if let Some(first) = self.modes.as_ref().and_then(|modes| modes.first(count)) {
+            return Ok(first);
+        }
+        let modes = own.modes(count)?;
+        self.modes = Some(modes.clone());
+        Ok(modes)
+    }
+}
+
 /// What is known of a claim about a part of the values.
 enum Decided {
     Proven,
@@ -115,19 +132,6 @@ enum Decided {
     Cut,
     Refused(NotOverSymbol),
     Not,
-}
-
-/// The scene for some values of the symbol, on a grid.
-struct Exact {
-    /// The grid before contacts cut it.
-    asked: Grid,
-    window: StepWindow,
-    followed: Followed,
-    observed: Vec<OnCell>,
-    size: Envelope,
-    /// Sizes that are reached, and sizes that are never passed.
-    reached: Option<Ends>,
-    most: OnceCell<Option<Ends>>,
 }
 
 #[doc(hidden)]
@@ -290,13 +294,13 @@ impl Proof<'_> {
             .map(|claim| claim.as_ref().map(|_| Vec::new()).map_err(Unproven::clone))
             .collect();
         let (last, mut looked) = (to, vec![0; claims.len()]);
-        // A stack: the leftmost part is on top.
+        // A stack: the leftmost part is on top. The last claim comes first, since what it finds serves those before.
         let mut left =
-            vec![([from.clone(), to.clone()], (0..claims.len()).collect::<Vec<usize>>())];
+            vec![([from.clone(), to.clone()], (0..claims.len()).rev().collect::<Vec<usize>>())];
         while let Some(([from, to], asked)) = left.pop() {
             tell(&from);
             let middle = middle(&from, &to, FINEST, DIGITS);
-            let (mut known, mut again) = (Vec::new(), Vec::new());
+            let (mut known, mut again) = (Known::default(), Vec::new());
             for place in asked {
                 let (Ok(claim), Ok(undecided)) = (&claims[place], &mut open[place]) else {
                     continue;
@@ -338,7 +342,7 @@ impl Proof<'_> {
         claim: &Claim<'_>,
         part: [&Rational; 2],
         may_cut: bool,
-        known: &mut Vec<Exact>,
+        known: &mut Known,
     ) -> Decided {
         match self.is_proven(claim, part, known) {
             Ok(true) => Decided::Proven,
@@ -349,19 +353,19 @@ impl Proof<'_> {
         }
     }
 
-    /// Whether a claim is proven of all values between two at once; `known` keeps what is known of the scene.
+    /// Whether a claim is proven of all values between two at once.
     fn is_proven(
         &self,
         claim: &Claim<'_>,
         between: [&Rational; 2],
-        known: &mut Vec<Exact>,
+        known: &mut Known,
     ) -> Result<bool, NotOverSymbol> {
         let over = |scene| Over::new(scene, &self.quantity, (&self.symbol, between));
         let own = over(self.scene)?;
         let other = match &claim.other {
             Compared::Scene(other) => Beside::Scene(over(other)?),
             Compared::FirstArrivals(arrivals) => Beside::FirstArrivals(arrivals),
-            Compared::Modes(count) => Beside::Modes(own.modes(*count)?),
+            Compared::Modes(count) => Beside::Modes(known.modes(&own, *count)?),
         };
         let grid = match &other {
             Beside::Scene(other) => Over::grid(&[&own, other], None),
@@ -372,7 +376,7 @@ impl Proof<'_> {
             Beside::Scene(other) => self.both(&own, other, grid, known)?,
             _ => (self.place(&own, (grid, &[]), known)?, None),
         };
-        let exact = &mut known[place];
+        let exact = &mut known.exact[place];
         let (grid, count) = (exact.followed.grid.clone(), exact.observed.len());
         // From a cell on both differ, as these functions do.
         let (first, other) = match other {
@@ -391,7 +395,7 @@ impl Proof<'_> {
         let both = exact.observed.iter().zip(&other).skip(first);
         off.extend(both.map(|(one, other)| one.less(other)));
         let off = Envelope::of(&off, &grid, &exact.window);
-        let Some(reached) = &exact.reached else { return Ok(false) };
+        let Some(reached) = exact.reached() else { return Ok(false) };
         if claim.is_enough {
             return Ok(off.is_within(&scaled(reached, self.tolerance)));
         }
@@ -405,12 +409,12 @@ impl Proof<'_> {
         own: &Over<'_>,
         other: &Over<'_>,
         mut grid: Grid,
-        known: &mut Vec<Exact>,
+        known: &mut Known,
     ) -> Result<(usize, Option<Followed>), NotOverSymbol> {
         let mut closings = [Vec::new(), Vec::new()];
         for _ in 0..ROUNDS {
             let place = self.place(own, (grid, &closings[0]), known)?;
-            let exact = &known[place];
+            let exact = &known.exact[place];
             let count = exact.window.count();
             let followed = other.follow(&exact.followed.grid, &closings[1], count)?;
             if followed.grid == exact.followed.grid {
@@ -427,39 +431,16 @@ impl Proof<'_> {
         &self,
         own: &Over<'_>,
         (grid, closings): (Grid, &[Change]),
-        known: &mut Vec<Exact>,
+        known: &mut Known,
     ) -> Result<usize, NotOverSymbol> {
-        if let Some(place) = known.iter().position(|exact| exact.asked == grid) {
+        if let Some(place) = known.exact.iter().position(|exact| exact.asked == grid) {
             return Ok(place);
         }
-        let [from, to] = self.window.each_ref().map(|time| own.in_steps(time, &grid.step));
-        let window = StepWindow { from: from?, to: to? };
-        let followed = own.follow(&grid, closings, window.count())?;
-        let observed = followed.observed();
-        let size = Envelope::of(&observed, &followed.grid, &window);
-        let (reached, most) = (size.reached(), OnceCell::new());
-        known.push(Exact { asked: grid, window, followed, observed, size, reached, most });
-        Ok(known.len() - 1)
+        known.exact.push(Exact::of(own, &self.window, (grid, closings))?);
+        Ok(known.exact.len() - 1)
     }
 }
 
-impl Exact {
-    fn most(&self) -> Option<&Ends> {
-        let find = || {
-            let reached = self.reached.as_ref()?;
-            let above =
-                |power: i64| Rational::one() + Rational::new(1.into(), (1_i64 << power).into());
-            let mut bounds = ABOVE.iter().map(|power| scaled(reached, &above(*power)));
-            bounds.find(|most| self.size.is_within(most))
-        };
-        self.most.get_or_init(find).as_ref()
-    }
-}
-
-fn told(error: ProblemError) -> Unproven {
+pub(super) fn told(error: ProblemError) -> Unproven {
     Unproven::because(super::advise::first_line(&error))
-}
-
-fn scaled(sizes: &Ends, by: &Rational) -> Ends {
-    sizes.each_ref().map(|size| size * by)
 }

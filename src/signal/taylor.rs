@@ -247,17 +247,18 @@ impl Taylor {
         let mut coefficients = vec![Ball::zero(); terms];
         let is_zero = |c: &Ball| c.is_exact() && c.contains_zero();
         let others = || other.coefficients.iter().enumerate().filter(|(_, c)| !is_zero(c));
-        let mut remainder =
-            self.tail(0).multiply(&other.remainder).add(&self.remainder.multiply(&other.tail(0)));
+        // What the coefficients from each on come to.
+        let mut tails = vec![Magnitude::ZERO; terms + 1];
+        for (j, c) in other.coefficients.iter().enumerate().rev() {
+            tails[j] = tails[j + 1].add(&c.magnitude());
+        }
+        let mut remainder = self.tail(0).multiply(&other.remainder);
+        remainder = remainder.add(&self.remainder.multiply(&tails[0].add(&other.remainder)));
         for (i, own) in self.coefficients.iter().enumerate().filter(|(_, c)| !is_zero(c)) {
-            let mut high = Magnitude::ZERO;
-            for (j, c) in others() {
-                match coefficients.get_mut(i + j) {
-                    Some(sum) => *sum = sum.add(&own.multiply(c, bits), bits),
-                    None => high = high.add(&c.magnitude()),
-                }
+            for (j, c) in others().take_while(|(j, _)| i + j < terms) {
+                coefficients[i + j] = coefficients[i + j].add(&own.multiply(c, bits), bits);
             }
-            remainder = remainder.add(&own.magnitude().multiply(&high));
+            remainder = remainder.add(&own.magnitude().multiply(&tails[terms - i]));
         }
         Taylor { coefficients, remainder }
     }

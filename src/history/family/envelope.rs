@@ -79,9 +79,24 @@ impl Envelope {
     /// no instant is found at which the function is told from zero.
     pub fn reached(&self) -> Option<Ends> {
         let steps = self.0.iter().filter_map(|step| Some((step, step.within.as_ref()?)));
-        let best = steps.filter_map(|(step, within)| Some((step, within, step.best(within)?)));
-        let (step, [from, to], mut best) =
-            best.max_by(|one, other| smaller_of(&one.2.1).cmp(smaller_of(&other.2.1)))?;
+        // Cells that may reach most come first; those that cannot reach what is found are not sampled.
+        let mut steps: Vec<_> =
+            steps.map(|(step, within)| (step.at_most(within), step, within)).collect();
+        steps.sort_by(|one, other| other.0.cmp(&one.0));
+        let mut found: Option<(&OneStep, &[Rational; 2], (Rational, Ends))> = None;
+        for (most, step, within) in steps {
+            let is_passed = |best: &(_, _, (Rational, Ends))| most <= *smaller_of(&best.2.1);
+            if found.as_ref().is_some_and(is_passed) {
+                break;
+            }
+            let Some(best) = step.best(within) else { continue };
+            let is_larger =
+                |old: &(_, _, (Rational, Ends))| smaller_of(&best.1) > smaller_of(&old.2.1);
+            if found.as_ref().is_none_or(is_larger) {
+                found = Some((step, within, best));
+            }
+        }
+        let (step, [from, to], mut best) = found?;
         let mut part = (to - from) / Rational::from_integer(PARTS.into());
         for _ in 0..REFINED {
             let near = [(&best.0 - &part).max(from.clone()), (&best.0 + &part).min(to.clone())];
@@ -106,6 +121,14 @@ fn smaller_of(sizes: &Ends) -> &Rational {
 }
 
 impl OneStep {
+    /// A size that it passes between two places at no more than one end of the symbol.
+    fn at_most(&self, [from, to]: &[Rational; 2]) -> Rational {
+        let (middle, half) = middle_and_half(from, to);
+        let sizes =
+            self.ends.each_ref().map(|end| end.part(&middle, &half, BITS).range().magnitude());
+        Rational::from(&sizes[0].min(sizes[1]))
+    }
+
     /// Where of some places its sizes are largest, and these sizes.
     fn best(&self, [from, to]: &[Rational; 2]) -> Option<(Rational, Ends)> {
         let at = |part: i64| from + (to - from) * Rational::new(part.into(), PARTS.into());

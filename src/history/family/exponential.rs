@@ -11,6 +11,9 @@ use crate::limits::MAX_SYMBOL_BITS as BITS;
 use crate::signal::{Varying, complex_product, of_exponential};
 use wavestep_polynomial::Symbol;
 
+/// Exponentials are worked out at the first of so many steps, and multiplied with those of the steps between.
+const BLOCK: usize = 16;
+
 /// A number with its real and its imaginary part.
 type Complex = [Varying; 2];
 
@@ -88,15 +91,32 @@ impl Exponential {
     }
 
     /// Its real part on the first cells. On one that begins at `n` and has a length `h` it is `p(n + hx) e^(μn) e^(μhx)`, with
-    /// `p(n + hx) e^(μn) = Σ_j p_j x^j` and `e^(μhx) = Σ_i (μhx)^i/i!`. Of the product the powers of `x` from `N` = [`TERMS`]
-    /// on are left out, `Σ_j |p_j| |μh|^(N−j)/(N−j)! e^|μh|` at most.
+    /// `p(n + hx) e^(μn) = Σ_j p_j x^j` and `e^(μhx) = Σ_i (μhx)^i/i!`. Of the product, the powers of `x` from some `N` on are
+    /// left out, `Σ_j |p_j| |μh|^(N−j)/(N−j)! e^|μh|` at most.
     fn on_cells(&self, grid: &Grid, count: usize) -> Outcome<Vec<OnCell>> {
         let series = |cell| Series::of(&scaled(&self.rate, grid.length(cell)));
         let series = (0..grid.cells()).map(series).collect::<Outcome<Vec<_>>>()?;
-        (0..count).map(|cell| self.on_cell(grid, cell, &series[cell % grid.cells()])).collect()
+        let block = BLOCK * grid.cells();
+        let within = (0..block.min(count)).map(|cell| self.factor(&grid.start(cell)));
+        let within = within.collect::<Outcome<Vec<_>>>()?;
+        let mut cells = Vec::with_capacity(count);
+        for first in (0..count).step_by(block) {
+            let factor = self.factor(&grid.start(first))?;
+            for (cell, within) in (first..count).zip(&within) {
+                let factor = complex_product(&factor, within, BITS);
+                cells.push(self.on_cell(grid, cell, &factor, &series[cell % grid.cells()]));
+            }
+        }
+        Ok(cells)
     }
 
-    fn on_cell(&self, grid: &Grid, cell: usize, series: &Series) -> Outcome<OnCell> {
+    /// `e^(μn)` at a time.
+    fn factor(&self, start: &Varying) -> Outcome<Complex> {
+        let [x, y] = scaled(&self.rate, start);
+        Ok(Varying::exp([&x, &y], BITS)?)
+    }
+
+    fn on_cell(&self, grid: &Grid, cell: usize, factor: &Complex, series: &Series) -> OnCell {
         let start = grid.start(cell);
         let mut shifted = self.polynomial.clone();
         for first in 0..shifted.len() {
@@ -105,28 +125,26 @@ impl Exponential {
                 shifted[k] = [0, 1].map(|part| shifted[k][part].add(&next[part], BITS));
             }
         }
-        let [x, y] = scaled(&self.rate, &start);
-        let factor = Varying::exp([&x, &y], BITS)?;
         let count = TERMS.min(shifted.len() + series.terms.len() - 1);
         let mut sum = vec![Varying::zero(); count];
         let mut error = Magnitude::ZERO;
         let mut power = Varying::one();
         for (j, own) in shifted.iter().enumerate() {
-            let own = scaled(&complex_product(own, &factor, BITS), &power);
+            let own = scaled(&complex_product(own, factor, BITS), &power);
             power = power.multiply(grid.length(cell), BITS);
             for (sum, [x, y]) in sum[j..].iter_mut().zip(&series.terms) {
                 let real = own[0].multiply(x, BITS).subtract(&own[1].multiply(y, BITS), BITS);
                 *sum = sum.add(&real, BITS);
             }
-            error = error.add(&size(&own).multiply(&series.left_out[TERMS - j]));
+            error = error.add(&size(&own).multiply(series.left_out_of(TERMS - j)));
         }
         let (coefficients, off): (Vec<Varying>, Vec<Magnitude>) =
             sum.iter().map(Varying::split).unzip();
-        Ok(OnCell::new(coefficients, off.iter().fold(error, |sum, own| sum.add(own))))
+        OnCell::new(coefficients, off.iter().fold(error, |sum, own| sum.add(own)))
     }
 }
 
-/// `e^(μhx) = Σ_i (μhx)^i/i!`, and what is left out from each term on.
+/// `e^(μhx) = Σ_i (μhx)^i/i!`, as far as the working precision takes it, and what is left out from each term on.
 struct Series {
     terms: Vec<Complex>,
     left_out: Vec<Magnitude>,
@@ -134,17 +152,23 @@ struct Series {
 
 impl Series {
     fn of(rate: &Complex) -> Outcome<Series> {
-        let most = size(rate);
+        let (most, small) = (size(rate), Magnitude::power_of_two(-(BITS as i64)));
         let mut left_out = vec![of_exponential(&most).ok_or(BallError::ArgumentTooLarge)?];
-        for i in 1..=TERMS as u64 {
-            left_out.push(left_out[left_out.len() - 1].multiply(&most).divide(i));
-        }
         let mut terms = vec![[Varying::one(), Varying::zero()]];
-        let count = if most.is_zero() { 1 } else { TERMS };
-        for i in 1..count as u64 {
+        for i in 1..=TERMS as u64 {
+            let rest = left_out[left_out.len() - 1].multiply(&most).divide(i);
+            left_out.push(rest);
+            if i == TERMS as u64 || rest <= small {
+                break;
+            }
             let next = complex_product(&terms[terms.len() - 1], rate, BITS);
             terms.push(next.map(|part| part.over(i, BITS)));
         }
         Ok(Series { terms, left_out })
+    }
+
+    /// What is left out where the first terms are taken, or all that there are.
+    fn left_out_of(&self, terms: usize) -> &Magnitude {
+        &self.left_out[terms.min(self.terms.len())]
     }
 }

@@ -28,12 +28,25 @@ const NEAR: i64 = 1 << 20;
 const WIDENINGS: usize = 3;
 
 /// What is observed, as a sum of modes, in the scale of the scene and the unit of the user.
-pub struct SumOfModes(Vibration<Varying>);
+#[derive(Clone)]
+pub struct SumOfModes {
+    /// Whether the first one is the motion as a whole.
+    drifts: bool,
+    sum: Vibration<Varying>,
+}
 
 impl SumOfModes {
+    /// The first ones alone; none where there are not so many.
+    pub fn first(&self, count: usize) -> Option<SumOfModes> {
+        let swinging = count.checked_sub(usize::from(self.drifts))?;
+        let modes = self.sum.modes.get(..swinging)?.to_vec();
+        let sum = Vibration { drift: self.sum.drift.clone(), modes };
+        Some(SumOfModes { drifts: self.drifts, sum })
+    }
+
     /// How fast they swing in a unit of time at most.
     pub fn rate(&self) -> Magnitude {
-        let rates = self.0.modes.iter().map(|[frequency, ..]| frequency.magnitude());
+        let rates = self.sum.modes.iter().map(|[frequency, ..]| frequency.magnitude());
         rates.max().unwrap_or(Magnitude::ZERO)
     }
 
@@ -42,7 +55,7 @@ impl SumOfModes {
     /// # Errors
     /// [`NotOverSymbol::Ball`] where a frequency varies too much.
     pub fn on_cells(&self, grid: &Grid, count: usize, length: &Varying) -> Outcome<Vec<OnCell>> {
-        let Vibration { drift: [constant, slope], modes } = &self.0;
+        let Vibration { drift: [constant, slope], modes } = &self.sum;
         let zero = Varying::zero;
         let slope = slope.multiply(length, BITS);
         let drift = vec![[constant.clone(), zero()], [slope, zero()]];
@@ -93,7 +106,8 @@ impl Over<'_> {
             Ok(Term { coefficient: own.coefficient.multiply(&unit, BITS), ..own })
         };
         let terms = terms.iter().map(term).collect::<Outcome<Vec<Term<Varying>>>>()?;
-        Ok(SumOfModes(line.sum(&terms, &modes)?.ok_or(refused(NotSeen::Other))?))
+        let sum = line.sum(&terms, &modes)?.ok_or(refused(NotSeen::Other))?;
+        Ok(SumOfModes { drifts: line.drifts(), sum })
     }
 }
 

@@ -58,7 +58,7 @@ impl Strains {
 
     /// For which masses from 1/4 to 100 an estimate is within a share of the largest strain: the first and the last mass of
     /// each range, at both of which that is proven. At a mass at most one part in a thousand beyond, within 1/4 to 100, it is
-    /// proven not to be; between the ends it was tested at some of 49 masses.
+    /// proven not to be.
     pub fn ranges(
         &mut self,
         estimate: Estimate,

@@ -3,6 +3,7 @@
 mod book;
 mod charts;
 mod dispersion;
+mod estimates;
 mod figures;
 mod hertz;
 mod picture;
