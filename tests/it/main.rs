@@ -21,6 +21,7 @@ mod general;
 mod hertz_element;
 mod history;
 mod language;
+mod largest_over_symbol;
 mod layering;
 mod local_contacts;
 mod lock;
