@@ -345,11 +345,10 @@ impl SteppedNode {
             if closes || (gap.is_not_negative() && !is_new) {
                 continue;
             }
-            may_close = way
-                .opened()
-                .filter(|own| own.contact == contact && before.error.gap_of(contact).is_some());
-            if may_close.is_none() {
-                return Err(closing(contact, &gap));
+            let opened = way.opened().filter(|own| own.contact == contact);
+            match opened.filter(|_| before.error.gap_of(contact).is_some()) {
+                Some(opened) => may_close = Some((opened, gap)),
+                None => return Err(closing(contact, &gap)),
             }
         }
         let start = |opened: &Opened| opened.size_at_start(&before.error, way);
@@ -364,10 +363,13 @@ impl SteppedNode {
                 let force = force.largest_from(&closed);
                 Ok(Some((next, next.while_closed(start(next), &own.left, force, &arrived))))
             }
-            (None, Some(opened)) => {
+            (None, Some((opened, gap))) => {
                 let both: Vec<OnCell> = both.iter().map(OnCell::polynomial).collect();
                 let parting = OnCell::sum(&opened.parting, both.iter());
                 if !parting.is_not_negative() {
+                    if gap.is_positive_at_start() {
+                        return Err(closing(opened.contact, &gap));
+                    }
                     let half = half_way(&parting).map(Stop::TooLong);
                     return Err(half.unwrap_or_else(Stop::Refused));
                 }

@@ -163,6 +163,11 @@ impl OnCell {
         self.about_start().iter().all(|own| is_not_negative(own, DEPTH))
     }
 
+    /// Whether it is proven to be positive at the start, for all values of the symbol.
+    pub fn is_positive_at_start(&self) -> bool {
+        self.about_start().iter().all(|own| own[0].sign() == Some(Ordering::Greater))
+    }
+
     /// Whether it is proven to be negative from the start on, at once.
     pub fn falls_below_zero_at_once(&self) -> bool {
         let falls = |own: &Vec<Ball>| {
