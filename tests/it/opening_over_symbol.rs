@@ -231,6 +231,8 @@ fn motions_with_contacts_that_open_hold_those_at_each_value() {
         Case::new(saint_venant(), "mu", (rational(1, 1), 10_000), rational(6, 1)),
         // It opens at the end of a step, before or after it.
         Case { problem: saint_venant(), symbol: "mu", ends: at_end, to: rational(4, 1) },
+        // It opens, and closes again soon after a wave has arrived.
+        Case::new(saint_venant(), "mu", (rational(13, 20), 10_000), rational(5, 1)),
         Case::new(saint_venant(), "mu", (rational(5, 2), 2500), rational(6, 1)),
         Case::new(builtin("mass-on-free-bar"), "m", (rational(1, 1), 1000), rational(4, 1)),
         Case::new(builtin("bars-that-part"), "r", (rational(1, 2), 4), rational(5, 1)),
