@@ -94,17 +94,17 @@ impl Estimate {
         })
     }
 
-    /// Proves that it is within a share of the largest strain for all masses between two; else the first masses, `[from, to]`,
-    /// of which that is not proven.
+    /// The heaviest masses of a range, `[from, to]`, for which it is not proven to be within a share of the largest strain; `None`
+    /// where it is proven for all.
     ///
     /// # Errors
     /// As [`largest_strain`].
-    pub fn holds_between(
+    pub fn unproven_between(
         self,
         share: &Rational,
         [light, heavy]: [&Rational; 2],
-    ) -> Result<Result<(), [Rational; 2]>, ProblemError> {
-        // A stack of parts: the heaviest masses are on top.
+    ) -> Result<Option<[Rational; 2]>, ProblemError> {
+        // A stack of parts of `μ`: the heaviest masses are on top.
         let mut left = vec![[heavy.recip(), light.recip()]];
         while let Some([from, to]) = left.pop() {
             let strain = largest_strain_between([&from, &to])?;
@@ -112,12 +112,12 @@ impl Estimate {
                 continue;
             }
             if &to - &from < &from * ratio(1, FINEST) {
-                return Ok(Err([to.recip(), from.recip()]));
+                return Ok(Some([to.recip(), from.recip()]));
             }
             let middle = geometrically_spaced(&from, &to, 3, 9).swap_remove(1);
             left.extend([[middle.clone(), to], [from, middle]]);
         }
-        Ok(Ok(()))
+        Ok(None)
     }
 }
 
