@@ -36,7 +36,7 @@ impl Precisions {
     /// with far more bits than it needs is the worse waste. The last is the highest that is not above `most`, or
     /// `first` itself.
     pub fn growing_by_half(first: u64, most: u64) -> Precisions {
-        debug_assert!(first > 1, "half of one bit is none");
+        assert!(first > 1, "half of one bit is none");
         let all = std::iter::successors(Some(first), |bits| Some(bits * 3 / 2));
         let limit = all.take_while(|bits| *bits <= most).last().unwrap_or(first);
         Precisions { first, limit, halves: 3 }

@@ -109,7 +109,7 @@ pub fn first_contact(
     let (_, share) = over(&own.largest_force, force);
     let largest = times(of(compression), power(share, &exponent.recip()));
     let remark = Some(both(|n| holds(&own, until, n)));
-    debug_assert!(sign == Sign::Plus, "a compression is positive");
+    assert!(sign == Sign::Plus, "a compression is positive");
     vec![
         formula(by(&own.force, &own.compression), law),
         Formula::of(constant(&own.largest_force), Right::Terms(vec![of(largest_force)])),

@@ -61,7 +61,7 @@ pub fn opening(network: &Network, joint: usize, instant: &Ball) -> Option<Expres
 /// Where the force of a contact is seen.
 fn beside(scene: &Scene, joint: usize) -> Option<Place> {
     let line = &scene.line;
-    debug_assert!(line.joints[joint] == Joint::Contact);
+    assert!(line.joints[joint] == Joint::Contact);
     let left = joint.checked_sub(1).map(|place| line.elements[place]);
     let right = line.elements.get(joint).copied();
     let place = |element: Option<usize>, end: fn(usize) -> Place| {

@@ -64,7 +64,7 @@ fn rust_files(folder: &Path) -> Vec<String> {
 
 #[test]
 fn exported_names_have_examples() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let folder = Path::new(crate::ROOT).join("src");
     let root = fs::read_to_string(folder.join("lib.rs")).expect("text");
     let offenders = offenders(&root, &rust_files(&folder));
     assert!(offenders.is_empty(), "{offenders:?} have no example");
@@ -73,7 +73,7 @@ fn exported_names_have_examples() {
 /// A surface that a person can keep in mind.
 #[test]
 fn exported_names_are_few() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs");
+    let root = Path::new(crate::ROOT).join("src/lib.rs");
     let root = fs::read_to_string(root).expect("text");
     let names = exported(&root);
     assert!((25..=45).contains(&names.len()), "{}: {names:?}", names.len());

@@ -194,7 +194,7 @@ fn complaints(path: &str, text: &str) -> Vec<String> {
 }
 
 fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    Path::new(crate::ROOT)
 }
 
 /// The Rust files below a folder, with their paths from the root.

@@ -54,7 +54,7 @@ fn asked(lock: &Lock) -> Asked {
 }
 
 fn fixture(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/locks").join(name)
+    Path::new(crate::ROOT).join("tests/locks").join(name)
 }
 
 /// Recurrences whose pieces hold denominators, several exponentials, and names with subscripts.

@@ -49,4 +49,4 @@ mod zeros;
 use support::snapshot::snapshot;
 
 /// The repository.
-const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");

@@ -246,7 +246,7 @@ impl SteppedNode {
         before: &NodeState,
         acting: Vec<OnCell>,
     ) -> Result<Solved, Stop> {
-        debug_assert!(acting.iter().all(|own| own.coefficients.len() <= TERMS));
+        assert!(acting.iter().all(|own| own.coefficients.len() <= TERMS));
         let place = self.ways.partition_point(|way| way.from <= cell) - 1;
         let way = &self.ways[place];
         let (system, states) = (&way.system, way.system.states());

@@ -245,7 +245,7 @@ fn algebraic(sum: Expression) -> Result<Point<'static>, EvaluateError> {
     }
     Ok(Point::irrational(move |bits| {
         let value = enclose_expression(&sum, &|_, _| None, bits)?;
-        debug_assert!(value.imaginary().contains(&Rational::default()));
+        assert!(value.imaginary().contains(&Rational::default()));
         Ok(value.real().clone())
     }))
 }

@@ -32,7 +32,7 @@ fn saint_venant() -> Lock {
 }
 
 fn fixture() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/locks/version-2.lock")
+    Path::new(crate::ROOT).join("tests/locks/version-2.lock")
 }
 
 #[test]

@@ -43,7 +43,7 @@ fn ball_of(time: &wavestep::signal::Value) -> f64 {
 
 #[test]
 fn the_page_on_saint_venant_is_true() {
-    let page = fs::read_to_string("docs/saint-venant.md").unwrap();
+    let page = fs::read_to_string(format!("{}/docs/saint-venant.md", crate::ROOT)).unwrap();
     let lines: Vec<String> = [1, 2, 4, 6, 10, 100].map(line).into();
     for line in &lines {
         assert!(page.contains(line), "the table is\n{}", lines.join("\n"));

@@ -143,7 +143,7 @@ fn costs_follow_what_is_done() {
 fn costs_are_read_from_files() {
     let built_in = Costs::default();
     let text = built_in.text();
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/src/answer/costs.txt");
+    let file = &format!("{}/src/answer/costs.txt", crate::ROOT);
     assert_eq!(std::fs::read_to_string(file).unwrap(), text);
     assert_eq!(Costs::read(&text, &built_in.source), Ok(built_in.clone()));
     let dear = Costs::measured("here", |work| match work {

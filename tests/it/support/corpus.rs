@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// The texts of a folder of the grammar, in the order of their names.
 pub fn corpus(folder: &str) -> Vec<(String, Vec<u8>)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("grammar").join(folder);
+    let folder = Path::new(crate::ROOT).join("grammar").join(folder);
     let mut paths: Vec<PathBuf> =
         fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     paths.sort();
