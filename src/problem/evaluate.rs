@@ -128,6 +128,9 @@ impl Problem {
             Origin::Followed if self.has_periods() => {
                 "followed from cell to cell, which is cheaper here than the closed form"
             }
+            Origin::Followed if self.local_contact().is_some() => {
+                "followed from cell to cell, since a local contact is not linear"
+            }
             Origin::Followed => "followed from cell to cell, since contacts open",
         }
     }

@@ -15,6 +15,9 @@ const TICK: Duration = Duration::from_millis(250);
 /// Nothing is foretold before.
 const SOON: Duration = Duration::from_secs(20);
 
+/// Nor before this share is done: the first cells of a contact are far shorter than those that follow.
+const LEAST: f64 = 0.01;
+
 /// What takes longer than this is told.
 const LONG: Duration = Duration::from_secs(180);
 
@@ -100,7 +103,7 @@ impl Pace {
         }
         self.reached.push((now, share));
         let took = now - self.reached[0].0;
-        if took < SOON || share <= 0.0 {
+        if took < SOON || share < LEAST {
             return None;
         }
         let half =

@@ -13,6 +13,7 @@
 
 use super::{ROOT, folder, run};
 use serde_json::Value;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
@@ -176,6 +177,8 @@ struct Asked<'a> {
     kind: &'a Kind,
     folder: &'a Path,
     out: &'a str,
+    /// Values that were asked for already.
+    known: &'a RefCell<BTreeMap<String, f64>>,
 }
 
 impl Asked<'_> {
@@ -187,13 +190,18 @@ impl Asked<'_> {
 
     /// The value of a quantity at the time of the kind, in the digits asked for where nothing is said.
     fn value(&self, quantity: &str) -> f64 {
+        if let Some(value) = self.known.borrow().get(quantity) {
+            return *value;
+        }
         let line = format!(
             "eval {}.wave --quantity {quantity} --at {}",
             self.kind.file, self.kind.times[1]
         );
         let (code, out, err) = run(self.folder, &words(&line));
         assert_eq!(code, 0, "{line}: {err}");
-        number(out.split_once("= ").expect("a value").1)
+        let value = number(out.split_once("= ").expect("a value").1);
+        self.known.borrow_mut().insert(quantity.to_owned(), value);
+        value
     }
 
     fn time(&self) -> f64 {
@@ -490,7 +498,12 @@ enum Cell {
 }
 
 /// Asks a question, and holds what is answered against something else.
-fn ask(kind: &Kind, question: &Question, folder: &Path) -> Cell {
+fn ask(
+    kind: &Kind,
+    question: &Question,
+    folder: &Path,
+    known: &RefCell<BTreeMap<String, f64>>,
+) -> Cell {
     let line = (question.asked)(kind);
     for (name, what) in [("energy", "energy"), ("held", "energy"), ("momentum", "momentum")] {
         let is_observed = kind.text.contains(&format!("observe {name} "));
@@ -501,7 +514,7 @@ fn ask(kind: &Kind, question: &Question, folder: &Path) -> Cell {
     let line = line.replacen('F', &format!("{}.wave", kind.file), 1);
     let (code, out, err) = run(folder, &words(&line));
     if code == 0 {
-        (question.holds)(&Asked { kind, folder, out: &out });
+        (question.holds)(&Asked { kind, folder, out: &out, known });
         let is_tested = err.contains("tested, not certified");
         return Cell::Answered(if is_tested { Rank::Tested } else { question.rank });
     }
@@ -519,7 +532,8 @@ fn column(kind: &Kind) -> Vec<Cell> {
     fs::write(folder.join(format!("{}.wave", kind.file)), kind.text).unwrap();
     let endless = text!("named-rates").replace(", travel = 1", "").replace("fixed", "endless");
     fs::write(folder.join("endless.wave"), endless).unwrap();
-    QUESTIONS.iter().map(|question| ask(kind, question, &folder)).collect()
+    let known = RefCell::default();
+    QUESTIONS.iter().map(|question| ask(kind, question, &folder, &known)).collect()
 }
 
 const BEGIN: &str = "<!-- questions: made by crates/cli/tests/it/questions.rs -->\n";
