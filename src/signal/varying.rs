@@ -47,10 +47,7 @@ impl Varying {
 
     /// The quotient by an integer that is not zero.
     pub fn over(&self, divisor: u64, bits: u64) -> Varying {
-        Taylor {
-            coefficients: self.coefficients.iter().map(|own| own.over(divisor, bits)).collect(),
-            remainder: self.remainder.divide(divisor),
-        }
+        self.multiply(&Varying::constant(&Rational::new(1.into(), divisor.into()), bits), bits)
     }
 
     /// The square root; none where it may not be positive.
