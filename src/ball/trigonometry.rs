@@ -118,7 +118,7 @@ impl Ball {
         let midpoint = self.midpoint().floor_scaled(working as i64);
         let quarters: BigInt = Integer::div_floor(&(&midpoint * 4 + &pi), &(&pi * 2));
         let argument: BigInt = &midpoint - ((&quarters * &pi) >> 1_u32);
-        assert!(argument.magnitude() <= (BigInt::one() << working).magnitude());
+        assert!(argument.bits() <= working, "it is about π/4 at most");
         let (cos, sin, error) = cos_sin_of_small(&argument, working);
         // One unit for M, one for the half, and n/2 times the error of π.
         let drift = Magnitude::from_integer(&quarters, 0).multiply(&Magnitude::from_u64(pi_error));

@@ -11,7 +11,7 @@
 //!
 //! With `UPDATE_DOCUMENTS=1` the table is written anew; read it before you keep it.
 
-use super::{ROOT, folder, run};
+use super::{ROOT, folder, run, words};
 use serde_json::Value;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -172,13 +172,15 @@ enum Rank {
     Tested,
 }
 
+/// Values of quantities at the time of a kind, as far as they were asked for.
+type Known = RefCell<BTreeMap<String, f64>>;
+
 /// What an answer is held against.
 struct Asked<'a> {
     kind: &'a Kind,
     folder: &'a Path,
     out: &'a str,
-    /// Values that were asked for already.
-    known: &'a RefCell<BTreeMap<String, f64>>,
+    known: &'a Known,
 }
 
 impl Asked<'_> {
@@ -224,10 +226,6 @@ fn number(text: &str) -> f64 {
     let end = text.find(|c: char| !matches!(c, '0'..='9' | '.' | '-' | 'e' | '+'));
     let text = &text[..end.unwrap_or(text.len())];
     text.parse().unwrap_or_else(|_| panic!("{text} is no number"))
-}
-
-fn words(line: &str) -> Vec<&str> {
-    line.split_whitespace().collect()
 }
 
 /// A question: how it is asked, how sure its answer is, and what that is held against.
@@ -498,12 +496,7 @@ enum Cell {
 }
 
 /// Asks a question, and holds what is answered against something else.
-fn ask(
-    kind: &Kind,
-    question: &Question,
-    folder: &Path,
-    known: &RefCell<BTreeMap<String, f64>>,
-) -> Cell {
+fn ask(kind: &Kind, question: &Question, folder: &Path, known: &Known) -> Cell {
     let line = (question.asked)(kind);
     for (name, what) in [("energy", "energy"), ("held", "energy"), ("momentum", "momentum")] {
         let is_observed = kind.text.contains(&format!("observe {name} "));
@@ -532,7 +525,7 @@ fn column(kind: &Kind) -> Vec<Cell> {
     fs::write(folder.join(format!("{}.wave", kind.file)), kind.text).unwrap();
     let endless = text!("named-rates").replace(", travel = 1", "").replace("fixed", "endless");
     fs::write(folder.join("endless.wave"), endless).unwrap();
-    let known = RefCell::default();
+    let known = Known::default();
     QUESTIONS.iter().map(|question| ask(kind, question, &folder, &known)).collect()
 }
 
