@@ -37,6 +37,31 @@ impl Ball {
     }
 }
 
+impl Ball {
+    /// The coefficients of a product of two polynomials, below a degree: `Σ_(i+j=k) x_i y_j`, each as
+    /// [`Ball::sum_of_products`].
+    pub fn product_of_polynomials(
+        x: &[Ball],
+        y: &[Ball],
+        count: usize,
+        precision: u64,
+    ) -> Vec<Ball> {
+        let sizes: Vec<Magnitude> = x.iter().map(Ball::magnitude).collect();
+        let middles: Vec<Magnitude> = y.iter().map(|y| y.midpoint().magnitude()).collect();
+        let coefficient = |k: usize| {
+            let places = (k + 1).saturating_sub(y.len())..x.len().min(k + 1);
+            let pairs = places.clone().map(|i| (1, x[i].midpoint(), y[k - i].midpoint()));
+            let (midpoint, mut radius) = Binary::sum_of_products(pairs, precision);
+            for i in places {
+                radius = radius.add(&sizes[i].multiply(y[k - i].radius()));
+                radius = radius.add(&middles[k - i].multiply(x[i].radius()));
+            }
+            Ball::new(midpoint, radius)
+        };
+        (0..count).map(coefficient).collect()
+    }
+}
+
 impl Number {
     /// `Σ w x y`; zero is exact where each term is known to be.
     pub fn sum_of_products<'a>(

@@ -244,21 +244,17 @@ impl Taylor {
     /// other, and the products of terms of too high a degree, are the remainder.
     pub(crate) fn multiply(&self, other: &Taylor, bits: u64) -> Taylor {
         let terms = self.coefficients.len().max(other.coefficients.len());
-        let mut coefficients = vec![Ball::zero(); terms];
-        let is_zero = |c: &Ball| c.is_exact() && c.contains_zero();
-        let others = || other.coefficients.iter().enumerate().filter(|(_, c)| !is_zero(c));
+        let (own, others) = (&self.coefficients[..], &other.coefficients[..]);
+        let coefficients = Ball::product_of_polynomials(own, others, terms, bits);
         // What the coefficients from each on come to.
         let mut tails = vec![Magnitude::ZERO; terms + 1];
-        for (j, c) in other.coefficients.iter().enumerate().rev() {
+        for (j, c) in others.iter().enumerate().rev() {
             tails[j] = tails[j + 1].add(&c.magnitude());
         }
         let mut remainder = self.tail(0).multiply(&other.remainder);
         remainder = remainder.add(&self.remainder.multiply(&tails[0].add(&other.remainder)));
-        for (i, own) in self.coefficients.iter().enumerate().filter(|(_, c)| !is_zero(c)) {
-            for (j, c) in others().take_while(|(j, _)| i + j < terms) {
-                coefficients[i + j] = coefficients[i + j].add(&own.multiply(c, bits), bits);
-            }
-            remainder = remainder.add(&own.magnitude().multiply(&tails[terms - i]));
+        for (i, c) in own.iter().enumerate() {
+            remainder = remainder.add(&c.magnitude().multiply(&tails[terms - i]));
         }
         Taylor { coefficients, remainder }
     }

@@ -47,7 +47,10 @@ impl Varying {
 
     /// The quotient by an integer that is not zero.
     pub fn over(&self, divisor: u64, bits: u64) -> Varying {
-        self.multiply(&Varying::constant(&Rational::new(1.into(), divisor.into()), bits), bits)
+        Taylor {
+            coefficients: self.coefficients.iter().map(|own| own.over(divisor, bits)).collect(),
+            remainder: self.remainder.divide(divisor),
+        }
     }
 
     /// The square root; none where it may not be positive.

@@ -366,14 +366,15 @@ impl SteppedNode {
             (None, Some((opened, gap))) => {
                 let both: Vec<OnCell> = both.iter().map(OnCell::polynomial).collect();
                 let parting = OnCell::sum(&opened.parting, both.iter());
-                if !parting.is_not_negative() {
+                let Some(back) = opened.back(&parting, &both) else {
                     if gap.is_positive_at_start() {
                         return Err(closing(opened.contact, &gap));
                     }
                     let half = half_way(&parting).map(Stop::TooLong);
                     return Err(half.unwrap_or_else(Stop::Refused));
-                }
-                Ok(Some((opened, opened.while_open(start(opened), &own.left, &arrived))))
+                };
+                let bound = opened.while_open(start(opened), &own.left, back, &arrived);
+                Ok(Some((opened, bound)))
             }
             (None, None) => Ok(None),
         }

@@ -168,6 +168,15 @@ impl OnCell {
         self.about_start().iter().all(|own| own[0].sign() == Some(Ordering::Greater))
     }
 
+    /// How far below zero it is at the start, at most.
+    pub fn below_zero_at_start(&self) -> Magnitude {
+        let below = |own: &Vec<Ball>| match own[0].endpoints().0 {
+            low if low.is_negative() => low.magnitude(),
+            _ => Magnitude::ZERO,
+        };
+        self.about_start().iter().map(below).max().expect("both ends of the symbol")
+    }
+
     /// Whether it is proven to be negative from the start on, at once.
     pub fn falls_below_zero_at_once(&self) -> bool {
         let falls = |own: &Vec<Ball>| {

@@ -16,6 +16,9 @@
 //!   `|F_Z| ≤ f`, and an open `Y` parts with `w_Y = a·e + D (−F_Z)`, where the *yielding* `D` is zero unless a side of the
 //!   contact has no mass.
 //! - While `Z` is open and `w_Z ≥ 0`, it is `−F_Y w_Z ≤ 0`.
+//! - While `Z` is open and no more than `w_Z ≥ −δ` is known, it is `δ F_Y` at most. Masses part with a velocity that begins at
+//!   zero, where rounding hides its sign. Between masses the force is the same function of the state for both motions, so
+//!   `F_Y` is that of `Z` and `c·e`.
 //!
 //! With `s` the largest `|e|` on a cell of length `h` this gives `s² ≤ s₀² + 2as + 2q`, so `s ≤ s₀ + 2a + √(2q)`. Once the gap of `Z`
 //! is larger than its error, `Y` is open for certain.
@@ -29,7 +32,7 @@ use crate::limits::MAX_SYMBOL_BITS as BITS;
 use crate::network::{ElementLaw, Node, System};
 use crate::scene::Drive;
 use crate::signal::Varying;
-use num_traits::{One as _, Signed as _};
+use num_traits::{One as _, Signed as _, Zero as _};
 use wavestep_polynomial::Rational;
 
 /// How much later than the root a contact opens, as a part of a cell and a power of two.
@@ -50,6 +53,14 @@ pub(super) struct Arrived {
     pub(super) length: Magnitude,
 }
 
+/// How a contact is nearer than it should be while it is open: the velocity with which it comes back, and the force that it
+/// would have were it closed, at most.
+#[derive(Clone, Copy)]
+pub(super) struct Back {
+    pub(super) velocity: Magnitude,
+    pub(super) force: Magnitude,
+}
+
 /// Bounds of errors on a cell on which a contact may be open or closed.
 pub(super) struct Bound {
     /// Of the state that is followed.
@@ -66,6 +77,12 @@ struct Output {
     places: [usize; 2],
     rows: [Vec<Varying>; 2],
     yielding: Magnitude,
+}
+
+/// A contact of the motion that is followed: the force in it while it is closed.
+enum Contact {
+    Closed(Magnitude),
+    Open(Back),
 }
 
 const CLOSED: usize = 0;
@@ -253,7 +270,7 @@ impl Opened {
         force: Magnitude,
         arrived: &Arrived,
     ) -> Bound {
-        self.bound((start, self.size_of(left)), arrived, Some(force))
+        self.bound((start, self.size_of(left)), arrived, Contact::Closed(force))
     }
 
     /// While the motion that is followed is open, and the true one may be closed.
@@ -261,49 +278,78 @@ impl Opened {
         &self,
         start: Magnitude,
         left: &[Magnitude],
+        back: Back,
         arrived: &Arrived,
     ) -> Bound {
-        self.bound((start, self.size_of(left)), arrived, None)
+        self.bound((start, self.size_of(left)), arrived, Contact::Open(back))
     }
 
-    /// The bounds with the names of the head of this file: while the motion that is followed is closed, its force is given.
+    /// How the contact comes back in a motion that is open, on a cell where its state and what acts are these polynomials. None
+    /// where it truly does, or between bodies of which one has no mass: these part at once.
+    pub(super) fn back(&self, parting: &OnCell, both: &[OnCell]) -> Option<Back> {
+        if parting.is_not_negative() {
+            return Some(Back { velocity: Magnitude::ZERO, force: Magnitude::ZERO });
+        }
+        // Twice what it is below zero leaves room for the rounding of this sum.
+        let velocity = parting.below_zero_at_start().scale(1);
+        let raised = OnCell::total([parting, &OnCell::constant(&size(&velocity))].into_iter());
+        let is_hidden = self.yielding.is_zero() && raised.is_not_negative();
+        let force = || OnCell::sum(&self.force, both.iter()).largest_from(&Rational::zero());
+        is_hidden.then(|| Back { velocity, force: force() })
+    }
+
+    /// The bounds with the names of the head of this file.
     fn bound(
         &self,
         (start, left): (Magnitude, Magnitude),
         Arrived { acting, length }: &Arrived,
-        force: Option<Magnitude>,
+        contact: Contact,
     ) -> Bound {
         let (norm, states) = (&self.norm, self.norm.states());
-        let f = force.unwrap_or(Magnitude::ZERO);
-        let parting = norm.inverse_roots.iter().zip(&self.parting);
-        let of_state = root_of_squares(parting.map(|(root, own)| root.multiply(&own.magnitude())));
+        // How much a row changes with the size of a state.
+        let by_size = |row: &[Varying]| {
+            let both = norm.inverse_roots.iter().zip(row);
+            root_of_squares(both.map(|(root, own)| root.multiply(&own.magnitude())))
+        };
+        let (own, f, back) = match contact {
+            Contact::Closed(force) => (CLOSED, force, Magnitude::ZERO),
+            Contact::Open(back) => (OPEN, Magnitude::ZERO, back.velocity),
+        };
+        let of_state = by_size(&self.parting);
         // What parts by inputs alone, and by the force.
         let of_others = self.sum(&self.parting[states..], acting).add(&self.yielding.multiply(&f));
         let loads = norm.driven.iter().zip(&acting[2..]).map(|(driven, own)| driven.multiply(own));
-        let pushed = loads.fold(of_state.multiply(&f), |sum, own| sum.add(&own));
+        let by_contact = of_state.multiply(&f).add(&back.multiply(&by_size(&self.force)));
+        let pushed = loads.fold(by_contact, |sum, own| sum.add(&own));
         let a = left.add(&pushed.multiply(length));
         let arriving = self.impedances.iter().zip(acting);
         let arriving = arriving.map(|(z, own)| z.multiply(&own.multiply(own)));
-        let q = arriving.fold(f.multiply(&of_others), |sum, own| sum.add(&own)).multiply(length);
+        let by_contact = match contact {
+            Contact::Closed(force) => force.multiply(&of_others),
+            Contact::Open(back) => {
+                let others = self.sum(&self.force[states..], acting);
+                back.velocity.multiply(&back.force.add(&others))
+            }
+        };
+        let q = arriving.fold(by_contact, |sum, own| sum.add(&own)).multiply(length);
         let size = start.add(&a.scale(1)).add(&q.scale(1).square_root());
         let mut sizes: Vec<Magnitude> =
             norm.inverse_roots.iter().map(|root| root.multiply(&size)).collect();
         sizes.extend(acting);
         // A true force in the contact is as far off.
-        let force_is_off = match force {
-            Some(force) => force,
-            None => self.sum(&self.force, &sizes),
+        let force_is_off = match contact {
+            Contact::Closed(force) => force,
+            Contact::Open(_) => self.sum(&self.force, &sizes),
         };
-        let own = if force.is_some() { CLOSED } else { OPEN };
         let mut further = vec![Magnitude::ZERO; self.count + 1 - own];
         for output in &self.outputs {
             let other = self.sum(&output.rows[1 - own], &sizes);
             further[output.places[own]] = other.add(&output.yielding.multiply(&force_is_off));
         }
-        let entries = match force {
-            None => sizes[..states].to_vec(),
+        let entries = match contact {
+            Contact::Open(_) => sizes[..states].to_vec(),
             // What moves together is as far off as either.
-            Some(_) => {
+            Contact::Closed(_) => {
                 (0..self.closed_states).map(|entry| self.largest_of(entry, &sizes)).collect()
             }
         };
