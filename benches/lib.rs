@@ -18,3 +18,8 @@ pub fn with_signal(text: &str, mu: Option<&str>, to: &str, work: impl FnOnce(&dy
 pub fn rigid_mass() -> &'static str {
     wavestep::scenes::find("rigid-mass").expect("a built-in scene").text
 }
+
+/// Whether each benchmark runs once to see that it does.
+pub fn is_test() -> bool {
+    std::env::args().any(|own| own == "--test")
+}
