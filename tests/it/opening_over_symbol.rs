@@ -70,6 +70,37 @@ const PULLED_BACK: &str = "scene \"Pulled back\"
     observe left = velocity(anvil.right)
     observe right = velocity(rod.left)";
 
+/// A spring that is unloaded while the contact is open, between masses that meet again.
+const CUSHION: &str = "scene \"Cushion\"
+    symbol a > 0
+    mass hammer { mass = a, velocity = 1 }
+    spring cushion { stiffness = 8 }
+    mass anvil { mass = 1/4 }
+    bar rod { impedance = 1, travel = 1 }
+    line free - hammer | cushion - anvil - rod - fixed
+    contacts open
+    observe of_hammer = velocity(hammer)
+    observe of_anvil = velocity(anvil)
+    observe force = force(cushion)
+    observe compression = compression(cushion)
+    observe far = force(rod.right)
+    observe energy = energy(line)
+    observe momentum = momentum(line)";
+
+/// The same at the right end of a bar, without masses.
+const BUMPER: &str = "scene \"Bumper\"
+    symbol a > 0
+    bar rod { impedance = 2 }
+    spring bumper { stiffness = 3 }
+    bar striker { impedance = a, travel = 1/2, velocity = -1 }
+    line endless - rod - bumper | striker - free
+    contacts open
+    observe force = force(bumper)
+    observe compression = compression(bumper)
+    observe of_rod = velocity(rod.right)
+    observe of_striker = velocity(striker.left)
+    observe displacement = displacement(striker.right)";
+
 /// In units, and a striker whose impedance is known but for a factor.
 const UNITS: &str = "scene \"Units\"
     symbol k > 0
@@ -86,7 +117,7 @@ const UNITS: &str = "scene \"Units\"
     observe velocity = velocity(striker.left)";
 
 /// Of all lines that can be put together one in so many is tested.
-const STEP: usize = 11;
+const STEP: usize = 17;
 
 /// A scene with a symbol, the values that it takes, and a time.
 struct Case {
@@ -240,6 +271,9 @@ fn motions_with_contacts_that_open_hold_those_at_each_value() {
         Case::new(scene(SMOOTH), "a", (rational(1, 1), 1000), rational(4, 1)),
         Case::new(scene(TWO), "a", (rational(1, 1), 1000), rational(4, 1)),
         Case::new(scene(PULLED_BACK), "a", (rational(1, 1), 100_000_000), rational(4, 1)),
+        Case::new(builtin("cushion-with-release"), "mu", (rational(1, 1), 1000), rational(8, 1)),
+        Case::new(scene(CUSHION), "a", (rational(2, 1), 1000), rational(6, 1)),
+        Case::new(scene(BUMPER), "a", (rational(1, 1), 1000), rational(6, 1)),
         Case::new(scene(UNITS), "k", (rational(1, 1), 1000), rational(1, 2000)),
     ] {
         case.compare(&rational(1, 1000), &mut compared).unwrap();
@@ -258,6 +292,9 @@ fn lines_with_contacts_that_open_hold_those_at_each_value() {
         "pull - hammer - anvil |",
         "hammer | anvil |",
         "striker - block |",
+        "hammer | cushion -",
+        "striker | cushion -",
+        "hammer - cushion |",
     ];
     let rights =
         ["fixed", "free", "end - free", "ground - free", "far - endless", "pad - end - free"];
@@ -276,6 +313,7 @@ fn lines_with_contacts_that_open_hold_those_at_each_value() {
             ("block", "mass block { mass = 1/3, velocity = 1 }"),
             ("ground", "support ground { stiffness = 1, damping = 1/2 }"),
             ("far", "bar far { impedance = 2 }"),
+            ("cushion", "spring cushion { stiffness = 5 }"),
             ("pad", "spring pad { stiffness = 3 }"),
             ("end", "mass end { mass = 1/2 }"),
         ];

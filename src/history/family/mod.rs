@@ -52,7 +52,7 @@ pub enum NotOverSymbol {
     #[error("local contacts are not supported over a symbol")]
     LocalContact,
     #[error(
-        "a contact that opens at the start, beside a load or a spring without mass between, or that closes between two masses is not supported over a symbol"
+        "a contact that opens at the start, beside a load without mass between, or that closes between two masses is not supported over a symbol"
     )]
     BesideContact,
     #[error("it is not decided when contacts open and close")]

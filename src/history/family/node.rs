@@ -2,16 +2,14 @@
 
 use super::motion::{Loading, TERMS};
 use super::on_cell::OnCell;
-use super::opening::{Arrived, Bound, Opened, first_zero, half_way, root};
+use super::opening::{Arrived, Bound, Known, Opened, first_zero, half_way, loose, root};
 use super::{NotOverSymbol, Outcome};
 use crate::ball::{Arithmetic as _, Ball, Magnitude, Number};
 use crate::history::passivity::{Block, Passivity, StateError};
 use crate::limits::MAX_SYMBOL_BITS as BITS;
 use crate::network::{ElementLaw, Node, System, dot};
 use crate::signal::Varying;
-use num_traits::Zero as _;
 use std::collections::{BTreeMap, BTreeSet};
-use wavestep_polynomial::Rational;
 
 /// Why a node does not go on as it does.
 pub(super) enum Stop {
@@ -78,8 +76,27 @@ pub(super) struct Way {
     pub(super) system: System<Varying>,
     pub(super) passivity: Passivity,
     pub(super) begins: Begins,
-    /// The contacts that are open, and the runs at their left.
-    pub(super) open: Vec<(usize, usize)>,
+    pub(super) open: Vec<OpenContact>,
+}
+
+/// An open contact.
+pub(super) struct OpenContact {
+    pub(super) contact: usize,
+    /// The runs between which its gap is, which move with the runs beside it: as far from it as they are, so that none is
+    /// loose.
+    runs: [usize; 2],
+}
+
+impl OpenContact {
+    /// With this run at its left.
+    pub(super) fn of(contact: usize, run: usize, system: &System<Varying>) -> OpenContact {
+        let with = |own: usize| {
+            let group = system.group.iter().enumerate();
+            group.filter(move |(_, group)| **group == system.group[own]).map(|(run, _)| run)
+        };
+        let runs = [with(run).min(), with(run + 1).max()].map(|own| own.expect("itself at least"));
+        OpenContact { contact, runs }
+    }
 }
 
 /// How a node comes to move in a way.
@@ -92,8 +109,8 @@ pub(super) enum Begins {
 /// A contact that closes, between two ways of a node.
 pub(super) struct Closed {
     contact: usize,
-    /// For each entry of the closed state the same of the open one.
-    counterparts: Vec<usize>,
+    /// For each entry of the closed state the same of the open one; none for a spring that was idle.
+    counterparts: Vec<Option<usize>>,
 }
 
 /// A node, its state at the start, and its loads.
@@ -111,12 +128,22 @@ impl NodeState {
         let mut values = Vec::new();
         for group in &way.system.heavy {
             let runs = (0..node.runs()).filter(|run| way.system.group[*run] == *group);
+            let masses = runs.flat_map(|run| node.attached(run)).filter_map(|own| match &own.law {
+                ElementLaw::Mass { mass, velocity } => Some((mass, velocity)),
+                _ => None,
+            });
+            let masses: Vec<(&Varying, &Varying)> = masses.collect();
+            // A velocity that all of them have is not rounded: a force that begins at zero may hang on it.
+            if let [(_, first), others @ ..] = &masses[..]
+                && others.iter().all(|(_, own)| own == first)
+            {
+                values.push((*first).clone());
+                continue;
+            }
             let (mut mass, mut momentum) = (Varying::zero(), Varying::zero());
-            for own in runs.flat_map(|run| node.attached(run)) {
-                if let ElementLaw::Mass { mass: own, velocity } = &own.law {
-                    mass = mass.add(own, BITS);
-                    momentum = momentum.add(&own.multiply(velocity, BITS), BITS);
-                }
+            for (own, velocity) in masses {
+                mass = mass.add(own, BITS);
+                momentum = momentum.add(&own.multiply(velocity, BITS), BITS);
             }
             let inverse = mass.reciprocal(BITS)?;
             values.push(momentum.multiply(&inverse, BITS));
@@ -204,6 +231,23 @@ impl Way {
         (state, errors)
     }
 
+    /// A displacement that is known to be zero at the start of a cell. Its error begins at zero too, and grows no faster than
+    /// by those of all that changes it.
+    fn from_zero(
+        &self,
+        place: usize,
+        own: &Polynomials,
+        both: &[OnCell],
+        length: &Varying,
+    ) -> OnCell {
+        let terms = self.system.change[place].iter().zip(both);
+        let rate = terms.fold(Magnitude::ZERO, |sum, (row, entry)| {
+            sum.add(&row.magnitude().multiply(&entry.error))
+        });
+        let error = rate.multiply(&length.magnitude()).add(&own.left[place]);
+        OnCell { error, at_start: Magnitude::ZERO, ..both[place].clone() }
+    }
+
     fn opened(&self) -> Option<&Opened> {
         match &self.begins {
             Begins::Opening(opened) => Some(opened),
@@ -263,6 +307,13 @@ impl SteppedNode {
         let own = way.polynomials(&before.values, &acting, length);
         let (state, errors) = way.with_errors(&own, &way.errors_of(&before.error), &acting, length);
         let mut both: Vec<OnCell> = state.into_iter().chain(acting).collect();
+        if let Begins::Closing(closed) = &way.begins
+            && way.from == cell
+        {
+            for place in closed.idle_before() {
+                both[place] = way.from_zero(place, &own, &both, length);
+            }
+        }
         let mut error = NodeError::OfBlocks(errors);
         let (mut undecided, mut further) = (None, vec![Magnitude::ZERO; system.output.len()]);
         if let Some((opened, bound)) =
@@ -272,7 +323,7 @@ impl SteppedNode {
                 *entry = entry.polynomial().widened(size);
             }
             (undecided, further) = (Some(opened.contact), bound.further);
-            let size = bound.size.add(&opened.size_of(&own.rounded));
+            let size = bound.size.add(&opened.size_of(&own.rounded, way));
             let before = before.error.gap_of(opened.contact).unwrap_or(Magnitude::ZERO);
             let gap = before.add(&bound.gap);
             error = NodeError::Undecided { contact: opened.contact, size, gap };
@@ -352,20 +403,20 @@ impl SteppedNode {
             }
         }
         let start = |opened: &Opened| opened.size_at_start(&before.error, way);
+        let both: Vec<OnCell> = both.iter().map(OnCell::polynomial).collect();
         match (opens, may_close) {
             (Some(_), Some(_)) => Err(Stop::Refused(NotOverSymbol::Undecided)),
             (Some((next, force)), None) => {
-                // Until when it is known to be closed.
-                let closed = match before.error.gap_of(next.contact) {
-                    None => force.positive_until(),
-                    Some(_) => Rational::zero(),
+                let known = match before.error.gap_of(next.contact) {
+                    None => Known::Closed,
+                    Some(_) => Known::Neither,
                 };
-                let force = force.largest_from(&closed);
-                Ok(Some((next, next.while_closed(start(next), &own.left, force, &arrived))))
+                let left = next.size_of(&own.left, way);
+                let force = (force, known);
+                Ok(Some((next, next.while_closed(start(next), left, force, &both, &arrived))))
             }
             (None, Some((opened, gap))) => {
-                let both: Vec<OnCell> = both.iter().map(OnCell::polynomial).collect();
-                let parting = OnCell::sum(&opened.parting, both.iter());
+                let parting = opened.parting(&both);
                 let Some(back) = opened.back(&parting, &both) else {
                     if gap.is_positive_at_start() {
                         return Err(closing(opened.contact, &gap));
@@ -373,7 +424,8 @@ impl SteppedNode {
                     let half = half_way(&parting).map(Stop::TooLong);
                     return Err(half.unwrap_or_else(Stop::Refused));
                 };
-                let bound = opened.while_open(start(opened), &own.left, back, &arrived);
+                let left = opened.size_of(&own.left, way);
+                let bound = opened.while_open(start(opened), left, back, &both, &arrived);
                 Ok(Some((opened, bound)))
             }
             (None, None) => Ok(None),
@@ -389,8 +441,8 @@ impl Way {
         velocities: &[OnCell],
         length: &Varying,
     ) -> BTreeMap<usize, OnCell> {
-        let gap = |(contact, run): &(usize, usize)| {
-            let parting = velocities[run + 1].less(&velocities[*run]);
+        let gap = |OpenContact { contact, runs: [left, right] }: &OpenContact| {
+            let parting = velocities[*right].less(&velocities[*left]);
             (*contact, after(&before.gaps[contact], &parting, length))
         };
         self.open.iter().map(gap).collect()
@@ -401,32 +453,43 @@ impl Closed {
     /// A contact that is open in one way, and closed in the next.
     ///
     /// # Errors
-    /// [`NotOverSymbol::BesideContact`] for a load that moves a run, for masses that meet, and for a spring that ends at the
-    /// contact.
+    /// [`NotOverSymbol::BesideContact`] for a load that moves a run, and for masses that meet.
     pub(super) fn of(
         node: &Node<Varying>,
         contact: usize,
         (open, closed): (&System<Varying>, &System<Varying>),
     ) -> Outcome<Closed> {
         let is_moved = (0..node.runs()).any(|run| node.imposing(run).next().is_some());
-        if is_moved || open.displacements() != closed.displacements() {
-            return Err(NotOverSymbol::BesideContact);
-        }
+        let run = node.contacts().find(|(own, _)| *own == contact).map(|(_, run)| run);
+        let run = run.filter(|_| !is_moved).ok_or(NotOverSymbol::BesideContact)?;
+        let loose = loose(node, run, open);
         let only = |group: &usize| {
+            let is_firm = |run: &usize| loose.iter().all(|own| !own.contains(run));
             let runs = (0..node.runs()).filter(|run| closed.group[*run] == *group);
-            let places: BTreeSet<usize> =
-                runs.filter_map(|run| open.place_of_velocity(run)).collect();
+            let places = runs.filter(is_firm).filter_map(|run| open.place_of_velocity(run));
+            let places: BTreeSet<usize> = places.collect();
             places.first().copied().filter(|_| places.len() == 1)
         };
-        let counterparts = closed.heavy.iter().map(only).collect::<Option<Vec<usize>>>();
+        let counterparts = closed.heavy.iter().map(|group| only(group).map(Some));
+        let counterparts = counterparts.collect::<Option<Vec<Option<usize>>>>();
         let mut counterparts = counterparts.ok_or(NotOverSymbol::BesideContact)?;
-        counterparts.extend(open.heavy.len()..open.states());
+        let displacements = closed.kept.iter().zip(&open.kept);
+        counterparts.extend(displacements.filter(|(own, _)| own.is_some()).map(|(_, open)| *open));
         Ok(Closed { contact, counterparts })
+    }
+
+    /// The displacements of springs that were idle, in the closed state.
+    fn idle_before(&self) -> impl Iterator<Item = usize> {
+        let all = self.counterparts.iter().enumerate();
+        all.filter(|(_, own)| own.is_none()).map(|(place, _)| place)
     }
 
     fn enter(&self, before: &NodeState, (open, closed): (&Way, &Way)) -> NodeState {
         let off = open.entries_of(&open.errors_of(&before.error));
-        let entry = |own: &usize| (before.values[*own].clone(), off[*own]);
+        let entry = |own: &Option<usize>| match own {
+            Some(own) => (before.values[*own].clone(), off[*own]),
+            None => (Varying::zero(), Magnitude::ZERO),
+        };
         let (values, off): (Vec<Varying>, Vec<Magnitude>) =
             self.counterparts.iter().map(entry).unzip();
         let mut gaps = before.gaps.clone();

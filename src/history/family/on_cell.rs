@@ -209,6 +209,27 @@ impl OnCell {
         sizes[0].max(sizes[1])
     }
 
+    /// The same function on the end of the cell from a place on, as on a cell of its own. Takes a product for each pair of powers.
+    pub fn after(&self, from: &Rational) -> OnCell {
+        let mut own = self.coefficients.clone();
+        let [at, rest] =
+            [from.clone(), Rational::one() - from].map(|own| Ball::from_rational(&own, BITS));
+        for start in 0..own.len() {
+            for k in (start..own.len().saturating_sub(1)).rev() {
+                own[k] = own[k].add(&own[k + 1].clone().scaled(&at, BITS), BITS);
+            }
+        }
+        let (mut power, mut error) = (Ball::from_integer(&1.into()), self.error);
+        for coefficient in &mut own {
+            let (scaled, off) =
+                std::mem::replace(coefficient, Varying::zero()).scaled(&power, BITS).split();
+            *coefficient = scaled;
+            error = error.add(&off);
+            power = power.multiply(&rest, BITS);
+        }
+        OnCell::new(own, error)
+    }
+
     /// A bound from above of the slope of its polynomial between two places.
     pub fn largest_slope(&self, [from, to]: [&Rational; 2]) -> Rational {
         let part = (to - from) / Rational::from_integer(PARTS.into());

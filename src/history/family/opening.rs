@@ -13,12 +13,15 @@
 //! `w = 0` and an open one `F = 0`, so `F_Y w_Y ≤ 0`, where two bodies that meet lose energy if any.
 //!
 //! - While `Z` is closed, the last term is `−F_Z w_Y` at most, and zero as long as `Y` is known to be closed. After that
-//!   `|F_Z| ≤ f`, and an open `Y` parts with `w_Y = a·e + D (−F_Z)`, where the *yielding* `D` is zero unless a side of the
-//!   contact has no mass.
+//!   `|F_Z| ≤ f`, and an open `Y` parts with `w_Y = a·Z + a·e`, where `a` is the row of what parts.
 //! - While `Z` is open and `w_Z ≥ 0`, it is `−F_Y w_Z ≤ 0`.
 //! - While `Z` is open and no more than `w_Z ≥ −δ` is known, it is `δ F_Y` at most. Masses part with a velocity that begins at
 //!   zero, where rounding hides its sign. Between masses the force is the same function of the state for both motions, so
 //!   `F_Y` is that of `Z` and `c·e`.
+//!
+//! An undamped spring beside the contact, with nothing else at its end, is unloaded while the contact is open: it is *idle*, and
+//! its free end, which is *loose*, moves with its other end. All this holds with its compression as an entry of the state that
+//! is zero while it is idle. The compression that is left when `Z` opens counts as an error.
 //!
 //! With `s` the largest `|e|` on a cell of length `h` this gives `s² ≤ s₀² + 2as + 2q`, so `s ≤ s₀ + 2a + √(2q)`. Once the gap of `Z`
 //! is larger than its error, `Y` is open for certain.
@@ -29,10 +32,11 @@ use super::{NotOverSymbol, Outcome};
 use crate::ball::{Arithmetic as _, Ball, Magnitude};
 use crate::history::passivity::Passivity;
 use crate::limits::MAX_SYMBOL_BITS as BITS;
-use crate::network::{ElementLaw, Node, System};
+use crate::network::{ElementLaw, Link, Node, System};
 use crate::scene::Drive;
 use crate::signal::Varying;
 use num_traits::{One as _, Signed as _, Zero as _};
+use std::ops::Range;
 use wavestep_polynomial::Rational;
 
 /// How much later than the root a contact opens, as a part of a cell and a power of two.
@@ -61,6 +65,13 @@ pub(super) struct Back {
     pub(super) force: Magnitude,
 }
 
+/// What is known of a contact at the start of a cell.
+#[derive(Clone, Copy)]
+pub(super) enum Known {
+    Closed,
+    Neither,
+}
+
 /// Bounds of errors on a cell on which a contact may be open or closed.
 pub(super) struct Bound {
     /// Of the state that is followed.
@@ -76,13 +87,24 @@ struct Output {
     /// Its places among the outputs, and its rows.
     places: [usize; 2],
     rows: [Vec<Varying>; 2],
-    yielding: Magnitude,
+    /// None for the velocity of what is loose: it is another one while the contact is open.
+    yielding: Option<Magnitude>,
 }
 
-/// A contact of the motion that is followed: the force in it while it is closed.
+/// A contact of the motion that is followed: what it is like while the true one may be otherwise, and how much outputs change by
+/// that.
 enum Contact {
-    Closed(Magnitude),
-    Open(Back),
+    /// The force in it, the velocity with which an open one would part, and for how long, at most.
+    Closed {
+        force: Magnitude,
+        parting: Magnitude,
+        time: Magnitude,
+        changes: Vec<Magnitude>,
+    },
+    Open {
+        back: Back,
+        changes: Vec<Magnitude>,
+    },
 }
 
 const CLOSED: usize = 0;
@@ -117,6 +139,19 @@ impl Norm {
         Norm { roots, inverse_roots, driven }
     }
 
+    /// Of the states that are compared: as in the open system, but for the compression of what is idle there.
+    fn compared([closed, open]: [Norm; 2], counterparts: &[usize], kept: &[Option<usize>]) -> Norm {
+        let both = || counterparts.iter().zip(kept);
+        let all = |closed: &[Magnitude], open: &[Magnitude]| {
+            both().map(|(own, kept)| kept.map_or(closed[*own], |kept| open[kept])).collect()
+        };
+        Norm {
+            roots: all(&closed.roots, &open.roots),
+            inverse_roots: all(&closed.inverse_roots, &open.inverse_roots),
+            driven: open.driven,
+        }
+    }
+
     fn states(&self) -> usize {
         self.roots.len()
     }
@@ -127,19 +162,23 @@ impl Norm {
 }
 
 /// A contact that opens, between two ways of a node.
+///
+/// Both are compared in a state with the velocities of the open one and the displacements of the closed one.
 pub(super) struct Opened {
     pub(super) contact: usize,
     /// The velocity with which it parts while it is open, by state and input.
-    pub(super) parting: Vec<Varying>,
+    parting: Vec<Varying>,
     /// Its force while it is closed.
     force: Vec<Varying>,
-    /// For each entry of the open state the same of the closed one.
+    /// For each entry of the state the same of the closed one, and of the open one: none for the compression of an idle spring.
     counterparts: Vec<usize>,
-    closed_states: usize,
+    kept: Vec<Option<usize>>,
+    states_of: [usize; 2],
     norm: Norm,
     impedances: [Magnitude; 2],
-    /// How fast it parts for each unit of force.
-    yielding: Magnitude,
+    is_between_masses: bool,
+    /// The runs at both sides of the contact that are not loose, where a spring is idle.
+    firm: Option<[usize; 2]>,
     /// All but its own force, and how many these are.
     outputs: Vec<Output>,
     count: usize,
@@ -154,12 +193,20 @@ fn yielding(closed: &[Varying], open: &[Varying], force: &[Varying]) -> Outcome<
     Ok(change.multiply(&force[place].reciprocal(BITS)?, BITS))
 }
 
+/// The runs at the left and at the right of an open contact that are loose, where it has this run at its left.
+pub(super) fn loose(node: &Node<Varying>, run: usize, open: &System<Varying>) -> [Range<usize>; 2] {
+    let is_joined = |link: &usize| open.group[*link] == open.group[link + 1];
+    let is_idle = |link: &usize| matches!(node.links[*link], Link::Element(_));
+    let left = (0..run).rev().take_while(is_joined).filter(is_idle).last();
+    let right = (run + 1..node.links.len()).take_while(is_joined).filter(is_idle).last();
+    [left.unwrap_or(run) + 1..run + 1, run + 1..right.unwrap_or(run) + 1]
+}
+
 impl Opened {
     /// A contact that is closed in one way, and open in the next.
     ///
     /// # Errors
-    /// [`NotOverSymbol::BesideContact`] for a load that moves a run, a load beside the contact without mass, and a spring
-    /// that ends at the contact.
+    /// [`NotOverSymbol::BesideContact`] for a load that moves a run, and a load beside the contact without mass.
     pub(super) fn of(
         node: &Node<Varying>,
         before: &Way,
@@ -168,24 +215,37 @@ impl Opened {
         let closed = &before.system;
         let (open, passivity) = open;
         let place = closed.closed.iter().position(|(own, _)| *own == contact);
-        let run = closed.closed[place.ok_or(NotOverSymbol::BesideContact)?].1;
+        let place = place.ok_or(NotOverSymbol::BesideContact)?;
+        let (run, runs) = (closed.closed[place].1, node.runs());
         let loads = || node.elements.iter().filter(|own| own.law.is_driven());
         let is_light = |run: usize| !open.has_inertia(run);
         let moves = |own: &ElementLaw<Varying>| matches!(own, ElementLaw::Load(Drive::Velocity));
-        if loads().any(|own| moves(&own.law) || is_light(own.run))
-            || open.displacements() != closed.displacements()
-        {
+        if loads().any(|own| moves(&own.law) || is_light(own.run)) {
             return Err(NotOverSymbol::BesideContact);
         }
+        let sides = loose(node, run, open);
+        let is_loose = |run: &usize| sides.iter().any(|own| own.contains(run));
+        let [left, right] = &sides;
+        let firm = [left.start - 1, right.end];
+        let firm = (firm != [run, run + 1]).then_some(firm);
         let heavy = |group: &usize| {
-            let run = open.group.iter().position(|own| own == group)?;
-            closed.place_of_velocity(run)
+            let mut own = (0..runs).filter(|run| open.group[*run] == *group && !is_loose(run));
+            closed.place_of_velocity(own.next()?)
         };
         let counterparts = open.heavy.iter().map(heavy).collect::<Option<Vec<usize>>>();
         let mut counterparts = counterparts.ok_or(NotOverSymbol::BesideContact)?;
-        counterparts.extend(closed.heavy.len()..closed.states());
-        // The rows of the closed system by the states of the open one.
-        let opened = |row: &[Varying]| -> Vec<Varying> {
+        let mut kept: Vec<Option<usize>> = (0..counterparts.len()).map(Some).collect();
+        for (of_closed, of_open) in closed.kept.iter().zip(&open.kept) {
+            if let Some(of_closed) = of_closed {
+                counterparts.push(*of_closed);
+                kept.push(*of_open);
+            }
+        }
+        if kept.iter().flatten().count() < open.states() {
+            return Err(NotOverSymbol::BesideContact);
+        }
+        // The rows of either system by the states that are compared.
+        let of_closed = |row: &[Varying]| -> Vec<Varying> {
             let mut row = row.to_vec();
             let mut own: Vec<Varying> = Vec::with_capacity(counterparts.len());
             for counterpart in &counterparts {
@@ -194,44 +254,61 @@ impl Opened {
             own.extend(row.drain(closed.states()..));
             own
         };
-        let runs = node.runs();
-        let force = opened(&closed.output[runs + place.expect("it is closed")]);
-        let parting = subtracted(&open.output[run + 1], &open.output[run]);
-        let is_heavy = open.has_inertia(run) && open.has_inertia(run + 1);
-        let yields = |of: &[Varying], by: &[Varying]| match is_heavy {
-            true => Ok(Magnitude::ZERO),
-            false => yielding(of, by, &force).map(|own| own.magnitude()),
+        let of_open = |row: &[Varying]| -> Vec<Varying> {
+            let state =
+                kept.iter().map(|own| own.map_or_else(Varying::zero, |own| row[own].clone()));
+            state.chain(row[open.states()..].iter().cloned()).collect()
         };
-        let zero = vec![Varying::zero(); parting.len()];
+        let force = of_closed(&closed.output[runs + place]);
+        let parting = of_open(&subtracted(&open.output[run + 1], &open.output[run]));
+        let is_between_masses = open.has_inertia(run) && open.has_inertia(run + 1);
         let others = closed.closed.iter().enumerate().filter(|(_, (own, _))| *own != contact);
-        let others = others.map(|(number, (own, _))| {
+        let mut places: Vec<(usize, usize)> = (0..runs).map(|run| (run, run)).collect();
+        for (number, (own, other)) in others {
             let among = open.closed.iter().position(|(other, _)| other == own);
-            (runs + number, runs + among.expect("it stays closed"))
-        });
-        let outputs = (0..runs).map(|run| (run, run)).chain(others);
-        let output = |(of_closed, of_open): (usize, usize)| {
-            let rows = [opened(&closed.output[of_closed]), open.output[of_open].clone()];
-            let yielding = yields(&rows[CLOSED], &rows[OPEN])?;
-            Ok(Output { places: [of_closed, of_open], rows, yielding })
+            if is_loose(other) || is_loose(&(other + 1)) {
+                return Err(NotOverSymbol::BesideContact);
+            }
+            places.push((runs + number, runs + among.expect("it stays closed")));
+        }
+        let output = |(own, other): (usize, usize)| {
+            let rows = [of_closed(&closed.output[own]), of_open(&open.output[other])];
+            let yielding = match (is_loose(&own), is_between_masses && firm.is_none()) {
+                (true, _) => None,
+                (false, true) => Some(Magnitude::ZERO),
+                (false, false) => Some(yielding(&rows[CLOSED], &rows[OPEN], &force)?.magnitude()),
+            };
+            Ok(Output { places: [own, other], rows, yielding })
         };
+        let norms = [Norm::of(closed, &before.passivity), Norm::of(open, passivity)];
         Ok(Opened {
             contact,
-            yielding: yields(&zero, &parting)?,
-            outputs: outputs.map(output).collect::<Outcome<_>>()?,
+            outputs: places.into_iter().map(output).collect::<Outcome<_>>()?,
             count: open.output.len(),
             parting,
             force,
-            closed_states: closed.states(),
-            norm: Norm::of(open, passivity),
+            states_of: [closed.states(), open.states()],
+            norm: Norm::compared(norms, &counterparts, &kept),
             impedances: node.impedance.each_ref().map(|own| own.magnitude()),
             counterparts,
+            kept,
+            is_between_masses,
+            firm,
         })
     }
 
     /// The state with which the contact opens.
     pub(super) fn enter(&self, before: &NodeState, closed: &Way) -> NodeState {
-        let values = self.counterparts.iter().map(|own| before.values[*own].clone()).collect();
-        let size = self.size_at_start(&before.error, closed);
+        let mut values = vec![Varying::zero(); self.states_of[OPEN]];
+        let mut left = vec![Magnitude::ZERO; self.norm.states()];
+        for (place, (own, kept)) in self.counterparts.iter().zip(&self.kept).enumerate() {
+            let value = &before.values[*own];
+            match kept {
+                Some(kept) => values[*kept] = value.clone(),
+                None => left[place] = value.magnitude(),
+            }
+        }
+        let size = self.size_at_start(&before.error, closed).add(&self.norm.size(&left));
         let gap = before.error.gap_of(self.contact).unwrap_or(Magnitude::ZERO);
         let mut gaps = before.gaps.clone();
         gaps.insert(self.contact, OnCell::zero().widened(&gap));
@@ -243,17 +320,37 @@ impl Opened {
     pub(super) fn size_at_start(&self, error: &NodeError, way: &Way) -> Magnitude {
         match error {
             NodeError::Undecided { contact, size, .. } if *contact == self.contact => *size,
-            _ => self.size_of(&way.entries_of(&way.errors_of(error))),
+            _ => self.size_of(&way.entries_of(&way.errors_of(error)), way),
         }
     }
 
-    /// The size of a state with entries of these sizes, those of the open one or of the closed one.
-    pub(super) fn size_of(&self, entries: &[Magnitude]) -> Magnitude {
-        if entries.len() == self.norm.states() {
-            return self.norm.size(entries);
+    /// The size of a state with entries of these sizes, of the node in this way.
+    pub(super) fn size_of(&self, entries: &[Magnitude], way: &Way) -> Magnitude {
+        let is_open = way.open.iter().any(|own| own.contact == self.contact);
+        let both = self.counterparts.iter().zip(&self.kept);
+        let own = both.map(|(own, kept)| match is_open {
+            true => kept.map_or(Magnitude::ZERO, |kept| entries[kept]),
+            false => entries[*own],
+        });
+        self.norm.size(&own.collect::<Vec<_>>())
+    }
+
+    /// A sum over what is compared, of functions on a cell in a motion whose contact is closed, or open.
+    fn in_motion(&self, row: &[Varying], own: usize, both: &[OnCell]) -> OnCell {
+        let (state, inputs) = row.split_at(self.norm.states());
+        let mut factors = vec![Varying::zero(); self.states_of[own]];
+        for ((entry, counterpart), kept) in state.iter().zip(&self.counterparts).zip(&self.kept) {
+            if let Some(place) = if own == CLOSED { Some(*counterpart) } else { *kept } {
+                factors[place] = factors[place].add(entry, BITS);
+            }
         }
-        let own: Vec<Magnitude> = self.counterparts.iter().map(|own| entries[*own]).collect();
-        self.norm.size(&own)
+        factors.extend(inputs.iter().cloned());
+        OnCell::sum(&factors, both.iter())
+    }
+
+    /// The velocity with which it parts in a motion that is open, on a cell where its state and what acts are these.
+    pub(super) fn parting(&self, both: &[OnCell]) -> OnCell {
+        self.in_motion(&self.parting, OPEN, both)
     }
 
     /// A bound of a sum over state and input.
@@ -262,39 +359,70 @@ impl Opened {
         terms.fold(Magnitude::ZERO, |sum, own| sum.add(&own))
     }
 
-    /// While the motion that is followed is closed, with no larger force, and the true one may be open.
+    /// While the motion that is followed is closed, with this force on these functions, and the true one may be open; `begins`
+    /// tells what is known at the start of the cell.
     pub(super) fn while_closed(
         &self,
         start: Magnitude,
-        left: &[Magnitude],
-        force: Magnitude,
+        left: Magnitude,
+        (force, begins): (&OnCell, Known),
+        both: &[OnCell],
         arrived: &Arrived,
     ) -> Bound {
-        self.bound((start, self.size_of(left)), arrived, Contact::Closed(force))
+        let positive_until = |force: &OnCell| match begins {
+            Known::Closed => force.positive_until(),
+            Known::Neither => Rational::zero(),
+        };
+        // The end of the cell, about which the bounds are much closer.
+        let near = positive_until(force);
+        let force = force.after(&near);
+        let from = positive_until(&force);
+        let largest =
+            |row: &[Varying]| self.in_motion(row, CLOSED, both).after(&near).largest_from(&from);
+        let change = |own: &Output| largest(&subtracted(&own.rows[OPEN], &own.rows[CLOSED]));
+        let rest = (Rational::one() - &near) * (Rational::one() - &from);
+        let contact = Contact::Closed {
+            force: force.largest_from(&from),
+            parting: largest(&self.parting),
+            time: arrived.length.multiply(&Magnitude::from_rational(&rest)),
+            changes: self.outputs.iter().map(change).collect(),
+        };
+        self.bound((start, left), arrived, contact)
     }
 
     /// While the motion that is followed is open, and the true one may be closed.
     pub(super) fn while_open(
         &self,
         start: Magnitude,
-        left: &[Magnitude],
+        left: Magnitude,
         back: Back,
+        both: &[OnCell],
         arrived: &Arrived,
     ) -> Bound {
-        self.bound((start, self.size_of(left)), arrived, Contact::Open(back))
+        let changes = self.outputs.iter().map(|own| match own.yielding {
+            Some(_) => Magnitude::ZERO,
+            None => {
+                let change = subtracted(&own.rows[CLOSED], &own.rows[OPEN]);
+                self.in_motion(&change, OPEN, both).largest_from(&Rational::zero())
+            }
+        });
+        let contact = Contact::Open { back, changes: changes.collect() };
+        self.bound((start, left), arrived, contact)
     }
 
     /// How the contact comes back in a motion that is open, on a cell where its state and what acts are these polynomials. None
     /// where it truly does, or between bodies of which one has no mass: these part at once.
     pub(super) fn back(&self, parting: &OnCell, both: &[OnCell]) -> Option<Back> {
+        let force = || self.in_motion(&self.force, OPEN, both).largest_from(&Rational::zero());
         if parting.is_not_negative() {
-            return Some(Back { velocity: Magnitude::ZERO, force: Magnitude::ZERO });
+            // A spring that is idle has no force but by rounding. Between others the force of what parts would pull.
+            let force = if self.firm.is_some() { force() } else { Magnitude::ZERO };
+            return Some(Back { velocity: Magnitude::ZERO, force });
         }
         // Twice what it is below zero leaves room for the rounding of this sum.
         let velocity = parting.below_zero_at_start().scale(1);
         let raised = OnCell::total([parting, &OnCell::constant(&size(&velocity))].into_iter());
-        let is_hidden = self.yielding.is_zero() && raised.is_not_negative();
-        let force = || OnCell::sum(&self.force, both.iter()).largest_from(&Rational::zero());
+        let is_hidden = self.is_between_masses && self.firm.is_none() && raised.is_not_negative();
         is_hidden.then(|| Back { velocity, force: force() })
     }
 
@@ -311,59 +439,73 @@ impl Opened {
             let both = norm.inverse_roots.iter().zip(row);
             root_of_squares(both.map(|(root, own)| root.multiply(&own.magnitude())))
         };
-        let (own, f, back) = match contact {
-            Contact::Closed(force) => (CLOSED, force, Magnitude::ZERO),
-            Contact::Open(back) => (OPEN, Magnitude::ZERO, back.velocity),
-        };
-        let of_state = by_size(&self.parting);
-        // What parts by inputs alone, and by the force.
-        let of_others = self.sum(&self.parting[states..], acting).add(&self.yielding.multiply(&f));
-        let loads = norm.driven.iter().zip(&acting[2..]).map(|(driven, own)| driven.multiply(own));
-        let by_contact = of_state.multiply(&f).add(&back.multiply(&by_size(&self.force)));
-        let pushed = loads.fold(by_contact, |sum, own| sum.add(&own));
-        let a = left.add(&pushed.multiply(length));
-        let arriving = self.impedances.iter().zip(acting);
-        let arriving = arriving.map(|(z, own)| z.multiply(&own.multiply(own)));
-        let by_contact = match contact {
-            Contact::Closed(force) => force.multiply(&of_others),
-            Contact::Open(back) => {
-                let others = self.sum(&self.force[states..], acting);
-                back.velocity.multiply(&back.force.add(&others))
+        let (of_state, of_inputs) =
+            (by_size(&self.parting), self.sum(&self.parting[states..], acting));
+        // What the contact adds to a and to q.
+        let [pushed, worked] = match &contact {
+            Contact::Closed { force, parting, time, .. } => {
+                let others = parting.add(&of_inputs);
+                [&of_state, &others].map(|own| own.multiply(force).multiply(time))
+            }
+            Contact::Open { back, .. } => {
+                let others = back.force.add(&self.sum(&self.force[states..], acting));
+                [&by_size(&self.force), &others]
+                    .map(|own| own.multiply(&back.velocity).multiply(length))
             }
         };
-        let q = arriving.fold(by_contact, |sum, own| sum.add(&own)).multiply(length);
+        let loads = norm.driven.iter().zip(&acting[2..]).map(|(driven, own)| driven.multiply(own));
+        let loads = loads.fold(Magnitude::ZERO, |sum, own| sum.add(&own)).multiply(length);
+        let a = left.add(&pushed).add(&loads);
+        let arriving = self.impedances.iter().zip(acting);
+        let arriving = arriving.map(|(z, own)| z.multiply(&own.multiply(own)));
+        let arriving = arriving.fold(Magnitude::ZERO, |sum, own| sum.add(&own)).multiply(length);
+        let q = arriving.add(&worked);
         let size = start.add(&a.scale(1)).add(&q.scale(1).square_root());
         let mut sizes: Vec<Magnitude> =
             norm.inverse_roots.iter().map(|root| root.multiply(&size)).collect();
         sizes.extend(acting);
-        // A true force in the contact is as far off.
-        let force_is_off = match contact {
-            Contact::Closed(force) => force,
-            Contact::Open(_) => self.sum(&self.force, &sizes),
+        let (own, changes) = match &contact {
+            Contact::Closed { changes, .. } => (CLOSED, changes),
+            Contact::Open { changes, .. } => (OPEN, changes),
         };
         let mut further = vec![Magnitude::ZERO; self.count + 1 - own];
-        for output in &self.outputs {
-            let other = self.sum(&output.rows[1 - own], &sizes);
-            further[output.places[own]] = other.add(&output.yielding.multiply(&force_is_off));
+        for (output, change) in self.outputs.iter().zip(changes) {
+            let other = self.sum(&output.rows[1 - own], &sizes).add(change);
+            further[output.places[own]] = match (&contact, output.yielding) {
+                // A true force in the contact is as far off.
+                (Contact::Open { back, .. }, Some(yielding)) => {
+                    let force = self.sum(&self.force, &sizes).add(&back.force);
+                    other.add(&yielding.multiply(&force))
+                }
+                _ => other,
+            };
         }
-        let entries = match contact {
-            Contact::Open(_) => sizes[..states].to_vec(),
-            // What moves together is as far off as either.
-            Contact::Closed(_) => {
-                (0..self.closed_states).map(|entry| self.largest_of(entry, &sizes)).collect()
+        let gap = match (&contact, self.firm) {
+            (Contact::Closed { parting, time, .. }, _) => {
+                of_state.multiply(&size).add(&of_inputs).add(parting).multiply(time)
+            }
+            (_, None) => of_state.multiply(&size).add(&of_inputs).multiply(length),
+            // The gap less the compression grows with what is not loose.
+            (_, Some(firm)) => {
+                let off =
+                    |run: usize| self.sum(&self.outputs[run].rows[OPEN], &sizes).add(&further[run]);
+                let compressed = (0..states).filter(|place| self.kept[*place].is_none());
+                let rate = firm.map(off).iter().fold(Magnitude::ZERO, |sum, own| sum.add(own));
+                compressed.fold(rate.multiply(length), |sum, place| sum.add(&sizes[place]))
             }
         };
-        let parts = of_state.multiply(&size).add(&of_others);
-        Bound { entries, further, size, gap: parts.multiply(length) }
-    }
-
-    /// The largest of the entries that are this one while the contact is closed.
-    fn largest_of(&self, entry: usize, sizes: &[Magnitude]) -> Magnitude {
-        let both = self.counterparts.iter().zip(sizes).filter(|(own, _)| **own == entry);
-        both.map(|(_, size)| *size).max().unwrap_or(Magnitude::ZERO)
+        // What moves together is as far off as either.
+        let entry = |entry: usize| {
+            let places = (0..states).filter(|place| match own {
+                CLOSED => self.counterparts[*place] == entry,
+                _ => self.kept[*place] == Some(entry),
+            });
+            places.map(|place| sizes[place]).max().unwrap_or(Magnitude::ZERO)
+        };
+        let entries = (0..self.states_of[own]).map(entry).collect();
+        Bound { entries, further, size, gap }
     }
 }
-
 fn root_of_squares(all: impl Iterator<Item = Magnitude>) -> Magnitude {
     all.fold(Magnitude::ZERO, |sum, own| sum.add(&own.multiply(&own))).square_root()
 }

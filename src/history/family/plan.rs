@@ -1,7 +1,7 @@
 //! The contacts that open and close, as far as they are known, and the cuts that they make.
 
 use super::grid::Grid;
-use super::node::{Begins, Closed, Stop, Way};
+use super::node::{Begins, Closed, OpenContact, Stop, Way};
 use super::opening::{Opened, ends};
 use super::{NotOverSymbol, Outcome};
 use crate::history::passivity::Passivity;
@@ -134,7 +134,7 @@ pub(super) fn ways(node: &Node<Varying>, grid: &Grid, changes: &[Change]) -> Out
     };
     let (system, passivity) = of(&[])?;
     let (begins, mut open) = (Begins::AtStart, Vec::new());
-    let mut ways = vec![Way { from: 0, system, passivity, begins, open: open.clone() }];
+    let mut ways = vec![Way { from: 0, system, passivity, begins, open: Vec::new() }];
     let place = |change: &Change| {
         let run = node.contacts().find(|(own, _)| *own == change.contact)?.1;
         Some((grid.cell_at(change.step, &change.at), change.contact, run, change.now))
@@ -157,7 +157,9 @@ pub(super) fn ways(node: &Node<Varying>, grid: &Grid, changes: &[Change]) -> Out
             }
             Now::Closed => Begins::Closing(Closed::of(node, contact, (&before.system, &system))?),
         };
-        ways.push(Way { from, system, passivity, begins, open: open.clone() });
+        let gaps = open.iter().map(|(contact, run)| OpenContact::of(*contact, *run, &system));
+        let open = gaps.collect();
+        ways.push(Way { from, system, passivity, begins, open });
     }
     Ok(ways)
 }
