@@ -55,12 +55,13 @@ pub(super) struct NodeState {
 pub(super) enum NodeError {
     /// Of each block, of a node whose contacts are known to be as they are taken to be.
     OfBlocks(Vec<StateError>),
-    /// Of all of a node of which one contact may be open or closed, in the norm where it is open; and how far off its gap is.
+    /// Of all of a node of which one contact may be open or closed, in the norm where it is open; and how far it may have
+    /// opened while the one that is followed was closed.
     Undecided { contact: usize, size: Magnitude, gap: Magnitude },
 }
 
 impl NodeError {
-    /// How far off the gap of a contact is that may be open or closed; none of any other.
+    /// How far a contact may have opened that may be open or closed; none of any other.
     pub(super) fn gap_of(&self, contact: usize) -> Option<Magnitude> {
         match self {
             NodeError::Undecided { contact: own, gap, .. } if *own == contact => Some(*gap),

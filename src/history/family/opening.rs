@@ -21,7 +21,9 @@
 //!
 //! An undamped spring beside the contact, with nothing else at its end, is unloaded while the contact is open: it is *idle*, and
 //! its free end, which is *loose*, moves with its other end. All this holds with its compression as an entry of the state that
-//! is zero while it is idle. The compression that is left when `Z` opens counts as an error.
+//! is zero while it is idle. The compression that is left when `Z` opens counts as an error. The gap grows as the distance of
+//! what is not loose does, and by the compression. Where that distance has grown in `Z` by more than its error and the
+//! compression of `Y` at the start, `Y` is open: a closed one would be pulled.
 //!
 //! With `s` the largest `|e|` on a cell of length `h` this gives `s² ≤ s₀² + 2as + 2q`, so `s ≤ s₀ + 2a + √(2q)`. Once the gap of `Z`
 //! is larger than its error, `Y` is open for certain.
@@ -79,6 +81,7 @@ pub(super) struct Bound {
     /// Of each output, beyond what follows from those of the state.
     pub(super) further: Vec<Magnitude>,
     pub(super) size: Magnitude,
+    /// How far the true contact may open while the one that is followed is closed.
     pub(super) gap: Magnitude,
 }
 
@@ -177,8 +180,8 @@ pub(super) struct Opened {
     norm: Norm,
     impedances: [Magnitude; 2],
     is_between_masses: bool,
-    /// The runs at both sides of the contact that are not loose, where a spring is idle.
-    firm: Option<[usize; 2]>,
+    /// Whether a spring beside it is idle while it is open.
+    has_idle: bool,
     /// All but its own force, and how many these are.
     outputs: Vec<Output>,
     count: usize,
@@ -215,7 +218,7 @@ impl Opened {
         let closed = &before.system;
         let (open, passivity) = open;
         let place = closed.closed.iter().position(|(own, _)| *own == contact);
-        let place = place.ok_or(NotOverSymbol::BesideContact)?;
+        let place = place.expect("it is closed");
         let (run, runs) = (closed.closed[place].1, node.runs());
         let loads = || node.elements.iter().filter(|own| own.law.is_driven());
         let is_light = |run: usize| !open.has_inertia(run);
@@ -225,9 +228,7 @@ impl Opened {
         }
         let sides = loose(node, run, open);
         let is_loose = |run: &usize| sides.iter().any(|own| own.contains(run));
-        let [left, right] = &sides;
-        let firm = [left.start - 1, right.end];
-        let firm = (firm != [run, run + 1]).then_some(firm);
+        let has_idle = sides.iter().any(|own| !own.is_empty());
         let heavy = |group: &usize| {
             let mut own = (0..runs).filter(|run| open.group[*run] == *group && !is_loose(run));
             closed.place_of_velocity(own.next()?)
@@ -273,7 +274,7 @@ impl Opened {
         }
         let output = |(own, other): (usize, usize)| {
             let rows = [of_closed(&closed.output[own]), of_open(&open.output[other])];
-            let yielding = match (is_loose(&own), is_between_masses && firm.is_none()) {
+            let yielding = match (is_loose(&own), is_between_masses && !has_idle) {
                 (true, _) => None,
                 (false, true) => Some(Magnitude::ZERO),
                 (false, false) => Some(yielding(&rows[CLOSED], &rows[OPEN], &force)?.magnitude()),
@@ -293,7 +294,7 @@ impl Opened {
             counterparts,
             kept,
             is_between_masses,
-            firm,
+            has_idle,
         })
     }
 
@@ -310,8 +311,11 @@ impl Opened {
         }
         let size = self.size_at_start(&before.error, closed).add(&self.norm.size(&left));
         let gap = before.error.gap_of(self.contact).unwrap_or(Magnitude::ZERO);
+        let idle =
+            self.kept.iter().zip(&self.norm.inverse_roots).filter(|(kept, _)| kept.is_none());
+        let off = idle.fold(gap, |sum, (_, root)| sum.add(&root.multiply(&size)));
         let mut gaps = before.gaps.clone();
-        gaps.insert(self.contact, OnCell::zero().widened(&gap));
+        gaps.insert(self.contact, OnCell::zero().widened(&off));
         let error = NodeError::Undecided { contact: self.contact, size, gap };
         NodeState { values, error, gaps }
     }
@@ -416,13 +420,13 @@ impl Opened {
         let force = || self.in_motion(&self.force, OPEN, both).largest_from(&Rational::zero());
         if parting.is_not_negative() {
             // A spring that is idle has no force but by rounding. Between others the force of what parts would pull.
-            let force = if self.firm.is_some() { force() } else { Magnitude::ZERO };
+            let force = if self.has_idle { force() } else { Magnitude::ZERO };
             return Some(Back { velocity: Magnitude::ZERO, force });
         }
         // Twice what it is below zero leaves room for the rounding of this sum.
         let velocity = parting.below_zero_at_start().scale(1);
         let raised = OnCell::total([parting, &OnCell::constant(&size(&velocity))].into_iter());
-        let is_hidden = self.is_between_masses && self.firm.is_none() && raised.is_not_negative();
+        let is_hidden = self.is_between_masses && !self.has_idle && raised.is_not_negative();
         is_hidden.then(|| Back { velocity, force: force() })
     }
 
@@ -480,19 +484,11 @@ impl Opened {
                 _ => other,
             };
         }
-        let gap = match (&contact, self.firm) {
-            (Contact::Closed { parting, time, .. }, _) => {
+        let gap = match &contact {
+            Contact::Closed { parting, time, .. } => {
                 of_state.multiply(&size).add(&of_inputs).add(parting).multiply(time)
             }
-            (_, None) => of_state.multiply(&size).add(&of_inputs).multiply(length),
-            // The gap less the compression grows with what is not loose.
-            (_, Some(firm)) => {
-                let off =
-                    |run: usize| self.sum(&self.outputs[run].rows[OPEN], &sizes).add(&further[run]);
-                let compressed = (0..states).filter(|place| self.kept[*place].is_none());
-                let rate = firm.map(off).iter().fold(Magnitude::ZERO, |sum, own| sum.add(own));
-                compressed.fold(rate.multiply(length), |sum, place| sum.add(&sizes[place]))
-            }
+            Contact::Open { .. } => Magnitude::ZERO,
         };
         // What moves together is as far off as either.
         let entry = |entry: usize| {

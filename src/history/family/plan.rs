@@ -146,6 +146,10 @@ pub(super) fn ways(node: &Node<Varying>, grid: &Grid, changes: &[Change]) -> Out
         let Some(from) = from.filter(|from| *from > before.from) else {
             return Err(NotOverSymbol::Undecided);
         };
+        // One that opens again before it has closed was found at another time on another grid.
+        if open.iter().any(|(own, _)| *own == contact) == (now == Now::Open) {
+            return Err(NotOverSymbol::Undecided);
+        }
         match now {
             Now::Open => open.push((contact, run)),
             Now::Closed => open.retain(|(own, _)| *own != contact),
