@@ -123,17 +123,19 @@ impl Problem {
     /// As [`Problem::signal_on`], and where the largest value is not found.
     pub fn advise(&self, need: &Need<'_>, tell: &dyn Fn(&Simpler)) -> Result<Advice, ProblemError> {
         let comparison = Comparison::new(self, need.wanted, need.window)?;
-        let signal = self.signal_on(need.wanted, need.window, Purpose::Search)?;
+        let signal = &comparison.signal;
         let begun = Instant::now();
         let sample = |time: Rational| {
             let value = (signal.point(&time, Limit::Right)?.enclose)(SAMPLE_BITS)?;
             Ok((time, value))
         };
         let samples: Result<Vec<_>, ProblemError> =
-            sample_times(&*signal)?.into_iter().map(sample).collect();
+            sample_times(&**signal)?.into_iter().map(sample).collect();
         let samples = samples?;
         let each = begun.elapsed() / samples.len() as u32;
         let work = self.work(signal.count()?);
+        let arrivals =
+            (0..signal.count()?).filter(|stretch| !signal.is_instant(*stretch)).count() - 1;
         let mut adviser = Adviser {
             comparison,
             tolerance: &need.tolerance,
@@ -145,8 +147,6 @@ impl Problem {
         adviser.whole();
         adviser.shares();
         adviser.reduced()?;
-        let arrivals =
-            (0..signal.count()?).filter(|stretch| !signal.is_instant(*stretch)).count() - 1;
         if arrivals > 1 {
             adviser.counted(MAX_ARRIVALS.min(arrivals - 1), Simpler::Arrivals);
         }
@@ -282,10 +282,10 @@ impl Adviser<'_> {
     }
 
     /// Whether samples of an answer are near enough.
-    fn passes(&self, simpler: &Simpler) -> bool {
+    fn passes(&self, simpler: &Simpler) -> Result<bool, ProblemError> {
         (self.tell)(simpler);
-        let sampled = self.problem().simpler(simpler).and_then(|other| self.sample(&other));
-        sampled.is_ok_and(|(sampled, _)| self.verdict(&sampled).is_none())
+        let other = self.problem().simpler(simpler)?;
+        Ok(self.verdict(&self.sample(&other)?.0).is_none())
     }
 
     /// All bars rigid, and all of them springs.
@@ -404,17 +404,31 @@ impl Adviser<'_> {
     /// The smallest number of modes or arrivals that is enough, by doubling and halving on samples.
     fn counted(&mut self, most: usize, of: fn(usize) -> Simpler) {
         let mut high = 1;
-        while !self.passes(&of(high)) {
-            if high >= most {
-                self.attempt(of(most));
-                return;
+        loop {
+            match self.passes(&of(high)) {
+                Ok(true) => break,
+                // What does not suit the scene does not in any number.
+                Err(error) if high == 1 => {
+                    let (verdict, work) = (Verdict::Unsuited(first_line(&error)), String::new());
+                    self.tried.push(Tried {
+                        simpler: of(most),
+                        verdict,
+                        work,
+                        each: Duration::ZERO,
+                    });
+                    return;
+                }
+                _ if high >= most => {
+                    self.attempt(of(most));
+                    return;
+                }
+                _ => high = (2 * high).min(most),
             }
-            high = (2 * high).min(most);
         }
         let mut low = high / 2;
         while high - low > 1 {
             let middle = low.midpoint(high);
-            if self.passes(&of(middle)) { high = middle } else { low = middle }
+            if self.passes(&of(middle)).unwrap_or(false) { high = middle } else { low = middle }
         }
         if low > 0 {
             self.attempt(of(low));

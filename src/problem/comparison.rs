@@ -2,6 +2,7 @@
 
 use super::{Other, Problem, ProblemError, Size, Wanted};
 use crate::planner::Purpose;
+use crate::signal::Signal;
 use num_traits::Zero as _;
 use wavestep_polynomial::Rational;
 
@@ -17,6 +18,7 @@ pub(super) struct Comparison<'p> {
     pub problem: &'p Problem,
     pub wanted: &'p Wanted,
     pub window: [&'p Rational; 2],
+    pub signal: Box<dyn Signal + 'p>,
     /// The largest value of the quantity, which is not zero.
     pub largest: Size,
 }
@@ -34,7 +36,7 @@ impl<'p> Comparison<'p> {
         if largest.bounds[0].is_zero() {
             return Err(ProblemError::AllZero(wanted.name.clone()));
         }
-        Ok(Comparison { problem, wanted, window, largest })
+        Ok(Comparison { problem, wanted, window, signal, largest })
     }
 
     /// The largest difference of an answer over the largest value, between two bounds: near ones, or where the tolerance

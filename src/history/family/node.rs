@@ -234,7 +234,7 @@ impl Way {
 
     /// A displacement that is known to be zero at the start of a cell. Its error begins at zero too, and grows no faster than
     /// by those of all that changes it.
-    fn from_zero(
+    fn starting_at_zero(
         &self,
         place: usize,
         own: &Polynomials,
@@ -312,7 +312,7 @@ impl SteppedNode {
             && way.from == cell
         {
             for place in closed.idle_before() {
-                both[place] = way.from_zero(place, &own, &both, length);
+                both[place] = way.starting_at_zero(place, &own, &both, length);
             }
         }
         let mut error = NodeError::OfBlocks(errors);
