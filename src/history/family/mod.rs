@@ -7,8 +7,10 @@
 //!
 //! This file prepares a scene, and `exponential` its loads. `motion` follows it cell by cell (`grid`), in functions on a cell
 //! (`on_cell`) with coefficients over the symbol (`symbol`). `node` tells what a node does on a cell, and `opening` when its
-//! contacts change, which `plan` collects; `modes` encloses modes of vibration, and `envelope` bounds sizes.
+//! contacts change, which `plan` collects; `compared` is the state in which motions are compared there. `modes` encloses modes
+//! of vibration, and `envelope` bounds sizes.
 
+mod compared;
 pub mod envelope;
 mod exponential;
 pub mod grid;

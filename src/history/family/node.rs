@@ -1,8 +1,9 @@
 //! What a node does over a symbol, cell by cell.
 
+use super::compared::loose;
 use super::motion::{Loading, TERMS};
 use super::on_cell::OnCell;
-use super::opening::{Arrived, Bound, Known, Opened, first_zero, half_way, loose, root};
+use super::opening::{Arrived, Bound, Known, Opened, first_zero, half_way, root};
 use super::{NotOverSymbol, Outcome};
 use crate::ball::{Arithmetic as _, Ball, Magnitude, Number};
 use crate::history::passivity::{Block, Passivity, StateError};

@@ -28,17 +28,17 @@
 //! With `s` the largest `|e|` on a cell of length `h` this gives `s² ≤ s₀² + 2as + 2q`, so `s ≤ s₀ + 2a + √(2q)`. Once the gap of `Z`
 //! is larger than its error, `Y` is open for certain.
 
+use super::compared::{CLOSED, Compared, OPEN, loose, root_of_squares};
 use super::node::{NodeError, NodeState, Way};
 use super::on_cell::OnCell;
 use super::{NotOverSymbol, Outcome};
 use crate::ball::{Arithmetic as _, Ball, Magnitude};
 use crate::history::passivity::Passivity;
 use crate::limits::MAX_SYMBOL_BITS as BITS;
-use crate::network::{ElementLaw, Link, Node, System};
+use crate::network::{ElementLaw, Node, System};
 use crate::scene::Drive;
 use crate::signal::Varying;
 use num_traits::{One as _, Signed as _, Zero as _};
-use std::ops::Range;
 use wavestep_polynomial::Rational;
 
 /// How much later than the root a contact opens, as a part of a cell and a power of two.
@@ -110,74 +110,14 @@ enum Contact {
     },
 }
 
-const CLOSED: usize = 0;
-const OPEN: usize = 1;
-
-/// The size `|y|` of a state.
-struct Norm {
-    /// The roots of the weights, and their inverses.
-    roots: Vec<Magnitude>,
-    inverse_roots: Vec<Magnitude>,
-    /// `|B_j|` of each load.
-    driven: Vec<Magnitude>,
-}
-
-impl Norm {
-    fn of(system: &System<Varying>, passivity: &Passivity) -> Norm {
-        let (one, states) = (Magnitude::from_u64(1), system.states());
-        let mut roots = vec![Magnitude::ZERO; states];
-        let mut inverse_roots = roots.clone();
-        for block in &passivity.blocks {
-            for (place, member) in block.members.iter().enumerate() {
-                let unit = |own: &usize| if own == member { one } else { Magnitude::ZERO };
-                roots[*member] = block.size(block.members.iter().map(unit));
-                inverse_roots[*member] = block.entry(place, &one);
-            }
-        }
-        let driven = |input: usize| {
-            let blocks = passivity.blocks.iter();
-            root_of_squares(blocks.map(|own| *own.pushed_by(input)))
-        };
-        let driven = (2..system.inputs()).map(driven).collect();
-        Norm { roots, inverse_roots, driven }
-    }
-
-    /// Of the states that are compared: as in the open system, but for the compression of what is idle there.
-    fn compared([closed, open]: [Norm; 2], counterparts: &[usize], kept: &[Option<usize>]) -> Norm {
-        let both = || counterparts.iter().zip(kept);
-        let all = |closed: &[Magnitude], open: &[Magnitude]| {
-            both().map(|(own, kept)| kept.map_or(closed[*own], |kept| open[kept])).collect()
-        };
-        Norm {
-            roots: all(&closed.roots, &open.roots),
-            inverse_roots: all(&closed.inverse_roots, &open.inverse_roots),
-            driven: open.driven,
-        }
-    }
-
-    fn states(&self) -> usize {
-        self.roots.len()
-    }
-
-    fn size(&self, entries: &[Magnitude]) -> Magnitude {
-        root_of_squares(self.roots.iter().zip(entries).map(|(root, own)| root.multiply(own)))
-    }
-}
-
 /// A contact that opens, between two ways of a node.
-///
-/// Both are compared in a state with the velocities of the open one and the displacements of the closed one.
 pub(super) struct Opened {
     pub(super) contact: usize,
     /// The velocity with which it parts while it is open, by state and input.
     parting: Vec<Varying>,
     /// Its force while it is closed.
     force: Vec<Varying>,
-    /// For each entry of the state the same of the closed one, and of the open one: none for the compression of an idle spring.
-    counterparts: Vec<usize>,
-    kept: Vec<Option<usize>>,
-    states_of: [usize; 2],
-    norm: Norm,
+    compared: Compared,
     impedances: [Magnitude; 2],
     is_between_masses: bool,
     /// Whether a spring beside it is idle while it is open.
@@ -194,15 +134,6 @@ fn yielding(closed: &[Varying], open: &[Varying], force: &[Varying]) -> Outcome<
     let place = largest.ok_or(NotOverSymbol::BesideContact)?;
     let change = closed[place].subtract(&open[place], BITS);
     Ok(change.multiply(&force[place].reciprocal(BITS)?, BITS))
-}
-
-/// The runs at the left and at the right of an open contact that are loose, where it has this run at its left.
-pub(super) fn loose(node: &Node<Varying>, run: usize, open: &System<Varying>) -> [Range<usize>; 2] {
-    let is_joined = |link: &usize| open.group[*link] == open.group[link + 1];
-    let is_idle = |link: &usize| matches!(node.links[*link], Link::Element(_));
-    let left = (0..run).rev().take_while(is_joined).filter(is_idle).last();
-    let right = (run + 1..node.links.len()).take_while(is_joined).filter(is_idle).last();
-    [left.unwrap_or(run) + 1..run + 1, run + 1..right.unwrap_or(run) + 1]
 }
 
 impl Opened {
@@ -229,39 +160,9 @@ impl Opened {
         let sides = loose(node, run, open);
         let is_loose = |run: &usize| sides.iter().any(|own| own.contains(run));
         let has_idle = sides.iter().any(|own| !own.is_empty());
-        let heavy = |group: &usize| {
-            let mut own = (0..runs).filter(|run| open.group[*run] == *group && !is_loose(run));
-            closed.place_of_velocity(own.next()?)
-        };
-        let counterparts = open.heavy.iter().map(heavy).collect::<Option<Vec<usize>>>();
-        let mut counterparts = counterparts.ok_or(NotOverSymbol::BesideContact)?;
-        let mut kept: Vec<Option<usize>> = (0..counterparts.len()).map(Some).collect();
-        for (of_closed, of_open) in closed.kept.iter().zip(&open.kept) {
-            if let Some(of_closed) = of_closed {
-                counterparts.push(*of_closed);
-                kept.push(*of_open);
-            }
-        }
-        if kept.iter().flatten().count() < open.states() {
-            return Err(NotOverSymbol::BesideContact);
-        }
-        // The rows of either system by the states that are compared.
-        let of_closed = |row: &[Varying]| -> Vec<Varying> {
-            let mut row = row.to_vec();
-            let mut own: Vec<Varying> = Vec::with_capacity(counterparts.len());
-            for counterpart in &counterparts {
-                own.push(std::mem::replace(&mut row[*counterpart], Varying::zero()));
-            }
-            own.extend(row.drain(closed.states()..));
-            own
-        };
-        let of_open = |row: &[Varying]| -> Vec<Varying> {
-            let state =
-                kept.iter().map(|own| own.map_or_else(Varying::zero, |own| row[own].clone()));
-            state.chain(row[open.states()..].iter().cloned()).collect()
-        };
-        let force = of_closed(&closed.output[runs + place]);
-        let parting = of_open(&subtracted(&open.output[run + 1], &open.output[run]));
+        let compared = Compared::of([(closed, &before.passivity), (open, passivity)], &sides)?;
+        let force = compared.row(&closed.output[runs + place], CLOSED);
+        let parting = compared.row(&subtracted(&open.output[run + 1], &open.output[run]), OPEN);
         let is_between_masses = open.has_inertia(run) && open.has_inertia(run + 1);
         let others = closed.closed.iter().enumerate().filter(|(_, (own, _))| *own != contact);
         let mut places: Vec<(usize, usize)> = (0..runs).map(|run| (run, run)).collect();
@@ -273,7 +174,10 @@ impl Opened {
             places.push((runs + number, runs + among.expect("it stays closed")));
         }
         let output = |(own, other): (usize, usize)| {
-            let rows = [of_closed(&closed.output[own]), of_open(&open.output[other])];
+            let rows = [
+                compared.row(&closed.output[own], CLOSED),
+                compared.row(&open.output[other], OPEN),
+            ];
             let yielding = match (is_loose(&own), is_between_masses && !has_idle) {
                 (true, _) => None,
                 (false, true) => Some(Magnitude::ZERO),
@@ -281,18 +185,14 @@ impl Opened {
             };
             Ok(Output { places: [own, other], rows, yielding })
         };
-        let norms = [Norm::of(closed, &before.passivity), Norm::of(open, passivity)];
         Ok(Opened {
             contact,
             outputs: places.into_iter().map(output).collect::<Outcome<_>>()?,
             count: open.output.len(),
             parting,
             force,
-            states_of: [closed.states(), open.states()],
-            norm: Norm::compared(norms, &counterparts, &kept),
             impedances: node.impedance.each_ref().map(|own| own.magnitude()),
-            counterparts,
-            kept,
+            compared,
             is_between_masses,
             has_idle,
         })
@@ -300,20 +200,11 @@ impl Opened {
 
     /// The state with which the contact opens.
     pub(super) fn enter(&self, before: &NodeState, closed: &Way) -> NodeState {
-        let mut values = vec![Varying::zero(); self.states_of[OPEN]];
-        let mut left = vec![Magnitude::ZERO; self.norm.states()];
-        for (place, (own, kept)) in self.counterparts.iter().zip(&self.kept).enumerate() {
-            let value = &before.values[*own];
-            match kept {
-                Some(kept) => values[*kept] = value.clone(),
-                None => left[place] = value.magnitude(),
-            }
-        }
-        let size = self.size_at_start(&before.error, closed).add(&self.norm.size(&left));
+        let (values, dropped) = self.compared.opened(&before.values);
+        let dropped = self.compared.norm.size(&dropped);
+        let size = self.size_at_start(&before.error, closed).add(&dropped);
         let gap = before.error.gap_of(self.contact).unwrap_or(Magnitude::ZERO);
-        let idle =
-            self.kept.iter().zip(&self.norm.inverse_roots).filter(|(kept, _)| kept.is_none());
-        let off = idle.fold(gap, |sum, (_, root)| sum.add(&root.multiply(&size)));
+        let off = gap.add(&self.compared.of_idle(&size));
         let mut gaps = before.gaps.clone();
         gaps.insert(self.contact, OnCell::zero().widened(&off));
         let error = NodeError::Undecided { contact: self.contact, size, gap };
@@ -331,25 +222,13 @@ impl Opened {
     /// The size of a state with entries of these sizes, of the node in this way.
     pub(super) fn size_of(&self, entries: &[Magnitude], way: &Way) -> Magnitude {
         let is_open = way.open.iter().any(|own| own.contact == self.contact);
-        let both = self.counterparts.iter().zip(&self.kept);
-        let own = both.map(|(own, kept)| match is_open {
-            true => kept.map_or(Magnitude::ZERO, |kept| entries[kept]),
-            false => entries[*own],
-        });
-        self.norm.size(&own.collect::<Vec<_>>())
+        let of = if is_open { OPEN } else { CLOSED };
+        self.compared.norm.size(&self.compared.sizes(entries, of))
     }
 
     /// A sum over what is compared, of functions on a cell in a motion whose contact is closed, or open.
     fn in_motion(&self, row: &[Varying], own: usize, both: &[OnCell]) -> OnCell {
-        let (state, inputs) = row.split_at(self.norm.states());
-        let mut factors = vec![Varying::zero(); self.states_of[own]];
-        for ((entry, counterpart), kept) in state.iter().zip(&self.counterparts).zip(&self.kept) {
-            if let Some(place) = if own == CLOSED { Some(*counterpart) } else { *kept } {
-                factors[place] = factors[place].add(entry, BITS);
-            }
-        }
-        factors.extend(inputs.iter().cloned());
-        OnCell::sum(&factors, both.iter())
+        OnCell::sum(&self.compared.row_in(row, own, BITS), both.iter())
     }
 
     /// The velocity with which it parts in a motion that is open, on a cell where its state and what acts are these.
@@ -437,7 +316,7 @@ impl Opened {
         Arrived { acting, length }: &Arrived,
         contact: Contact,
     ) -> Bound {
-        let (norm, states) = (&self.norm, self.norm.states());
+        let (norm, states) = (&self.compared.norm, self.compared.len());
         // How much a row changes with the size of a state.
         let by_size = |row: &[Varying]| {
             let both = norm.inverse_roots.iter().zip(row);
@@ -490,22 +369,10 @@ impl Opened {
             }
             Contact::Open { .. } => Magnitude::ZERO,
         };
-        // What moves together is as far off as either.
-        let entry = |entry: usize| {
-            let places = (0..states).filter(|place| match own {
-                CLOSED => self.counterparts[*place] == entry,
-                _ => self.kept[*place] == Some(entry),
-            });
-            places.map(|place| sizes[place]).max().unwrap_or(Magnitude::ZERO)
-        };
-        let entries = (0..self.states_of[own]).map(entry).collect();
+        let entries = self.compared.sizes_in(&sizes[..states], own);
         Bound { entries, further, size, gap }
     }
 }
-fn root_of_squares(all: impl Iterator<Item = Magnitude>) -> Magnitude {
-    all.fold(Magnitude::ZERO, |sum, own| sum.add(&own.multiply(&own))).square_root()
-}
-
 fn subtracted(one: &[Varying], other: &[Varying]) -> Vec<Varying> {
     one.iter().zip(other).map(|(one, other)| one.subtract(other, BITS)).collect()
 }
