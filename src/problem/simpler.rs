@@ -5,8 +5,8 @@ use crate::export::expression_text;
 use crate::language::{self, Change, ChangeError, Source, closest};
 use crate::model::Modes;
 use crate::network::{Network, NetworkError};
-use crate::planner::{self, Purpose};
-use crate::signal::{Goal, Place, Search, Signal};
+use crate::planner::{self, Origin, Purpose};
+use crate::signal::{EvaluateError, Goal, Place, Search, Signal};
 use std::fmt;
 use std::str::FromStr;
 use wavestep_polynomial::Rational;
@@ -277,6 +277,9 @@ impl Problem {
                 (own, signal.ok_or_else(|| self.unknown(&wanted.name))?, None)
             }
             Against::Arrivals(count) => {
+                if planner::origin(own, window[1], purpose) == Origin::Followed {
+                    return Err(EvaluateError::NoClosedForm.into());
+                }
                 let signal = self.signal_on(wanted, window, purpose)?;
                 signal.closed_form()?;
                 (own, signal, Some(count))
