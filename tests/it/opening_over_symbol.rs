@@ -340,3 +340,28 @@ fn lines_with_contacts_that_open_hold_those_at_each_value() {
     }
     assert!(decided * 2 >= all && compared.changes >= 20, "{decided} of {all}");
 }
+
+/// The end of a cell is the same function on another scale.
+#[test]
+fn the_end_of_a_cell_is_the_same_function() {
+    let (low, high) = (rational(1, 3), rational(1, 2));
+    let symbol = Varying::between([&low, &high], 96);
+    let constant = |value: &Rational| Varying::constant(value, 96);
+    let whole = OnCell::new(
+        vec![constant(&rational(1, 7)), symbol.clone(), constant(&rational(-5, 3)), symbol],
+        Magnitude::power_of_two(-20),
+    );
+    let from = rational(5, 11);
+    let end = whole.after(&from);
+    assert!(end.error >= whole.error && end.error <= whole.error.scale(1));
+    for x in [rational(0, 1), rational(2, 9), rational(1, 1)] {
+        let there = &from + (rational(1, 1) - &from) * &x;
+        for parameter in [rational(-1, 1), rational(3, 8)] {
+            let at = |own: &OnCell, x: &Rational| of_varying(&own.value(&constant(x)), &parameter);
+            let [one, other] =
+                [at(&end, &x), at(&whole, &there)].map(|own| Rational::from(own.midpoint()));
+            let off = Magnitude::from_rational(&(one - other));
+            assert!(off <= Magnitude::power_of_two(-80), "{x}, {parameter}");
+        }
+    }
+}

@@ -2,8 +2,8 @@
 //!
 //! The motion `Z` that is followed lets a contact open at the beginning of a cell, a little later than its force vanishes. When
 //! the true motion `Y` does so is known nearly, and whether it parts there once or more often is not. Both are compared while
-//! the contact of `Y` may be open or closed: with the size `|y|² = Σ w y²` of a state where it is open, `F` the force
-//! in the contact and `w` the velocity with which it parts, the difference `e = Y − Z` obeys
+//! the contact of `Y` may be open or closed: with the size `|y|² = Σ w y²` of a state (`compared`), `F` the force in the
+//! contact and `w` the velocity with which it parts, the difference `e = Y − Z` obeys
 //!
 //! ```text
 //! ½ (|e|²)' ≤ Σ_sides Z_s e_s² + |e| |r| + (F_Y − F_Z)(w_Y − w_Z),
