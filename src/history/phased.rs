@@ -28,6 +28,9 @@ use wavestep_polynomial::Rational;
 const FIRST_BITS: u64 = 192;
 const SEARCH_BITS: u64 = 640;
 
+/// So many digits of a value beside a local contact are had with fewer bits than others.
+const FEW_DIGITS: usize = 15;
+
 /// Precisions are multiples of so many bits.
 const STEP_BITS: u64 = 64;
 
@@ -95,11 +98,12 @@ pub(crate) struct Follower<'a> {
 
 impl<'a> Follower<'a> {
     /// Follows the scene until the end of a window of the user's time, and forgets what is not asked for to see an
-    /// observable on it, if only one is.
+    /// observable on it, if only one is. With the number of digits, where that is known, it takes no more bits than it needs.
     pub fn new(
         network: &'a Network,
         observed: Option<&Observed>,
         [from, to]: [&Rational; 2],
+        digits: Option<usize>,
     ) -> Result<Rc<Follower<'a>>, HistoryError> {
         let asked = Asked::of(network, observed, from);
         let until = Moment::at(network.scaled_time(to));
@@ -109,6 +113,7 @@ impl<'a> Follower<'a> {
         };
         let first = match network.local_contact() {
             None => FIRST_BITS,
+            Some(_) if digits.is_some_and(|digits| digits <= FEW_DIGITS) => LEAST_BITS * 3 / 2,
             Some(_) => 2 * LEAST_BITS,
         };
         let known = Precisions::growing_by_half(first, MAX_HISTORY_BITS).raise(attempt)?.best()?;
@@ -146,8 +151,11 @@ impl<'a> Follower<'a> {
     /// What is known at a precision; where more is known, that, and less where following with it takes too much.
     fn engine(&self, bits: u64) -> Rc<Engine> {
         let known = Rc::clone(&self.known.borrow());
+        if known.cut.bits >= bits {
+            return known;
+        }
         let bits = bits.next_multiple_of(STEP_BITS);
-        if known.cut.bits >= bits || bits >= self.too_many_bits.get() {
+        if bits >= self.too_many_bits.get() {
             return known;
         }
         match Follower::follow(self.network, &self.asked, &self.until, bits) {
@@ -192,11 +200,12 @@ impl<'a> FollowedSignal<'a> {
         network: &'a Network,
         observed: &Observed,
         window: [&Rational; 2],
+        digits: Option<usize>,
     ) -> Result<Self, HistoryError> {
         if window[1] < window[0] || *window[0] < Rational::zero() {
             return Err(EvaluateError::EmptyWindow.into());
         }
-        let follower = Follower::new(network, Some(observed), window)?;
+        let follower = Follower::new(network, Some(observed), window, digits)?;
         let readings = (&*observed.readings, &observed.unit);
         let signal = FollowedSignal::linear(&follower, readings, window)?;
         Ok(FollowedSignal { silence: Silence::of(network, observed), ..signal })

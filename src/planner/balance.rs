@@ -1,7 +1,7 @@
 //! Energies and momenta with what flows in, their derivative: what roots and extrema ask for.
 
 use super::energy;
-use super::{Origin, SignalError, Sources};
+use super::{Origin, Purpose, SignalError, Sources};
 use crate::expression::{Fraction, Root};
 use crate::network::{Balance, FlowTerm, Network, Observed, ObservedValue, Squared};
 use crate::signal::{Balanced, Combination, Constant, Operation, Product, Scale, Signal};
@@ -12,7 +12,7 @@ use wavestep_polynomial::Rational;
 pub(super) fn of_scene<'a>(
     origin: Origin,
     network: &'a Network,
-    observed: &Observed,
+    (observed, purpose): (&Observed, Purpose),
     Balance { at_start, flow }: &Balance,
     window: [&Rational; 2],
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
@@ -23,7 +23,7 @@ pub(super) fn of_scene<'a>(
         return Ok(Box::new(Operation::new(&scale, rule, unit, window)));
     }
     let one = Root::from(Fraction::one());
-    let sources = Sources::on(origin, network, observed, window)?;
+    let sources = Sources::on(origin, network, (observed, purpose), window)?;
     let of: Box<dyn Signal + 'a> = match &observed.value {
         ObservedValue::Energy(terms) => energy::of_sources(&sources, terms, &one, window)?,
         ObservedValue::Linear(value) => sources.signal(value, &observed.readings, window)?,

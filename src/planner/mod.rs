@@ -46,8 +46,28 @@ pub enum Purpose {
     Polynomials,
     /// The same for roots and extrema: energies and momenta with what flows in.
     Search,
+    /// The same for a size to a few digits.
+    Size,
     /// Values by what knows of contacts that stay closed alone: methods that need a closed form, and models.
     ClosedContacts,
+}
+
+/// The digits of a size.
+const SIZE_DIGITS: usize = 9;
+
+impl Purpose {
+    fn is_search(self) -> bool {
+        matches!(self, Purpose::Search | Purpose::Size)
+    }
+
+    /// How many digits are wanted; `None` where that is not known beforehand.
+    fn digits(self) -> Option<usize> {
+        match self {
+            Purpose::Values { digits } => Some(digits),
+            Purpose::Size => Some(SIZE_DIGITS),
+            _ => None,
+        }
+    }
 }
 
 /// Whether the waves of a scene have periods and echoes, which can be counted; else it is followed, and has
@@ -105,7 +125,7 @@ pub fn origin(network: &Network, to: &Rational, purpose: Purpose) -> Origin {
             ClosedForm::foreseen(network, to).map(|bytes| bytes <= FOLLOWED_FROM)
         }
         // Named rates hide which values are exactly zero behind an arrival.
-        Purpose::Search => ClosedForm::of_nothing(network, to).and_then(|form| {
+        Purpose::Search | Purpose::Size => ClosedForm::of_nothing(network, to).and_then(|form| {
             Ok(form.order(to)? <= MOST_SEARCHED && !form.recurrence().has_named_rates())
         }),
         Purpose::Polynomials => {
@@ -219,15 +239,15 @@ pub fn of_origin<'a>(
     window: [&Rational; 2],
     purpose: Purpose,
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
-    if let (Purpose::Search, Some(known)) = (purpose, &observed.balance) {
-        return balance::of_scene(origin, network, observed, known, window);
+    if let (true, Some(known)) = (purpose.is_search(), &observed.balance) {
+        return balance::of_scene(origin, network, (observed, purpose), known, window);
     }
     if let ObservedValue::Energy(terms) = &observed.value {
-        let sources = Sources::on(origin, network, observed, window)?;
+        let sources = Sources::on(origin, network, (observed, purpose), window)?;
         return energy::of_sources(&sources, terms, &observed.unit, window);
     }
     if origin == Origin::Followed {
-        let followed = FollowedSignal::of_scene(network, observed, window)?;
+        let followed = FollowedSignal::of_scene(network, observed, window, purpose.digits())?;
         return Ok(match purpose {
             Purpose::Values { .. } | Purpose::Echoes => Box::new(followed),
             _ => Box::new(followed.cut_at_breaks()?),
@@ -248,7 +268,8 @@ pub fn cells(
     observed: &Observed,
     window: [&Rational; 2],
 ) -> Result<[usize; 2], SignalError> {
-    let sources = Sources::on(Origin::Followed, network, observed, window)?;
+    let asked = (observed, Purpose::Stretches);
+    let sources = Sources::on(Origin::Followed, network, asked, window)?;
     Ok(sources.follower.expect("it is followed").cells())
 }
 
@@ -269,7 +290,7 @@ impl<'a> Sources<'a> {
     fn on(
         origin: Origin,
         network: &'a Network,
-        observed: &Observed,
+        (observed, purpose): (&Observed, Purpose),
         [from, to]: [&Rational; 2],
     ) -> Result<Self, SignalError> {
         if to < from {
@@ -281,7 +302,9 @@ impl<'a> Sources<'a> {
         };
         let follower = match origin {
             Origin::Closed => None,
-            Origin::Followed => Some(Follower::new(network, Some(observed), [from, to])?),
+            Origin::Followed => {
+                Some(Follower::new(network, Some(observed), [from, to], purpose.digits())?)
+            }
         };
         Ok(Sources { network, to: to.clone(), follower })
     }
@@ -332,7 +355,7 @@ pub(crate) fn entering_waves<'a>(
     let window = [&Rational::zero(), last];
     let follower = match origin(network, last, Purpose::Search) {
         Origin::Closed => None,
-        Origin::Followed => match Follower::new(network, None, window) {
+        Origin::Followed => match Follower::new(network, None, window, None) {
             Err(HistoryError::Refused(_)) if has_periods(network) => None,
             follower => Some(follower?),
         },

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use wavestep_polynomial::Rational;
 
 /// The precision of samples, and where in a stretch they are taken, in 64ths of it.
-const SAMPLE_BITS: u64 = 96;
+const SAMPLE_BITS: u64 = 64;
 const PLACES: [i64; 5] = [1, 16, 32, 48, 63];
 
 /// The most stretches that are sampled.
@@ -155,7 +155,7 @@ impl Problem {
         Ok(Advice { tried, largest: comparison.largest, work, each })
     }
 
-    /// Of what a scene consists, and how many arrivals are seen.
+    /// Of what a scene consists, and how many arrivals are seen where waves superpose.
     fn work(&self, stretches: usize) -> String {
         let bars = self.scaled().map_or(0, |scaled| scaled.model().bars.len());
         let lumps = self.scaled().map_or(0, |scaled| scaled.model().lumps.len());
@@ -163,12 +163,14 @@ impl Problem {
             1 => format!("1 {what}"),
             _ => format!("{count} {what}s"),
         };
-        match bars {
-            0 => of(lumps, "element"),
-            _ => {
-                let lumps = of(lumps, "lumped element");
-                format!("{}, {lumps}, {}", of(bars, "bar"), of(stretches - 1, "arrival"))
-            }
+        let elements = match bars {
+            0 => return of(lumps, "element"),
+            _ => format!("{}, {}", of(bars, "bar"), of(lumps, "lumped element")),
+        };
+        // Beside a local contact a motion is cut where its series ends.
+        match self.local_contact() {
+            Some(_) => elements,
+            None => format!("{elements}, {}", of(stretches - 1, "arrival")),
         }
     }
 }
@@ -205,11 +207,11 @@ impl Adviser<'_> {
         let signal = match other {
             // What they leave out is told by the difference alone.
             Other::Arrivals(_) => None,
-            other => Some(problem.counterpart(other.into(), wanted, window, Purpose::Search)?.1),
+            other => Some(problem.counterpart(other.into(), wanted, window, Purpose::Size)?.1),
         };
         let (signal, is_difference) = match signal {
             Some(signal) => (signal, false),
-            None => (problem.difference_on(other, wanted, window, Purpose::Search)?, true),
+            None => (problem.difference_on(other, wanted, window, Purpose::Size)?, true),
         };
         let begun = Instant::now();
         let mut worst = (Rational::default(), self.samples[0].0.clone());

@@ -31,7 +31,7 @@ impl<'p> Comparison<'p> {
         wanted: &'p Wanted,
         window: [&'p Rational; 2],
     ) -> Result<Comparison<'p>, ProblemError> {
-        let signal = problem.signal_on(wanted, window, Purpose::Search)?;
+        let signal = problem.signal_on(wanted, window, Purpose::Size)?;
         let largest = Size::of(&*signal, TOLD, &Rational::zero())?;
         if largest.bounds[0].is_zero() {
             return Err(ProblemError::AllZero(wanted.name.clone()));
@@ -50,7 +50,7 @@ impl<'p> Comparison<'p> {
         tolerance: &Rational,
     ) -> Result<[Rational; 2], ProblemError> {
         let difference =
-            self.problem.difference_on(other, self.wanted, self.window, Purpose::Search)?;
+            self.problem.difference_on(other, self.wanted, self.window, Purpose::Size)?;
         let least = &self.largest.bounds[0];
         let negligible = (tolerance / Rational::from_integer(PART_OF_TOLERANCE.into()))
             .min(Rational::new(1.into(), PART_OF_LARGEST.into()))

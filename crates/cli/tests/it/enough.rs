@@ -107,6 +107,20 @@ fn what_is_enough_of_shipped_scenes_is_as_the_page_says() {
     }
 }
 
+/// A motion beside a local contact is cut where its series ends, which is no arrival.
+#[test]
+fn beside_a_local_contact_no_arrivals_are_counted() {
+    let advise = |scene: &str, to: &str| {
+        let (code, text, errors) =
+            run(anywhere(), &["advise", scene, "--to", to, "--tol", "1e-2"]);
+        assert_eq!(code, 0, "{errors}");
+        text
+    };
+    assert!(advise("pile", "2").contains("arrival"));
+    let local = advise("local-contact", "20us");
+    assert!(local.contains("2 bars, 1 lumped element") && !local.contains("arrival"), "{local}");
+}
+
 /// What kinds of answers there are, each with its colour.
 const KINDS: [(&str, &str); 6] = [
     ("bars rigid, or springs with mass", "#0072b2"),
