@@ -22,7 +22,7 @@ use wavestep_polynomial::{Rational, Symbol};
 /// A part is cut no further once its ends differ by less than one part in this many.
 const FINEST: i64 = 1 << 18;
 
-/// A claim is given up after this many undecided parts.
+/// A claim is given up after this many undecided intervals, or an interval of this many parts.
 const MOST_UNDECIDED: usize = 8;
 
 /// Significant digits of where it is cut.
@@ -82,17 +82,17 @@ pub(super) struct Arrivals {
     waves: Vec<(Fraction, Fraction)>,
 }
 
-/// The same for some values of the symbol.
-enum Beside<'a> {
-    Scene(Over<'a>),
-    FirstArrivals(&'a Arrivals),
-    Modes(SumOfModes),
+/// What is claimed of a simpler answer.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Claimed {
+    Enough,
+    NotEnough,
 }
 
 /// A claim that a simpler answer is enough, or that it is not.
 struct Claim<'a> {
     other: Compared<'a>,
-    is_enough: bool,
+    claimed: Claimed,
 }
 
 /// What claims are about.
@@ -142,7 +142,7 @@ impl Problem {
         &self,
         asked: &MapRequest<'_>,
         [from, to]: [&Rational; 2],
-        claims: &[(&Simpler, bool)],
+        claims: &[(&Simpler, Claimed)],
         tell: &dyn Fn(&Rational),
     ) -> Vec<Result<(), Unproven>> {
         let changed = claims.iter().map(|(simpler, _)| match simpler {
@@ -150,10 +150,10 @@ impl Problem {
             _ => Ok(None),
         });
         let changed: Vec<Result<Option<Problem>, Unproven>> = changed.collect();
-        let compared = claims.iter().zip(&changed).map(|((simpler, is_enough), changed)| {
+        let compared = claims.iter().zip(&changed).map(|((simpler, claimed), changed)| {
             let other =
                 self.compared(asked, simpler, changed.as_ref().map_err(Unproven::clone)?)?;
-            Ok(Claim { other, is_enough: *is_enough })
+            Ok(Claim { other, claimed: *claimed })
         });
         let claims: Vec<Result<Claim<'_>, Unproven>> = compared.collect();
         match self.proof(asked, [from, to]) {
@@ -278,6 +278,26 @@ impl Arrivals {
         let is_certain = steps.iter().all(|at| is_after(at, latest));
         Ok(is_certain.then(|| steps.into_iter().map(|at| at as usize).collect()))
     }
+
+    /// How far the scene is from the function of its first arrivals; none where these may be others for some value of the
+    /// symbol.
+    fn left_out(
+        &self,
+        own: &Over<'_>,
+        exact: &mut Exact,
+    ) -> Result<Option<Envelope>, NotOverSymbol> {
+        let grid = &exact.followed.grid;
+        let steps = self.steps((own, &grid.step), exact.observed.len(), &exact.window)?;
+        let Some(steps) = steps else { return Ok(None) };
+        // From a cell on both differ.
+        let (first, other) = match steps[self.count.saturating_sub(1).min(steps.len())..] {
+            [last, next, ..] => (next, exact.followed.observed_after(last)?),
+            _ => (0, Vec::new()),
+        };
+        let first = first.min(other.len());
+        let off = differences(&exact.observed[first..], &other[first..]);
+        Ok(Some(Envelope::of((first, &off), &exact.followed.grid, &exact.window)))
+    }
 }
 
 impl Proof<'_> {
@@ -314,7 +334,7 @@ impl Proof<'_> {
                     Decided::Refused(why) => open[place] = Err(Unproven::because(why)),
                     Decided::Not => {
                         undecided.push([from.clone(), to.clone()]);
-                        if to < *last && !(may_go_on && undecided.len() < MOST_UNDECIDED) {
+                        if to < *last && !(may_go_on && are_few(undecided)) {
                             let undecided = std::mem::take(undecided);
                             open[place] = Err(Unproven::undecided(undecided, Some(to.clone())));
                         }
@@ -362,55 +382,51 @@ impl Proof<'_> {
     ) -> Result<bool, NotOverSymbol> {
         let over = |scene| Over::new(scene, &self.quantity, (&self.symbol, between));
         let own = over(self.scene)?;
-        let other = match &claim.other {
-            Compared::Scene(other) => Beside::Scene(over(other)?),
-            Compared::FirstArrivals(arrivals) => Beside::FirstArrivals(arrivals),
-            Compared::Modes(count) => Beside::Modes(known.modes(&own, *count)?),
-        };
-        let grid = match &other {
-            Beside::Scene(other) => Over::grid(&[&own, other], None),
-            Beside::FirstArrivals(_) => Over::grid(&[&own], None),
-            Beside::Modes(modes) => Over::grid(&[&own], Some(modes)),
-        }?;
-        let (place, followed) = match &other {
-            Beside::Scene(other) => self.both(&own, other, grid, known)?,
-            _ => (self.place(&own, (grid, &[]), known)?, None),
-        };
-        let exact = &mut known.exact[place];
-        let (grid, count) = (exact.followed.grid.clone(), exact.observed.len());
-        // From a cell on both differ, as these functions do.
-        let (first, other) = match other {
-            Beside::Scene(_) => (0, followed.expect("it is followed").observed()),
-            Beside::Modes(modes) => (0, modes.on_cells(&grid, count, &own.length(&grid.step)?)?),
-            Beside::FirstArrivals(arrivals) => {
-                let steps = arrivals.steps((&own, &grid.step), count, &exact.window)?;
-                let Some(steps) = steps else { return Ok(false) };
-                match steps[arrivals.count.saturating_sub(1).min(steps.len())..] {
-                    [last, next, ..] => (next, exact.followed.observed_after(last)?),
-                    _ => (count, Vec::new()),
+        let (place, off) = match &claim.other {
+            Compared::Scene(other) => {
+                let (place, followed) = self.both([&own, &over(other)?], known)?;
+                let exact = &known.exact[place];
+                let off = differences(&exact.observed, &followed.observed());
+                (place, Envelope::of((0, &off), &exact.followed.grid, &exact.window))
+            }
+            Compared::FirstArrivals(arrivals) => {
+                let place = self.alone(&own, known)?;
+                match arrivals.left_out(&own, &mut known.exact[place])? {
+                    Some(off) => (place, off),
+                    None => return Ok(false),
                 }
             }
+            Compared::Modes(count) => {
+                let modes = known.modes(&own, *count)?;
+                let place = self.alone(&own, known)?;
+                (place, off_modes(&modes, &own, &known.exact[place], claim.claimed)?)
+            }
         };
-        let mut off = vec![OnCell::zero(); first];
-        let both = exact.observed.iter().zip(&other).skip(first);
-        off.extend(both.map(|(one, other)| one.less(other)));
-        let off = Envelope::of(&off, &grid, &exact.window);
+        let exact = &known.exact[place];
         let Some(reached) = exact.reached() else { return Ok(false) };
-        if claim.is_enough {
-            return Ok(off.is_within(&scaled(reached, self.tolerance)));
+        match claim.claimed {
+            Claimed::Enough => Ok(off.is_within(&scaled(reached, self.tolerance))),
+            Claimed::NotEnough => {
+                let (Some(off), Some(most)) = (off.reached(), exact.most()) else {
+                    return Ok(false);
+                };
+                Ok(off.iter().zip(&scaled(most, self.tolerance)).all(|(off, most)| off > most))
+            }
         }
-        let (Some(off), Some(most)) = (off.reached(), exact.most()) else { return Ok(false) };
-        Ok(off.iter().zip(&scaled(most, self.tolerance)).all(|(off, most)| off > most))
+    }
+
+    /// The place among those that are known of the scene alone.
+    fn alone(&self, own: &Over<'_>, known: &mut Known) -> Result<usize, NotOverSymbol> {
+        self.place(own, (Over::grid(&[own])?, &[]), known)
     }
 
     /// The scene and another one, followed on one grid, which has the cuts of both.
     fn both(
         &self,
-        own: &Over<'_>,
-        other: &Over<'_>,
-        mut grid: Grid,
+        [own, other]: [&Over<'_>; 2],
         known: &mut Known,
-    ) -> Result<(usize, Option<Followed>), NotOverSymbol> {
+    ) -> Result<(usize, Followed), NotOverSymbol> {
+        let mut grid = Over::grid(&[own, other])?;
         let mut closings = [Vec::new(), Vec::new()];
         for _ in 0..ROUNDS {
             let place = self.place(own, (grid, &closings[0]), known)?;
@@ -418,7 +434,7 @@ impl Proof<'_> {
             let count = exact.window.count();
             let followed = other.follow(&exact.followed.grid, &closings[1], count)?;
             if followed.grid == exact.followed.grid {
-                return Ok((place, Some(followed)));
+                return Ok((place, followed));
             }
             closings = [exact.followed.closings.clone(), followed.closings];
             grid = followed.grid;
@@ -439,6 +455,43 @@ impl Proof<'_> {
         known.exact.push(Exact::of(own, &self.window, (grid, closings))?);
         Ok(known.exact.len() - 1)
     }
+}
+
+/// How far the scene is from a sum of modes: on all cells, or where they are not enough on the one that tells.
+fn off_modes(
+    modes: &SumOfModes,
+    own: &Over<'_>,
+    exact: &Exact,
+    claimed: Claimed,
+) -> Result<Envelope, NotOverSymbol> {
+    let length = own.length(&exact.followed.grid.step)?;
+    let (grid, parts) = modes.split(&exact.followed.grid, &length)?;
+    let part = |cell: usize| exact.observed[cell / parts].equal_part(cell % parts, parts);
+    let (first, off) = match claimed {
+        Claimed::Enough => {
+            let count = exact.observed.len() * parts;
+            let sum = modes.on_cells(&grid, count, &length)?;
+            let off = sum.iter().enumerate().map(|(cell, sum)| part(cell).less(sum));
+            (0, off.collect())
+        }
+        Claimed::NotEnough => {
+            let observed = (&exact.observed[..], parts);
+            let cell = modes.farthest(observed, (&grid, &length), &exact.window);
+            (cell, vec![part(cell).less(&modes.on_cell(&grid, cell, &length)?)])
+        }
+    };
+    Ok(Envelope::of((first, &off), &grid, &exact.window))
+}
+
+fn differences(own: &[OnCell], other: &[OnCell]) -> Vec<OnCell> {
+    own.iter().zip(other).map(|(one, other)| one.less(other)).collect()
+}
+
+/// Whether undecided parts are few intervals of few parts.
+fn are_few(parts: &[[Rational; 2]]) -> bool {
+    let intervals = parts.chunk_by(|one, other| one[1] == other[0]);
+    let longest = intervals.clone().map(<[_]>::len).max();
+    intervals.count() < MOST_UNDECIDED && longest.is_none_or(|parts| parts < MOST_UNDECIDED)
 }
 
 pub(super) fn told(error: ProblemError) -> Unproven {

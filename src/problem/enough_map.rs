@@ -3,7 +3,7 @@
 //! At some values of the symbol the largest difference of each simpler answer is proven. Where the first that is enough
 //! for a tolerance differs between two neighbours, what lies between them is halved until both are nearly the same.
 
-use super::between::Unproven;
+use super::between::{Claimed, Unproven};
 use super::comparison::Comparison;
 use super::{Problem, ProblemError, Simpler, number};
 use crate::language::syntax::Declared;
@@ -303,8 +303,11 @@ impl Problem {
         let why =
             "at one end of the range the bounds of its error lie on both sides of the tolerance";
         let unsure = unsure.into_iter().map(|place| (place, Unproven::because(why)));
-        let claims: Vec<(&Simpler, bool)> =
-            claimed.iter().map(|place| (&simpler[*place], *first == Some(*place))).collect();
+        let claim = |place: &usize| match *first == Some(*place) {
+            true => (&simpler[*place], Claimed::Enough),
+            false => (&simpler[*place], Claimed::NotEnough),
+        };
+        let claims: Vec<(&Simpler, Claimed)> = claimed.iter().map(claim).collect();
         let proven = match from == to {
             true => Vec::new(),
             false => self.prove_between(asked, [from, to], &claims, tell),

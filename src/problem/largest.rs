@@ -54,7 +54,7 @@ impl Problem {
         let quantity = language::normalise_name(quantity);
         let bounds = || {
             let over = Over::new(scene, &quantity, (&symbol, values))?;
-            let exact = Exact::of(&over, &window, (Over::grid(&[&over], None)?, &[]))?;
+            let exact = Exact::of(&over, &window, (Over::grid(&[&over])?, &[]))?;
             Ok(exact.about(level).bounds())
         };
         match bounds() {
@@ -92,7 +92,7 @@ impl Exact {
     }
 
     fn new(asked: Grid, window: StepWindow, followed: Followed, observed: Vec<OnCell>) -> Exact {
-        let size = Envelope::of(&observed, &followed.grid, &window);
+        let size = Envelope::of((0, &observed), &followed.grid, &window);
         let (reached, most) = (OnceCell::new(), OnceCell::new());
         Exact { asked, window, followed, observed, size, reached, most }
     }

@@ -36,7 +36,7 @@ use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
 
 pub use advise::{Advice, Need, Tried, Verdict};
-pub use between::Unproven;
+pub use between::{Claimed, Unproven};
 pub use check::{Checked, Derivations, General, Periods, Solved};
 pub use derive::{Derived, Form, Functions, GeneralFormulas, Orders, Symbols, ToDerive};
 pub use enough_map::{Column, EnoughMap, MapRequest, Run, SymbolRange, geometrically_spaced, runs};

@@ -12,7 +12,7 @@ use wavestep::history::family::on_cell::OnCell;
 use wavestep::model::shape::Part;
 use wavestep::model::{Model as _, Modes};
 use wavestep::planner::Purpose;
-use wavestep::problem::{MapRequest, ProblemError, Simpler, Size, SymbolRange};
+use wavestep::problem::{Claimed, MapRequest, ProblemError, Simpler, Size, SymbolRange};
 use wavestep::signal::{At, Limit, Varying, value};
 use wavestep_polynomial::{Rational, Symbol};
 
@@ -126,7 +126,7 @@ fn sizes_hold_between_the_ends_of_a_symbol() {
     ];
     for (varying, exact) in functions {
         let step = OnCell::new(vec![varying], Magnitude::ZERO);
-        let envelope = Envelope::of(&[step], &whole(), &window);
+        let envelope = Envelope::of((0, &[step]), &whole(), &window);
         let reached = envelope.reached().unwrap();
         let mean =
             |ends: &[Rational; 2], place: &Rational| &ends[1] + (&ends[0] - &ends[1]) * place;
@@ -155,7 +155,7 @@ fn sizes_hold_between_the_ends_of_a_symbol() {
             from: [rational(1, 4), rational(1, 2)],
             to: [rational(3, 4), rational(7, 8)],
         };
-        Envelope::of(&[OnCell::new(coefficients, Magnitude::ZERO)], &whole(), &window)
+        Envelope::of((0, &[OnCell::new(coefficients, Magnitude::ZERO)]), &whole(), &window)
     };
     for (falls, reached, most) in
         [(false, rational(3, 4), rational(7, 8)), (true, rational(1, 2), rational(3, 4))]
@@ -169,7 +169,7 @@ fn sizes_hold_between_the_ends_of_a_symbol() {
     // Of both signs it is zero between.
     let across = x.subtract(&Varying::constant(&rational(3, 2), BITS), BITS);
     let step = OnCell::new(vec![across], Magnitude::ZERO);
-    assert_eq!(Envelope::of(&[step], &whole(), &window).reached(), None);
+    assert_eq!(Envelope::of((0, &[step]), &whole(), &window).reached(), None);
 }
 
 /// At sampled values of the symbol and sampled instants the values that are proven one by one lie in the enclosure that
@@ -258,7 +258,7 @@ fn enclosures_over_a_symbol_hold_single_values() {
                 let over =
                     Over::new(other.scaled().unwrap(), quantity, (&symbol_of, ends.each_ref()));
                 let over = [over.unwrap()];
-                let grid = Over::grid(&[&over[0]], None).unwrap();
+                let grid = Over::grid(&[&over[0]]).unwrap();
                 let [_, last] = over[0].in_steps(&Fraction::constant(&to), &grid.step).unwrap();
                 let window = StepWindow { from: Default::default(), to: [last.clone(), last] };
                 let mut followed = match over[0].follow(&grid, &[], window.count()) {
@@ -336,7 +336,7 @@ fn enclosures_over_a_symbol_hold_single_values() {
                     }
                 }
                 // The largest size is between what is reached and what is never passed.
-                let envelope = Envelope::of(&told, &grid, &window);
+                let envelope = Envelope::of((0, &told), &grid, &window);
                 let Some(reached) = envelope.reached() else { continue };
                 assert!(!envelope.is_within(&reached.map(|own| own * rational(99, 100))));
             }
@@ -380,7 +380,7 @@ fn what_is_left_out_over_a_symbol_is_counted() {
     for (problem, exact, most) in cases {
         let scaled = problem.scaled().unwrap();
         let over = Over::new(scaled, "velocity", (&symbol, ends.each_ref())).unwrap();
-        let grid = Over::grid(&[&over], None).unwrap();
+        let grid = Over::grid(&[&over]).unwrap();
         let [_, per_unit] = over.in_steps(&Fraction::one(), &grid.step).unwrap();
         for (number, on_step) in over.follow(&grid, &[], 200).unwrap().observed().iter().enumerate()
         {
@@ -426,8 +426,10 @@ fn modes_over_a_symbol_hold_those_in_doubles() {
                 }
                 Ok(modes) => modes,
             };
-            let grid = Over::grid(&[&over], Some(&modes)).unwrap();
-            let told = modes.on_cells(&grid, 24, &over.length(&grid.step).unwrap()).unwrap();
+            let grid = Over::grid(&[&over]).unwrap();
+            let length = over.length(&grid.step).unwrap();
+            let (grid, parts) = modes.split(&grid, &length).unwrap();
+            let told = modes.on_cells(&grid, 24, &length).unwrap();
             for share in [rational(0, 1), rational(2, 7), rational(1, 1)] {
                 let own = at(ends.each_ref(), &share);
                 let single = problem.substituted(symbol, own.clone()).unwrap();
@@ -437,7 +439,8 @@ fn modes_over_a_symbol_hold_those_in_doubles() {
                 let parameter = &share * rational(2, 1) - rational(1, 1);
                 for (number, on_step) in told.iter().enumerate() {
                     let x = rational(3, 7);
-                    let time = (rational(number as i64, 1) + &x) / &per_unit;
+                    let time = (rational(number as i64, 1) + &x) / rational(parts as i64, 1);
+                    let time = time / &per_unit;
                     let exact = single.values(place, &[time.to_f64().unwrap()]).unwrap()[0];
                     let here = of_step(on_step, &x, &parameter);
                     let rounded = Ball::from_rational(&Rational::from_float(exact).unwrap(), FINE)
@@ -549,15 +552,23 @@ fn nothing_is_proven_across_a_border() {
         let asked = asked(&range, &[], (quantity, tolerance), &window);
         let simpler: Simpler = simpler.parse().unwrap();
         let [far, low, high, beyond] = [90, 99, 101, 110].map(|part| &border * rational(part, 100));
-        for is_enough in [true, false] {
+        for claimed in [Claimed::Enough, Claimed::NotEnough] {
             let proven = |ends: [&Rational; 2]| {
-                problem.prove_between(&asked, ends, &[(&simpler, is_enough)], &|_| {}).remove(0)
+                problem.prove_between(&asked, ends, &[(&simpler, claimed)], &|_| {}).remove(0)
             };
             let open = proven([&low, &high]).expect_err("a border lies between");
             let [from, to] = open.parts()[0].clone();
             assert!(low <= from && from < to && to <= high && &to - &from < rational(1, 1000));
-            assert_eq!(proven([&far, &low]).is_ok(), is_enough == is_below, "{simpler}");
-            assert_eq!(proven([&high, &beyond]).is_ok(), is_enough != is_below, "{simpler}");
+            assert_eq!(
+                proven([&far, &low]).is_ok(),
+                (claimed == Claimed::Enough) == is_below,
+                "{simpler}"
+            );
+            assert_eq!(
+                proven([&high, &beyond]).is_ok(),
+                (claimed == Claimed::Enough) != is_below,
+                "{simpler}"
+            );
         }
     }
 }
@@ -580,8 +591,9 @@ fn arrivals_that_vanish_are_not_counted() {
     let range: SymbolRange = "z=1/2..2".parse().unwrap();
     let request = asked(&range, &[], ("moved", rational(1, 5)), &window);
     let six: Simpler = "echoes:6".parse().unwrap();
-    let proven =
-        |from, to| mixed.prove_between(&request, [&from, &to], &[(&six, true)], &|_| {}).remove(0);
+    let proven = |from, to| {
+        mixed.prove_between(&request, [&from, &to], &[(&six, Claimed::Enough)], &|_| {}).remove(0)
+    };
     proven(rational(9, 10), rational(99, 100)).unwrap();
     let [from, to] = proven(rational(9, 10), rational(11, 10)).unwrap_err().parts()[0].clone();
     assert!(from < rational(1, 1) && rational(1, 1) <= to && to < rational(1001, 1000));
@@ -762,14 +774,14 @@ fn what_is_not_followed_over_a_symbol_is_told() {
         let asked = asked(&range, &[], (quantity, rational(1, 10)), window);
         let asked = MapRequest { has_usual_end: why.contains("window"), ..asked };
         let simpler: Simpler = simpler.parse().unwrap();
-        for is_enough in [true, false] {
+        for claimed in [Claimed::Enough, Claimed::NotEnough] {
             let ends = [&rational(1, 2), &rational(3, 1)];
-            match problem.prove_between(&asked, ends, &[(&simpler, is_enough)], &|_| {}).remove(0) {
+            match problem.prove_between(&asked, ends, &[(&simpler, claimed)], &|_| {}).remove(0) {
                 Err(unproven) => {
                     assert!(format!("{unproven:?}").contains(why), "{simpler}: {unproven:?}");
                 }
                 // Without the bar the mass goes on: that is never enough.
-                Ok(()) => assert!(why.is_empty() && !is_enough, "{simpler}"),
+                Ok(()) => assert!(why.is_empty() && claimed == Claimed::NotEnough, "{simpler}"),
             }
         }
     }

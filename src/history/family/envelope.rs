@@ -52,8 +52,8 @@ impl StepWindow {
 }
 
 impl Envelope {
-    /// A function on the cells of a window.
-    pub fn of(cells: &[OnCell], grid: &Grid, window: &StepWindow) -> Envelope {
+    /// A function on cells of a window, the first of them with this number.
+    pub fn of((first, cells): (usize, &[OnCell]), grid: &Grid, window: &StepWindow) -> Envelope {
         let one = |(cell, own): (usize, &OnCell)| {
             let start = ends(&grid.start(cell));
             let length = ends(grid.length(cell));
@@ -72,7 +72,7 @@ impl Envelope {
             let within = part([place(&window.from[1], 1), place(&window.to[0], 0)]);
             Some(OneStep { reach, within, ends: own.ends() })
         };
-        Envelope(cells.iter().enumerate().filter_map(one).collect())
+        Envelope((first..).zip(cells).filter_map(one).collect())
     }
 
     /// Sizes at both ends of the symbol that are reached at one instant, as near to the largest as is found; none where

@@ -75,6 +75,19 @@ impl Exponential {
         Ok(Some(terms))
     }
 
+    /// The sum of the real parts on one cell.
+    ///
+    /// # Errors
+    /// As [`Exponential::total`].
+    pub fn total_on(all: &[Exponential], grid: &Grid, cell: usize) -> Outcome<OnCell> {
+        let part = |own: &Exponential| {
+            let series = Series::of(&scaled(&own.rate, grid.length(cell)))?;
+            Ok(own.on_cell(grid, cell, &own.factor(&grid.start(cell))?, &series))
+        };
+        let parts = all.iter().map(part).collect::<Outcome<Vec<_>>>()?;
+        Ok(OnCell::total(parts.iter()))
+    }
+
     /// The sum of the real parts on the first cells.
     ///
     /// # Errors

@@ -63,6 +63,20 @@ impl Grid {
         }
     }
 
+    /// The same steps with each cell in so many equal parts.
+    pub fn split(&self, count: usize) -> Grid {
+        let (mut starts, mut lengths) = (Vec::new(), Vec::new());
+        for (start, length) in self.starts.iter().zip(&self.lengths) {
+            let length = length.over(count as u64, BITS);
+            for part in 0..count {
+                let part = Varying::constant(&Rational::from_integer(part.into()), BITS);
+                starts.push(start.add(&length.multiply(&part, BITS), BITS));
+                lengths.push(length.clone());
+            }
+        }
+        Grid { starts, lengths, ..self.clone() }
+    }
+
     /// Into how many cells a step is cut.
     pub fn cells(&self) -> usize {
         self.starts.len()

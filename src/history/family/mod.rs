@@ -35,7 +35,6 @@ use crate::scene::ElementIndex;
 use crate::signal::Varying;
 use exponential::Exponential;
 use grid::Grid;
-use modes::SumOfModes;
 use motion::{Bar, Loading, Motion, Summand, TERMS};
 use node::{NodeState, SteppedNode};
 use num_traits::{One as _, ToPrimitive as _, Zero as _};
@@ -131,12 +130,12 @@ impl<'a> Over<'a> {
     }
 
     /// The steps for these scenes: the largest common measure of all travel times, of the times at which loads begin and end,
-    /// and of the delays of what is observed, halved until no rate of a node, a load or a mode exceeds two. Where contacts
+    /// and of the delays of what is observed, halved until no rate of a node or a load exceeds two. Where contacts
     /// open, steps are cut instead, and once more, since a cut may be left out.
     ///
     /// # Errors
     /// [`NotOverSymbol::NoCommonMeasure`]; else as [`Over::follow`].
-    pub fn grid(all: &[&Over<'_>], modes: Option<&SumOfModes>) -> Outcome<Grid> {
+    pub fn grid(all: &[&Over<'_>]) -> Outcome<Grid> {
         let times = all.iter().flat_map(|own| {
             let model = own.scaled.model();
             let travels = model.bars.values().filter_map(|bar| bar.travel.as_ref());
@@ -159,10 +158,7 @@ impl<'a> Over<'a> {
         }
         let step = |measure: &Rational| first.times(&Fraction::constant(measure).into());
         let unit = step(&measure);
-        let mut fastest = match modes {
-            Some(modes) => all[0].length(&unit)?.magnitude().multiply(&modes.rate()),
-            None => Magnitude::ZERO,
-        };
+        let mut fastest = Magnitude::ZERO;
         for own in all {
             for node in own.nodes(&Grid::new(unit.clone(), 1)?, &[], 0)? {
                 let rates = node.loads.iter().map(|load| load.rate);
@@ -170,11 +166,7 @@ impl<'a> Over<'a> {
                 fastest = rates.fold(fastest, Magnitude::max);
             }
         }
-        let halvings = fastest.top().map_or(0, |top| (top - 1).max(0));
-        if halvings > i64::from(MAX_STEPS_OVER_SYMBOL.ilog2()) {
-            return Err(NotOverSymbol::TooManySteps);
-        }
-        let parts = 1_usize << halvings;
+        let parts = parts_of(&fastest)?;
         match all.iter().any(|own| own.has_contacts()) {
             true => Grid::new(unit, 2 * parts),
             false => Grid::new(step(&(measure / Rational::from_integer(parts.into()))), 1),
@@ -444,6 +436,15 @@ impl Followed {
     /// Where it is none of the cells.
     pub fn observed_after(&mut self, last: usize) -> Outcome<Vec<OnCell>> {
         self.motion.sum_after(last, &self.factors, &self.summands)
+    }
+}
+
+/// In how many equal parts a cell is halved until a rate exceeds two on none of them.
+fn parts_of(rate: &Magnitude) -> Outcome<usize> {
+    let halvings = rate.top().map_or(0, |top| (top - 1).max(0));
+    match halvings > i64::from(MAX_STEPS_OVER_SYMBOL.ilog2()) {
+        true => Err(NotOverSymbol::TooManySteps),
+        false => Ok(1 << halvings),
     }
 }
 

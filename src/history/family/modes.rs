@@ -1,11 +1,12 @@
 //! The first modes of a scene for all values of a symbol between two.
 
+use super::envelope::StepWindow;
 use super::exponential::Exponential;
 use super::grid::Grid;
 use super::on_cell::OnCell;
 use super::{NotOverSymbol, Outcome, Over};
 use crate::ball::{Arithmetic as _, Ball, BallError, Magnitude};
-use crate::limits::MAX_SYMBOL_BITS as BITS;
+use crate::limits::{MAX_STEPS_OVER_SYMBOL, MAX_SYMBOL_BITS as BITS};
 use crate::model::line::Bar;
 use crate::model::modal_line::{ModalLine, Vibration};
 use crate::model::shape::{Part, Shape, frequencies};
@@ -13,7 +14,7 @@ use crate::model::{NotRepresented, NotSeen};
 use crate::network::{MeasuredValue, Node, Term};
 use crate::scene::ElementIndex;
 use crate::signal::Varying;
-use num_traits::Signed as _;
+use num_traits::{Signed as _, ToPrimitive as _};
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
@@ -44,17 +45,70 @@ impl SumOfModes {
         Some(SumOfModes { drifts: self.drifts, sum })
     }
 
-    /// How fast they swing in a unit of time at most.
-    pub fn rate(&self) -> Magnitude {
+    /// Cells split until no rate exceeds two, with this length of a step, and in how many parts.
+    ///
+    /// # Errors
+    /// [`NotOverSymbol::TooManySteps`] where a cell has more parts than that.
+    pub fn split(&self, grid: &Grid, length: &Varying) -> Outcome<(Grid, usize)> {
         let rates = self.sum.modes.iter().map(|[frequency, ..]| frequency.magnitude());
-        rates.max().unwrap_or(Magnitude::ZERO)
+        let longest = (0..grid.cells()).map(|cell| grid.length(cell).magnitude()).max();
+        let fastest = rates.max().unwrap_or(Magnitude::ZERO).multiply(&length.magnitude());
+        let parts = super::parts_of(&fastest.multiply(&longest.expect("one cell at least")))?;
+        Ok((grid.split(parts), parts))
     }
 
     /// The sum on the first cells, with this length of a step.
     ///
     /// # Errors
-    /// [`NotOverSymbol::Ball`] where a frequency varies too much.
+    /// [`NotOverSymbol::Ball`] where a frequency varies too much; [`NotOverSymbol::TooManySteps`].
     pub fn on_cells(&self, grid: &Grid, count: usize, length: &Varying) -> Outcome<Vec<OnCell>> {
+        if count > MAX_STEPS_OVER_SYMBOL {
+            return Err(NotOverSymbol::TooManySteps);
+        }
+        Exponential::total(&self.exponentials(length), grid, count)
+    }
+
+    /// The same on one cell.
+    ///
+    /// # Errors
+    /// As [`SumOfModes::on_cells`].
+    pub fn on_cell(&self, grid: &Grid, cell: usize, length: &Varying) -> Outcome<OnCell> {
+        Exponential::total_on(&self.exponentials(length), grid, cell)
+    }
+
+    /// The cell in a window on whose middle the sum is farthest from what is observed, about; each cell of what is observed
+    /// is split in so many `parts`.
+    pub fn farthest(
+        &self,
+        (observed, parts): (&[OnCell], usize),
+        (grid, length): (&Grid, &Varying),
+        window: &StepWindow,
+    ) -> usize {
+        let middle = |own: &Varying| own.coefficient(0).midpoint().to_double();
+        let end = |end: &Rational| end.to_f64().unwrap_or(f64::NAN);
+        let window = end(&window.from[1])..=end(&window.to[0]);
+        let [constant, slope] = self.sum.drift.each_ref().map(middle);
+        let modes = self.sum.modes.iter().map(|own| own.each_ref().map(middle));
+        let modes: Vec<[f64; 3]> = modes.collect();
+        let distance = |cell: usize| {
+            let at = middle(&grid.start(cell)) + middle(grid.length(cell)) / 2.0;
+            if !window.contains(&at) {
+                return 0.0;
+            }
+            let time = at * middle(length);
+            let wave = |[frequency, a, b]: &[f64; 3]| {
+                let (sin, cos) = (frequency * time).sin_cos();
+                a * cos + b * sin
+            };
+            let sum = constant + slope * time + modes.iter().map(wave).sum::<f64>();
+            let place = ((cell % parts) as f64 + 0.5) / parts as f64;
+            (observed[cell / parts].near(place) - sum).abs()
+        };
+        let cells = (0..observed.len() * parts).map(|cell| (distance(cell), cell));
+        cells.max_by(|one, other| one.0.total_cmp(&other.0)).map_or(0, |(_, cell)| cell)
+    }
+
+    fn exponentials(&self, length: &Varying) -> Vec<Exponential> {
         let Vibration { drift: [constant, slope], modes } = &self.sum;
         let zero = Varying::zero;
         let slope = slope.multiply(length, BITS);
@@ -65,8 +119,7 @@ impl SumOfModes {
             polynomial: vec![[a.clone(), b.negate()]],
         };
         let drift = Exponential { rate: [zero(), zero()], polynomial: drift };
-        let all: Vec<Exponential> = std::iter::once(drift).chain(modes.iter().map(wave)).collect();
-        Exponential::total(&all, grid, count)
+        std::iter::once(drift).chain(modes.iter().map(wave)).collect()
     }
 }
 

@@ -115,6 +115,12 @@ impl OnCell {
         self.coefficients.iter().rev().fold(Varying::zero(), horner)
     }
 
+    /// The same for the middle of the symbol, about.
+    pub fn near(&self, x: f64) -> f64 {
+        let own = self.coefficients.iter().rev();
+        own.fold(0.0, |sum, own| sum * x + own.coefficient(0).midpoint().to_double())
+    }
+
     /// The slope of the polynomial at a place.
     pub fn slope(&self, x: &Varying) -> Varying {
         self.derivative().value(x)
@@ -209,11 +215,21 @@ impl OnCell {
         sizes[0].max(sizes[1])
     }
 
-    /// The same function on the end of the cell from a place on, as on a cell of its own. Takes a product for each pair of powers.
+    /// The same function on the end of the cell from a place on, as on a cell of its own.
     pub fn after(&self, from: &Rational) -> OnCell {
+        self.part([from, &Rational::one()])
+    }
+
+    /// The same function on one of so many equal parts of the cell.
+    pub fn equal_part(&self, part: usize, count: usize) -> OnCell {
+        let place = |part: usize| Rational::new(part.into(), count.into());
+        self.part([&place(part), &place(part + 1)])
+    }
+
+    /// The same function between two places, as on a cell of its own. Takes a product for each pair of powers.
+    fn part(&self, [from, to]: [&Rational; 2]) -> OnCell {
         let mut own = self.coefficients.clone();
-        let [at, rest] =
-            [from.clone(), Rational::one() - from].map(|own| Ball::from_rational(&own, BITS));
+        let [at, length] = [from.clone(), to - from].map(|own| Ball::from_rational(&own, BITS));
         for start in 0..own.len() {
             for k in (start..own.len().saturating_sub(1)).rev() {
                 own[k] = own[k].add(&own[k + 1].clone().scaled(&at, BITS), BITS);
@@ -225,7 +241,7 @@ impl OnCell {
                 std::mem::replace(coefficient, Varying::zero()).scaled(&power, BITS).split();
             *coefficient = scaled;
             error = error.add(&off);
-            power = power.multiply(&rest, BITS);
+            power = power.multiply(&length, BITS);
         }
         OnCell::new(own, error)
     }

@@ -47,8 +47,8 @@ const LATER: i64 = -40;
 /// Places on a cell at which a change of sign is looked for.
 const PLACES: usize = 64;
 
-/// A gap falls for this part of a cell, one over this number, after it is zero.
-const FALLS: i64 = 64;
+/// A gap falls for such a part of a cell after it is zero, as a power of two; the less, the more it grazes zero.
+const FALLS: [u32; 5] = [6, 9, 12, 15, 18];
 
 /// Newton's method squares an error; the first guess is a double.
 const CORRECTIONS: usize = 4;
@@ -412,24 +412,28 @@ pub(super) fn first_zero(gap: &OnCell) -> Outcome<Option<Varying>> {
     let place = zero_of_polynomial(gap)?;
     let [low, high] = ends(&place);
     let from = gap.positive_until().min(low);
-    let until = &high + Rational::new(1.into(), FALLS.into());
-    if until > Rational::one() {
+    if high >= Rational::one() {
         return Ok(None);
     }
     if from.is_negative() {
         return Err(NotOverSymbol::Undecided);
     }
-    let slope = gap.largest_slope([&from, &until]);
-    if !slope.is_negative() {
-        return Err(NotOverSymbol::Undecided);
+    let size = gap.error.add(&gap.value(&place).magnitude());
+    let left = (Rational::one() - &high) / Rational::from_integer(2.into());
+    for exponent in FALLS {
+        let part = Rational::new(1.into(), (1_i64 << exponent).into());
+        let until = &high + part.min(left.clone());
+        let slope = gap.largest_slope([&from, &until]);
+        if !slope.is_negative() {
+            continue;
+        }
+        let off = size.multiply(&Magnitude::from_rational(&slope.recip())).scale(1);
+        let zero = Varying { remainder: off, ..place.clone() };
+        if ends(&zero)[1] <= until {
+            return Ok(Some(zero));
+        }
     }
-    let off = gap.error.add(&gap.value(&place).magnitude());
-    let off = off.multiply(&Magnitude::from_rational(&slope.recip())).scale(1);
-    let zero = Varying { remainder: off, ..place };
-    match ends(&zero)[1] <= until {
-        true => Ok(Some(zero)),
-        false => Err(NotOverSymbol::Undecided),
-    }
+    Err(NotOverSymbol::Undecided)
 }
 
 /// Between which numbers a number lies.
@@ -452,11 +456,7 @@ pub(super) fn half_way(velocity: &OnCell) -> Outcome<Varying> {
 
 /// The first place at which a polynomial changes its sign, by Newton's method, without a bound.
 fn zero_of_polynomial(own: &OnCell) -> Outcome<Varying> {
-    let at_middle = |part: usize| {
-        let x = part as f64 / PLACES as f64;
-        let own = own.coefficients.iter().rev();
-        own.fold(0.0, |sum, own| sum * x + own.coefficient(0).midpoint().to_double())
-    };
+    let at_middle = |part: usize| own.near(part as f64 / PLACES as f64);
     if at_middle(0) < 0.0 {
         return Err(NotOverSymbol::Undecided);
     }

@@ -285,6 +285,7 @@ fn expected_with(input: Input<'_>, what: &str, remedy: impl Into<Option<String>>
             "this line is indented deeper than the first statement, so it continues the line \
              before; remove the indentation to start a statement",
         ),
+        FoundKind::Character(':') if !input.next_is(":=") => None,
         FoundKind::Character(found) if !is_sign_of_scenes(input, found) => {
             replacement(found).or_else(|| is_foreign(input, found).then_some(ALPHABET))
         }

@@ -111,8 +111,7 @@ fn what_is_enough_of_shipped_scenes_is_as_the_page_says() {
 #[test]
 fn beside_a_local_contact_no_arrivals_are_counted() {
     let advise = |scene: &str, to: &str| {
-        let (code, text, errors) =
-            run(anywhere(), &["advise", scene, "--to", to, "--tol", "1e-2"]);
+        let (code, text, errors) = run(anywhere(), &["advise", scene, "--to", to, "--tol", "1e-2"]);
         assert_eq!(code, 0, "{errors}");
         text
     };
