@@ -5,7 +5,7 @@ use crate::enclosure::EnclosureError;
 use crate::expression::{Expression, Fraction, Root};
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
-use crate::history::history::{LEAST_BITS, undecided};
+use crate::history::history::undecided;
 use crate::history::memory::Asked;
 use crate::history::moment::Moment;
 use crate::history::part::{Part, Source};
@@ -28,8 +28,9 @@ use wavestep_polynomial::Rational;
 const FIRST_BITS: u64 = 192;
 const SEARCH_BITS: u64 = 640;
 
-/// So many digits of a value beside a local contact are had with fewer bits than others.
+/// Beside a local contact, the precision in bits that is begun with: up to this many digits, and for more.
 const FEW_DIGITS: usize = 15;
+const LOCAL_BITS: [u64; 2] = [96, 128];
 
 /// Precisions are multiples of so many bits.
 const STEP_BITS: u64 = 64;
@@ -113,8 +114,8 @@ impl<'a> Follower<'a> {
         };
         let first = match network.local_contact() {
             None => FIRST_BITS,
-            Some(_) if digits.is_some_and(|digits| digits <= FEW_DIGITS) => LEAST_BITS * 3 / 2,
-            Some(_) => 2 * LEAST_BITS,
+            Some(_) if digits.is_some_and(|digits| digits <= FEW_DIGITS) => LOCAL_BITS[0],
+            Some(_) => LOCAL_BITS[1],
         };
         let known = Precisions::growing_by_half(first, MAX_HISTORY_BITS).raise(attempt)?.best()?;
         let (known, too_many_bits) = (RefCell::new(known), Cell::new(u64::MAX));

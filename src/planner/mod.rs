@@ -46,25 +46,21 @@ pub enum Purpose {
     Polynomials,
     /// The same for roots and extrema: energies and momenta with what flows in.
     Search,
-    /// The same for a size to a few digits.
-    Size,
+    /// The same for a size to so many digits.
+    Size { digits: usize },
     /// Values by what knows of contacts that stay closed alone: methods that need a closed form, and models.
     ClosedContacts,
 }
 
-/// The digits of a size.
-const SIZE_DIGITS: usize = 9;
-
 impl Purpose {
     fn is_search(self) -> bool {
-        matches!(self, Purpose::Search | Purpose::Size)
+        matches!(self, Purpose::Search | Purpose::Size { .. })
     }
 
     /// How many digits are wanted; `None` where that is not known beforehand.
     fn digits(self) -> Option<usize> {
         match self {
-            Purpose::Values { digits } => Some(digits),
-            Purpose::Size => Some(SIZE_DIGITS),
+            Purpose::Values { digits } | Purpose::Size { digits } => Some(digits),
             _ => None,
         }
     }
@@ -125,9 +121,11 @@ pub fn origin(network: &Network, to: &Rational, purpose: Purpose) -> Origin {
             ClosedForm::foreseen(network, to).map(|bytes| bytes <= FOLLOWED_FROM)
         }
         // Named rates hide which values are exactly zero behind an arrival.
-        Purpose::Search | Purpose::Size => ClosedForm::of_nothing(network, to).and_then(|form| {
-            Ok(form.order(to)? <= MOST_SEARCHED && !form.recurrence().has_named_rates())
-        }),
+        Purpose::Search | Purpose::Size { .. } => {
+            ClosedForm::of_nothing(network, to).and_then(|form| {
+                Ok(form.order(to)? <= MOST_SEARCHED && !form.recurrence().has_named_rates())
+            })
+        }
         Purpose::Polynomials => {
             let is_lattice = network.lattice().periods().len() > 1;
             let most = if is_lattice { MOST_LEFT_OUT } else { MOST_SEARCHED };
@@ -296,15 +294,14 @@ impl<'a> Sources<'a> {
         if to < from {
             return Err(EvaluateError::EmptyWindow.into());
         }
-        let from = match &observed.value {
-            ObservedValue::Energy(terms) => &energy::reach(network, terms, from)?,
-            ObservedValue::Linear(_) => from,
+        // Integrals of squares cost digits.
+        let (from, digits) = match &observed.value {
+            ObservedValue::Energy(terms) => (&energy::reach(network, terms, from)?, None),
+            ObservedValue::Linear(_) => (from, purpose.digits()),
         };
         let follower = match origin {
             Origin::Closed => None,
-            Origin::Followed => {
-                Some(Follower::new(network, Some(observed), [from, to], purpose.digits())?)
-            }
+            Origin::Followed => Some(Follower::new(network, Some(observed), [from, to], digits)?),
         };
         Ok(Sources { network, to: to.clone(), follower })
     }

@@ -3,12 +3,11 @@
 //! Samples tell quickly what is not enough, each with the time at which it is seen; what they let pass is proven by the
 //! largest difference on the window.
 
-use super::comparison::Comparison;
+use super::comparison::{Comparison, PURPOSE};
 use super::{Other, Problem, ProblemError, Simpler, Size, Wanted};
 use crate::ball::Ball;
 use crate::language::syntax::Declared;
 use crate::language::{self, Beyond, Change};
-use crate::planner::Purpose;
 use crate::signal::{Limit, Signal};
 use std::time::{Duration, Instant};
 use wavestep_polynomial::Rational;
@@ -155,7 +154,7 @@ impl Problem {
         Ok(Advice { tried, largest: comparison.largest, work, each })
     }
 
-    /// Of what a scene consists, and how many arrivals are seen where waves superpose.
+    /// The elements of a scene and, without a local contact, the number of arrivals.
     fn work(&self, stretches: usize) -> String {
         let bars = self.scaled().map_or(0, |scaled| scaled.model().bars.len());
         let lumps = self.scaled().map_or(0, |scaled| scaled.model().lumps.len());
@@ -207,11 +206,11 @@ impl Adviser<'_> {
         let signal = match other {
             // What they leave out is told by the difference alone.
             Other::Arrivals(_) => None,
-            other => Some(problem.counterpart(other.into(), wanted, window, Purpose::Size)?.1),
+            other => Some(problem.counterpart(other.into(), wanted, window, PURPOSE)?.1),
         };
         let (signal, is_difference) = match signal {
             Some(signal) => (signal, false),
-            None => (problem.difference_on(other, wanted, window, Purpose::Size)?, true),
+            None => (problem.difference_on(other, wanted, window, PURPOSE)?, true),
         };
         let begun = Instant::now();
         let mut worst = (Rational::default(), self.samples[0].0.clone());

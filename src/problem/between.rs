@@ -22,7 +22,7 @@ use wavestep_polynomial::{Rational, Symbol};
 /// A part is cut no further once its ends differ by less than one part in this many.
 const FINEST: i64 = 1 << 18;
 
-/// A claim is given up after this many undecided intervals, or an interval of this many parts.
+/// A claim is given up at this many undecided intervals, or once one of them has this many parts.
 const MOST_UNDECIDED: usize = 8;
 
 /// Significant digits of where it is cut.
@@ -290,12 +290,13 @@ impl Arrivals {
         let steps = self.steps((own, &grid.step), exact.observed.len(), &exact.window)?;
         let Some(steps) = steps else { return Ok(None) };
         // From a cell on both differ.
-        let (first, other) = match steps[self.count.saturating_sub(1).min(steps.len())..] {
-            [last, next, ..] => (next, exact.followed.observed_after(last)?),
+        let (first, off) = match steps[self.count.saturating_sub(1).min(steps.len())..] {
+            [last, next, ..] => {
+                let other = exact.followed.observed_after(last)?;
+                (next, differences(&exact.observed[next..], &other[next..]))
+            }
             _ => (0, Vec::new()),
         };
-        let first = first.min(other.len());
-        let off = differences(&exact.observed[first..], &other[first..]);
         Ok(Some(Envelope::of((first, &off), &exact.followed.grid, &exact.window)))
     }
 }
@@ -399,7 +400,7 @@ impl Proof<'_> {
             Compared::Modes(count) => {
                 let modes = known.modes(&own, *count)?;
                 let place = self.alone(&own, known)?;
-                (place, off_modes(&modes, &own, &known.exact[place], claim.claimed)?)
+                (place, off_by_modes(&modes, &own, &known.exact[place], claim.claimed)?)
             }
         };
         let exact = &known.exact[place];
@@ -458,7 +459,7 @@ impl Proof<'_> {
 }
 
 /// How far the scene is from a sum of modes: on all cells, or where they are not enough on the one that tells.
-fn off_modes(
+fn off_by_modes(
     modes: &SumOfModes,
     own: &Over<'_>,
     exact: &Exact,
@@ -476,8 +477,10 @@ fn off_modes(
         }
         Claimed::NotEnough => {
             let observed = (&exact.observed[..], parts);
-            let cell = modes.farthest(observed, (&grid, &length), &exact.window);
-            (cell, vec![part(cell).less(&modes.on_cell(&grid, cell, &length)?)])
+            match modes.farthest(observed, (&grid, &length), &exact.window) {
+                Some(cell) => (cell, vec![part(cell).less(&modes.on_cell(&grid, cell, &length)?)]),
+                None => (0, Vec::new()),
+            }
         }
     };
     Ok(Envelope::of((first, &off), &grid, &exact.window))
@@ -489,9 +492,9 @@ fn differences(own: &[OnCell], other: &[OnCell]) -> Vec<OnCell> {
 
 /// Whether undecided parts are few intervals of few parts.
 fn are_few(parts: &[[Rational; 2]]) -> bool {
-    let intervals = parts.chunk_by(|one, other| one[1] == other[0]);
-    let longest = intervals.clone().map(<[_]>::len).max();
-    intervals.count() < MOST_UNDECIDED && longest.is_none_or(|parts| parts < MOST_UNDECIDED)
+    let mut intervals = parts.chunk_by(|one, other| one[1] == other[0]);
+    intervals.clone().count() < MOST_UNDECIDED
+        && intervals.all(|interval| interval.len() < MOST_UNDECIDED)
 }
 
 pub(super) fn told(error: ProblemError) -> Unproven {

@@ -9,6 +9,9 @@ use wavestep_polynomial::Rational;
 /// The digits and bits of a size that is to be told from a tolerance.
 const TOLD: (usize, u64) = (9, 1 << 12);
 
+/// For what sizes and differences are prepared.
+pub(super) const PURPOSE: Purpose = Purpose::Size { digits: TOLD.0 };
+
 /// A difference of this part of the tolerance need not be known any better, and no smaller part of the largest value.
 const PART_OF_TOLERANCE: i64 = 1 << 20;
 const PART_OF_LARGEST: i64 = 1_000_000_000_000;
@@ -31,7 +34,7 @@ impl<'p> Comparison<'p> {
         wanted: &'p Wanted,
         window: [&'p Rational; 2],
     ) -> Result<Comparison<'p>, ProblemError> {
-        let signal = problem.signal_on(wanted, window, Purpose::Size)?;
+        let signal = problem.signal_on(wanted, window, PURPOSE)?;
         let largest = Size::of(&*signal, TOLD, &Rational::zero())?;
         if largest.bounds[0].is_zero() {
             return Err(ProblemError::AllZero(wanted.name.clone()));
@@ -49,8 +52,7 @@ impl<'p> Comparison<'p> {
         other: &Other,
         tolerance: &Rational,
     ) -> Result<[Rational; 2], ProblemError> {
-        let difference =
-            self.problem.difference_on(other, self.wanted, self.window, Purpose::Size)?;
+        let difference = self.problem.difference_on(other, self.wanted, self.window, PURPOSE)?;
         let least = &self.largest.bounds[0];
         let negligible = (tolerance / Rational::from_integer(PART_OF_TOLERANCE.into()))
             .min(Rational::new(1.into(), PART_OF_LARGEST.into()))

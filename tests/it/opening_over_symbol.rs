@@ -344,9 +344,9 @@ fn lines_with_contacts_that_open_hold_those_at_each_value() {
     assert!(decided * 2 >= all && compared.changes >= 20, "{decided} of {all}");
 }
 
-/// The end of a cell is the same function on another scale.
+/// A part of a cell is the same function on another scale.
 #[test]
-fn the_end_of_a_cell_is_the_same_function() {
+fn a_part_of_a_cell_is_the_same_function() {
     let (low, high) = (rational(1, 3), rational(1, 2));
     let symbol = Varying::between([&low, &high], 96);
     let constant = |value: &Rational| Varying::constant(value, 96);
@@ -354,17 +354,23 @@ fn the_end_of_a_cell_is_the_same_function() {
         vec![constant(&rational(1, 7)), symbol.clone(), constant(&rational(-5, 3)), symbol],
         Magnitude::power_of_two(-20),
     );
-    let from = rational(5, 11);
-    let end = whole.after(&from);
-    assert!(end.error >= whole.error && end.error <= whole.error.scale(1));
-    for x in [rational(0, 1), rational(2, 9), rational(1, 1)] {
-        let there = &from + (rational(1, 1) - &from) * &x;
-        for parameter in [rational(-1, 1), rational(3, 8)] {
-            let at = |own: &OnCell, x: &Rational| of_varying(&own.value(&constant(x)), &parameter);
-            let [one, other] =
-                [at(&end, &x), at(&whole, &there)].map(|own| Rational::from(own.midpoint()));
-            let off = Magnitude::from_rational(&(one - other));
-            assert!(off <= Magnitude::power_of_two(-80), "{x}, {parameter}");
+    let parts = [
+        (whole.after(&rational(5, 11)), [rational(5, 11), rational(1, 1)]),
+        (whole.equal_part(2, 5), [rational(2, 5), rational(3, 5)]),
+        (whole.equal_part(0, 1), [rational(0, 1), rational(1, 1)]),
+    ];
+    for (part, [from, to]) in parts {
+        assert!(part.error >= whole.error && part.error <= whole.error.scale(1));
+        for x in [rational(0, 1), rational(2, 9), rational(1, 1)] {
+            let there = &from + (&to - &from) * &x;
+            for parameter in [rational(-1, 1), rational(3, 8)] {
+                let at =
+                    |own: &OnCell, x: &Rational| of_varying(&own.value(&constant(x)), &parameter);
+                let [one, other] =
+                    [at(&part, &x), at(&whole, &there)].map(|own| Rational::from(own.midpoint()));
+                let off = Magnitude::from_rational(&(one - other));
+                assert!(off <= Magnitude::power_of_two(-80), "{x}, {parameter}");
+            }
         }
     }
 }

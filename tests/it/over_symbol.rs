@@ -430,6 +430,11 @@ fn modes_over_a_symbol_hold_those_in_doubles() {
             let length = over.length(&grid.step).unwrap();
             let (grid, parts) = modes.split(&grid, &length).unwrap();
             let told = modes.on_cells(&grid, 24, &length).unwrap();
+            // One cell alone is the same function.
+            let alone = modes.on_cell(&grid, 17, &length).unwrap().less(&told[17]);
+            let off = alone.coefficients.iter().map(|own| own.magnitude());
+            let off = off.fold(Magnitude::ZERO, |sum, own| sum.add(&own));
+            assert!(off <= alone.error, "{quantity}");
             for share in [rational(0, 1), rational(2, 7), rational(1, 1)] {
                 let own = at(ends.each_ref(), &share);
                 let single = problem.substituted(symbol, own.clone()).unwrap();

@@ -63,7 +63,8 @@ impl Grid {
         }
     }
 
-    /// The same steps with each cell in so many equal parts.
+    /// The same steps with each cell in so many equal parts, for functions to be expanded on: it cannot be cut further, and
+    /// what begins after a contact closes has the remainder of that.
     pub fn split(&self, count: usize) -> Grid {
         let (mut starts, mut lengths) = (Vec::new(), Vec::new());
         for (start, length) in self.starts.iter().zip(&self.lengths) {

@@ -439,7 +439,7 @@ impl Followed {
     }
 }
 
-/// In how many equal parts a cell is halved until a rate exceeds two on none of them.
+/// The power of two of equal parts on each of which a rate is below two.
 fn parts_of(rate: &Magnitude) -> Outcome<usize> {
     let halvings = rate.top().map_or(0, |top| (top - 1).max(0));
     match halvings > i64::from(MAX_STEPS_OVER_SYMBOL.ilog2()) {

@@ -28,6 +28,9 @@ const NEAR: i64 = 1 << 20;
 /// How often an enclosure of a frequency is widened where it does not prove itself.
 const WIDENINGS: usize = 3;
 
+/// Of how many equal parts of a cell the ends are looked at.
+const PLACES: usize = 16;
+
 /// What is observed, as a sum of modes, in the scale of the scene and the unit of the user.
 #[derive(Clone)]
 pub struct SumOfModes {
@@ -48,7 +51,7 @@ impl SumOfModes {
     /// Cells split until no rate exceeds two, with this length of a step, and in how many parts.
     ///
     /// # Errors
-    /// [`NotOverSymbol::TooManySteps`] where a cell has more parts than that.
+    /// [`NotOverSymbol::TooManySteps`] where a cell would need more than [`MAX_STEPS_OVER_SYMBOL`] parts.
     pub fn split(&self, grid: &Grid, length: &Varying) -> Outcome<(Grid, usize)> {
         let rates = self.sum.modes.iter().map(|[frequency, ..]| frequency.magnitude());
         let longest = (0..grid.cells()).map(|cell| grid.length(cell).magnitude()).max();
@@ -60,7 +63,8 @@ impl SumOfModes {
     /// The sum on the first cells, with this length of a step.
     ///
     /// # Errors
-    /// [`NotOverSymbol::Ball`] where a frequency varies too much; [`NotOverSymbol::TooManySteps`].
+    /// [`NotOverSymbol::Ball`] where a frequency varies too much; [`NotOverSymbol::TooManySteps`] for more than
+    /// [`MAX_STEPS_OVER_SYMBOL`] cells.
     pub fn on_cells(&self, grid: &Grid, count: usize, length: &Varying) -> Outcome<Vec<OnCell>> {
         if count > MAX_STEPS_OVER_SYMBOL {
             return Err(NotOverSymbol::TooManySteps);
@@ -71,41 +75,46 @@ impl SumOfModes {
     /// The same on one cell.
     ///
     /// # Errors
-    /// As [`SumOfModes::on_cells`].
+    /// [`NotOverSymbol::Ball`] where a frequency varies too much.
     pub fn on_cell(&self, grid: &Grid, cell: usize, length: &Varying) -> Outcome<OnCell> {
         Exponential::total_on(&self.exponentials(length), grid, cell)
     }
 
-    /// The cell in a window on whose middle the sum is farthest from what is observed, about; each cell of what is observed
-    /// is split in so many `parts`.
+    /// The cell in a window on which the sum is farthest from what is observed, in doubles and for the middle value of the
+    /// symbol; each cell of what is observed is split in so many `parts`.
     pub fn farthest(
         &self,
         (observed, parts): (&[OnCell], usize),
         (grid, length): (&Grid, &Varying),
         window: &StepWindow,
-    ) -> usize {
-        let middle = |own: &Varying| own.coefficient(0).midpoint().to_double();
+    ) -> Option<usize> {
         let end = |end: &Rational| end.to_f64().unwrap_or(f64::NAN);
         let window = end(&window.from[1])..=end(&window.to[0]);
-        let [constant, slope] = self.sum.drift.each_ref().map(middle);
-        let modes = self.sum.modes.iter().map(|own| own.each_ref().map(middle));
-        let modes: Vec<[f64; 3]> = modes.collect();
+        let length = middle(length);
         let distance = |cell: usize| {
-            let at = middle(&grid.start(cell)) + middle(grid.length(cell)) / 2.0;
-            if !window.contains(&at) {
-                return 0.0;
-            }
-            let time = at * middle(length);
-            let wave = |[frequency, a, b]: &[f64; 3]| {
-                let (sin, cos) = (frequency * time).sin_cos();
-                a * cos + b * sin
+            let (start, own) = (middle(&grid.start(cell)), middle(grid.length(cell)));
+            let at = |part: usize| {
+                let place = part as f64 / PLACES as f64;
+                let time = start + own * place;
+                let whole = ((cell % parts) as f64 + place) / parts as f64;
+                let off = observed[cell / parts].at_middle(whole) - self.about(time * length);
+                window.contains(&time).then(|| off.abs())
             };
-            let sum = constant + slope * time + modes.iter().map(wave).sum::<f64>();
-            let place = ((cell % parts) as f64 + 0.5) / parts as f64;
-            (observed[cell / parts].near(place) - sum).abs()
+            (0..=PLACES).filter_map(at).max_by(f64::total_cmp)
         };
-        let cells = (0..observed.len() * parts).map(|cell| (distance(cell), cell));
-        cells.max_by(|one, other| one.0.total_cmp(&other.0)).map_or(0, |(_, cell)| cell)
+        let cells = (0..observed.len() * parts).filter_map(|cell| Some((distance(cell)?, cell)));
+        cells.max_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, cell)| cell)
+    }
+
+    /// The sum at a time, in doubles and for the middle value of the symbol.
+    fn about(&self, time: f64) -> f64 {
+        let [constant, slope] = self.sum.drift.each_ref().map(middle);
+        let wave = |own: &[Varying; 3]| {
+            let [frequency, a, b] = own.each_ref().map(middle);
+            let (sin, cos) = (frequency * time).sin_cos();
+            a * cos + b * sin
+        };
+        constant + slope * time + self.sum.modes.iter().map(wave).sum::<f64>()
     }
 
     fn exponentials(&self, length: &Varying) -> Vec<Exponential> {
@@ -121,6 +130,10 @@ impl SumOfModes {
         let drift = Exponential { rate: [zero(), zero()], polynomial: drift };
         std::iter::once(drift).chain(modes.iter().map(wave)).collect()
     }
+}
+
+fn middle(own: &Varying) -> f64 {
+    own.coefficient(0).midpoint().to_double()
 }
 
 impl Over<'_> {
@@ -146,7 +159,6 @@ impl Over<'_> {
         let name = |element: ElementIndex| self.scaled.scene().elements[element].name.clone();
         let parts = line.parts(name)?;
         let held = line.held();
-        let middle = |own: &Varying| own.coefficient(0).midpoint().to_double();
         let doubles: Vec<Part> = parts.iter().map(|part| part.map(middle)).collect();
         let mut modes = Vec::with_capacity(count);
         for near in frequencies(&doubles, held, line.drifts(), count) {

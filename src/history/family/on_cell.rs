@@ -115,8 +115,8 @@ impl OnCell {
         self.coefficients.iter().rev().fold(Varying::zero(), horner)
     }
 
-    /// The same for the middle of the symbol, about.
-    pub fn near(&self, x: f64) -> f64 {
+    /// The polynomial at a place, for the middle value of the symbol, in doubles.
+    pub fn at_middle(&self, x: f64) -> f64 {
         let own = self.coefficients.iter().rev();
         own.fold(0.0, |sum, own| sum * x + own.coefficient(0).midpoint().to_double())
     }
@@ -222,6 +222,9 @@ impl OnCell {
 
     /// The same function on one of so many equal parts of the cell.
     pub fn equal_part(&self, part: usize, count: usize) -> OnCell {
+        if count == 1 {
+            return self.clone();
+        }
         let place = |part: usize| Rational::new(part.into(), count.into());
         self.part([&place(part), &place(part + 1)])
     }

@@ -47,7 +47,8 @@ const LATER: i64 = -40;
 /// Places on a cell at which a change of sign is looked for.
 const PLACES: usize = 64;
 
-/// A gap falls for such a part of a cell after it is zero, as a power of two; the less, the more it grazes zero.
+/// After its zero a gap must keep falling for `2^-k` of a cell. These `k` are tried: the closer it grazes zero, the shorter
+/// it falls.
 const FALLS: [u32; 5] = [6, 9, 12, 15, 18];
 
 /// Newton's method squares an error; the first guess is a double.
@@ -411,10 +412,10 @@ pub(super) fn size(bound: &Magnitude) -> Varying {
 pub(super) fn first_zero(gap: &OnCell) -> Outcome<Option<Varying>> {
     let place = zero_of_polynomial(gap)?;
     let [low, high] = ends(&place);
-    let from = gap.positive_until().min(low);
     if high >= Rational::one() {
         return Ok(None);
     }
+    let from = gap.positive_until().min(low);
     if from.is_negative() {
         return Err(NotOverSymbol::Undecided);
     }
@@ -433,7 +434,11 @@ pub(super) fn first_zero(gap: &OnCell) -> Outcome<Option<Varying>> {
             return Ok(Some(zero));
         }
     }
-    Err(NotOverSymbol::Undecided)
+    // About the end of the cell: without the cut there it may be decided.
+    match left < Rational::new(1.into(), (1_i64 << FALLS[0]).into()) {
+        true => Ok(None),
+        false => Err(NotOverSymbol::Undecided),
+    }
 }
 
 /// Between which numbers a number lies.
@@ -456,7 +461,7 @@ pub(super) fn half_way(velocity: &OnCell) -> Outcome<Varying> {
 
 /// The first place at which a polynomial changes its sign, by Newton's method, without a bound.
 fn zero_of_polynomial(own: &OnCell) -> Outcome<Varying> {
-    let at_middle = |part: usize| own.near(part as f64 / PLACES as f64);
+    let at_middle = |part: usize| own.at_middle(part as f64 / PLACES as f64);
     if at_middle(0) < 0.0 {
         return Err(NotOverSymbol::Undecided);
     }

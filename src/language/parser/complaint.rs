@@ -197,7 +197,6 @@ fn replacement(character: char) -> Option<&'static str> {
         '"' => "only the title is quoted",
         '|' => "there is no absolute value",
         '\\' => "this is not LaTeX: write `mu`, `exp(…)`, `a/b`",
-        ':' => "write `=`, not `:=`",
         _ => return None,
     })
 }
@@ -285,7 +284,7 @@ fn expected_with(input: Input<'_>, what: &str, remedy: impl Into<Option<String>>
             "this line is indented deeper than the first statement, so it continues the line \
              before; remove the indentation to start a statement",
         ),
-        FoundKind::Character(':') if !input.next_is(":=") => None,
+        FoundKind::Character(':') => input.next_is(":=").then_some("write `=`, not `:=`"),
         FoundKind::Character(found) if !is_sign_of_scenes(input, found) => {
             replacement(found).or_else(|| is_foreign(input, found).then_some(ALPHABET))
         }

@@ -92,6 +92,11 @@ impl Record {
         }
     }
 
+    /// A value of the observable, or of its negative.
+    fn signed(&self, value: Ball) -> Ball {
+        if self.negative { value.negate() } else { value }
+    }
+
     /// Whether all values of a sign are: of the observable itself, not of its negative.
     pub(crate) fn beats_sign(&self, sign: Ordering) -> bool {
         let below = if self.negative { Ordering::Greater } else { Ordering::Less };
@@ -140,16 +145,16 @@ impl Search<'_> {
         target: Target<'_>,
         record: Option<&mut Record>,
     ) -> Result<Vec<Cell>, EvaluateError> {
+        pause();
         let [from, to] = self.bounds(stretch)?;
         if let Some(finding) = self.known_sign(stretch, target, record.as_deref()) {
             return Ok(vec![Cell { from, to, finding }]);
         }
-        // Most stretches are beaten, which one polynomial tells.
+        // Most stretches stay below the record, as one short polynomial shows.
         if let Some(record) = record.as_deref() {
             let observable = Target { order: 0, ..target };
             let range = self.range(stretch, observable, (&from, &to), self.bits.get())?;
-            let range = if record.negative { range.negate() } else { range };
-            if record.beats(&range) {
+            if record.beats(&record.signed(range)) {
                 return Ok(vec![Cell { from, to, finding: Finding::Low }]);
             }
         }
