@@ -374,3 +374,25 @@ fn a_part_of_a_cell_is_the_same_function() {
         }
     }
 }
+
+/// Parts of cells follow each other to the end of the cell, also behind a cut that moves with the symbol.
+#[test]
+fn cells_are_split_in_equal_parts() {
+    let (low, high) = (rational(1, 3), rational(5, 12));
+    let cut = Varying::between([&low, &high], 96);
+    let (grid, ..) = Grid::new(Fraction::one().into(), 2).unwrap().with_cut(&cut).unwrap();
+    let fine = grid.split(3);
+    assert_eq!((grid.cells(), fine.cells()), (3, 9));
+    for (cell, part) in (0..2 * grid.cells()).flat_map(|cell| [0, 1, 2].map(|part| (cell, part))) {
+        for parameter in [rational(-1, 1), rational(3, 8)] {
+            let at = |own: &Varying| Rational::from(of_varying(own, &parameter).midpoint());
+            let length = at(grid.length(cell)) / rational(3, 1);
+            let start = at(&grid.start(cell)) + &length * rational(part as i64, 1);
+            let own = 3 * cell + part;
+            for off in [at(&fine.start(own)) - start, at(fine.length(own)) - length] {
+                let off = Magnitude::from_rational(&off);
+                assert!(off <= Magnitude::power_of_two(-80), "{cell} {part} {parameter}");
+            }
+        }
+    }
+}
