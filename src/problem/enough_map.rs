@@ -8,6 +8,7 @@ use super::comparison::Comparison;
 use super::{Problem, ProblemError, Simpler, number};
 use crate::language::syntax::Declared;
 use crate::language::{self, Beyond, Change, ChangeError, parse_number};
+use crate::model::ModelError;
 use crate::planner::Purpose;
 use num_traits::{One as _, Signed as _, ToPrimitive as _};
 use std::cell::Cell;
@@ -26,6 +27,9 @@ const MOST_MISSED: usize = 24;
 
 /// Significant digits of the values of a symbol that are looked at first.
 const MAP_DIGITS: usize = 3;
+
+/// The most modes of one answer: with more, the cells of a proof are too many.
+const MOST_MODES: usize = 1000;
 
 /// The numbers of arrivals, and of modes, that are tried where nothing else is said.
 const COUNTS: [usize; 5] = [1, 2, 4, 8, 16];
@@ -347,9 +351,16 @@ impl Problem {
         Ok(Some(simpler.iter().map(share).collect()))
     }
 
-    /// These answers, if what they name is in the scene.
+    /// These answers, if what they name is in the scene and no more modes are asked for than a map can tell.
     fn known_simpler(&self, simpler: &[Simpler]) -> Result<Vec<Simpler>, ProblemError> {
         for own in simpler {
+            if let Simpler::Modes(count) = *own
+                && count > MOST_MODES
+            {
+                let (count, limit) = (count as f64, MOST_MODES as f64);
+                let (model, what) = ("modes of vibration", "modes");
+                return Err(ModelError::TooMuch { model, what, count, limit }.into());
+            }
             let Simpler::Scene(changes) = own else { continue };
             if let Err(error @ (ChangeError::NoElement { .. } | ChangeError::NotABar(_))) =
                 language::changed(&self.source, changes)

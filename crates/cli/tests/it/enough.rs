@@ -365,6 +365,14 @@ fn distances_say_what_is_known_of_them() {
 }
 
 #[test]
+fn a_map_has_so_many_modes_at_most() {
+    let line = "advise mass-on-fixed-bar --for mu=1..2 --models modes:99999999999";
+    let (code, text, errors) = run(anywhere(), &words(line));
+    assert!(code == 1 && text.is_empty(), "{code} {text} {errors}");
+    assert!(errors.contains("more than 1e3") && errors.contains("another model"), "{errors}");
+}
+
+#[test]
 fn what_cannot_be_weighed_is_told() {
     let scene = "mass-on-fixed-bar --set mu=1";
     for (line, reason, remedy) in [
