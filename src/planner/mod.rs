@@ -53,10 +53,6 @@ pub enum Purpose {
 }
 
 impl Purpose {
-    fn is_search(self) -> bool {
-        matches!(self, Purpose::Search | Purpose::Size { .. })
-    }
-
     /// How many digits are wanted; `None` where that is not known beforehand.
     fn digits(self) -> Option<usize> {
         match self {
@@ -237,7 +233,7 @@ pub fn of_origin<'a>(
     window: [&Rational; 2],
     purpose: Purpose,
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
-    if let (true, Some(known)) = (purpose.is_search(), &observed.balance) {
+    if let (Purpose::Search | Purpose::Size { .. }, Some(known)) = (purpose, &observed.balance) {
         return balance::of_scene(origin, network, (observed, purpose), known, window);
     }
     if let ObservedValue::Energy(terms) = &observed.value {

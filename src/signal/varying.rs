@@ -38,6 +38,11 @@ impl Varying {
         if self.is_zero() { Number::zero() } else { Number::Enclosed(self.range()) }
     }
 
+    /// About its value in the middle of the symbol.
+    pub fn middle(&self) -> f64 {
+        self.coefficient(0).midpoint().to_double()
+    }
+
     /// A polynomial without radii near it, and how far it is from that at most.
     pub fn split(&self) -> (Varying, Magnitude) {
         let off = self.coefficients.iter().fold(self.remainder, |sum, own| sum.add(own.radius()));

@@ -90,9 +90,9 @@ impl SumOfModes {
     ) -> Option<usize> {
         let end = |end: &Rational| end.to_f64().unwrap_or(f64::NAN);
         let window = end(&window.from[1])..=end(&window.to[0]);
-        let length = middle(length);
+        let length = length.middle();
         let distance = |cell: usize| {
-            let (start, own) = (middle(&grid.start(cell)), middle(grid.length(cell)));
+            let (start, own) = (grid.start(cell).middle(), grid.length(cell).middle());
             let at = |part: usize| {
                 let place = part as f64 / PLACES as f64;
                 let time = start + own * place;
@@ -108,9 +108,9 @@ impl SumOfModes {
 
     /// The sum at a time, in doubles and for the middle value of the symbol.
     fn about(&self, time: f64) -> f64 {
-        let [constant, slope] = self.sum.drift.each_ref().map(middle);
+        let [constant, slope] = self.sum.drift.each_ref().map(Varying::middle);
         let wave = |own: &[Varying; 3]| {
-            let [frequency, a, b] = own.each_ref().map(middle);
+            let [frequency, a, b] = own.each_ref().map(Varying::middle);
             let (sin, cos) = (frequency * time).sin_cos();
             a * cos + b * sin
         };
@@ -130,10 +130,6 @@ impl SumOfModes {
         let drift = Exponential { rate: [zero(), zero()], polynomial: drift };
         std::iter::once(drift).chain(modes.iter().map(wave)).collect()
     }
-}
-
-fn middle(own: &Varying) -> f64 {
-    own.coefficient(0).midpoint().to_double()
 }
 
 impl Over<'_> {
@@ -159,7 +155,7 @@ impl Over<'_> {
         let name = |element: ElementIndex| self.scaled.scene().elements[element].name.clone();
         let parts = line.parts(name)?;
         let held = line.held();
-        let doubles: Vec<Part> = parts.iter().map(|part| part.map(middle)).collect();
+        let doubles: Vec<Part> = parts.iter().map(|part| part.map(Varying::middle)).collect();
         let mut modes = Vec::with_capacity(count);
         for near in frequencies(&doubles, held, line.drifts(), count) {
             let frequency = near.map(|near| frequency(&parts, held, near)).transpose()?;

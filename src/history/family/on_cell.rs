@@ -118,7 +118,7 @@ impl OnCell {
     /// The polynomial at a place, for the middle value of the symbol, in doubles.
     pub fn at_middle(&self, x: f64) -> f64 {
         let own = self.coefficients.iter().rev();
-        own.fold(0.0, |sum, own| sum * x + own.coefficient(0).midpoint().to_double())
+        own.fold(0.0, |sum, own| sum * x + own.middle())
     }
 
     /// The slope of the polynomial at a place.
