@@ -255,12 +255,16 @@ fn remedy(error: &ProblemError) -> Option<String> {
             did_you_mean(name, names)
                 .unwrap_or_else(|| format!("the built-in scenes are {}", names.join(", ")))
         }
-        ProblemError::Unknown { names, .. } | ProblemError::UnknownThere { names, .. }
+        ProblemError::Unknown { names, .. }
+        | ProblemError::UnknownThere { names, .. }
+        | ProblemError::LeftOut { names, .. }
             if names.is_empty() =>
         {
             "nothing is observed here: add a line such as `observe v = velocity(NAME)`".to_owned()
         }
-        ProblemError::Unknown { name, names } | ProblemError::UnknownThere { name, names, .. } => {
+        ProblemError::Unknown { name, names }
+        | ProblemError::UnknownThere { name, names, .. }
+        | ProblemError::LeftOut { name, names } => {
             did_you_mean(name, names.iter().map(String::as_str))
                 .unwrap_or_else(|| format!("choose one of {}", names.join(", ")))
         }
@@ -312,6 +316,7 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
         ProblemError::WaveOfClosedContacts(_) => "choose an observable, or remove `contacts open`",
         ProblemError::Equations(_) => DESCRIBE,
         ProblemError::Change(ChangeError::NotABar(_)) => "name a bar of the line",
+        ProblemError::Change(ChangeError::Nothing(_)) => "write `modes:1`, or `echoes:1`",
         ProblemError::Change(_) => "choose another simplification",
         ProblemError::AllZero(_) => "use a longer window",
         ProblemError::SymbolRange(_) => {

@@ -3,12 +3,15 @@
 use super::diagnostic::Diagnostic;
 use super::name::normalise;
 use super::syntax::{
-    Declaration, Declared, Line, ObservedPlace, Scene, SceneStatementKind, Section, Span,
+    Declaration, Declared, Line, ObservedTerm, Property, Scene, SceneStatementKind, Section, Span,
 };
 use super::{Source, parse_scene};
-use crate::scene::{End, Joint};
+use crate::scene::{End, Joint, Measure};
 use std::fmt;
 use std::str::FromStr;
+
+/// What gives a bar a finite length.
+const LENGTHS: [&str; 2] = ["length", "travel"];
 
 /// The side of a bar on which it goes on for ever.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -22,10 +25,10 @@ pub enum Beyond {
 pub enum Change {
     /// An element: what stands beside it is joined.
     Without(String),
-    /// That a bar yields; of all bars where none is named.
+    /// That a bar yields; of all bars of finite length where none is named.
     Rigid(Option<String>),
     /// The waves in a bar: it becomes a spring with a share of its mass, the usual one where none is given. In all bars
-    /// where none is named.
+    /// of finite length where none is named.
     Spring(Option<String>, Option<String>),
     /// What lies beyond a bar, which goes on for ever instead.
     Endless(String, Beyond),
@@ -38,6 +41,8 @@ pub enum Change {
 pub enum ChangeError {
     #[error("`{0}` is not a simplification of a scene")]
     Unknown(String),
+    #[error("`{0}` leaves nothing: the number must be 1 or larger")]
+    Nothing(String),
     #[error("there is no element `{name}` in this scene")]
     NoElement { name: String, elements: Vec<String> },
     #[error("`{0}` is not a bar")]
@@ -139,9 +144,18 @@ impl<'a> Edits<'a> {
                 let (_, span) = self.declaration(name)?;
                 self.remove(span);
                 self.rewrite_line(|line| leave_out(line, name));
-                self.remove_observables(std::slice::from_ref(name), None);
+                self.remove_observables(|term| term.place.value.element.value == *name);
             }
-            Change::Rigid(name) => self.idealise(name.as_deref(), "rigid")?,
+            Change::Rigid(name) => {
+                let bars = self.idealise(name.as_deref(), "rigid")?;
+                self.remove_observables(|term| {
+                    let is_force = matches!(
+                        term.measure.value,
+                        Measure::Force | Measure::Strain | Measure::Stress
+                    );
+                    is_force && bars.contains(&&*term.place.value.element.value)
+                });
+            }
             Change::Spring(name, share) => {
                 let share = share.as_ref().map(|share| format!(", share = {share}"));
                 self.idealise(name.as_deref(), &format!("spring{}", share.unwrap_or_default()))?;
@@ -194,9 +208,11 @@ impl<'a> Edits<'a> {
         })
     }
 
-    /// Gives a bar, or each bar that has none, the property `as`.
-    fn idealise(&mut self, name: Option<&str>, ideal: &str) -> Result<(), ChangeError> {
-        let has_ideal = |bar: &Declaration| bar.properties.iter().any(|own| own.name.value == "as");
+    /// Gives a bar, or each bar of finite length, the property `as`; the names of these bars.
+    fn idealise(&mut self, name: Option<&str>, ideal: &str) -> Result<Vec<&'a str>, ChangeError> {
+        let has = |bar: &Declaration, names: &[&str]| {
+            bar.properties.iter().any(|own| names.contains(&&*own.name.value))
+        };
         let bars: Vec<&Declaration> = match name {
             Some(name) => {
                 vec![self.bar(name)?]
@@ -206,21 +222,24 @@ impl<'a> Edits<'a> {
                     SceneStatementKind::Declaration(own) if own.kind == Declared::Bar => Some(own),
                     _ => None,
                 });
-                declarations.collect()
+                let bars: Vec<&Declaration> = declarations.collect();
+                let finite = bars.iter().copied().filter(|bar| has(bar, &LENGTHS));
+                let finite: Vec<&Declaration> = finite.collect();
+                if finite.is_empty() { bars } else { finite }
             }
         };
-        if let Some(bar) = bars.iter().find(|bar| has_ideal(bar)) {
+        if let Some(bar) = bars.iter().find(|bar| has(bar, &["as"])) {
             return Err(ChangeError::Ideal(bar.name.value.clone()));
         }
         if bars.is_empty() {
             return Err(ChangeError::NoBar);
         }
-        for bar in bars {
+        for bar in &bars {
             let Some(last) = bar.properties.last() else { continue };
             let end = last.unit.as_ref().map_or(last.value.span.end, |unit| unit.span.end);
             self.all.push((Span::new(end, end), format!(", as = {ideal}")));
         }
-        Ok(())
+        Ok(bars.into_iter().map(|bar| &*bar.name.value).collect())
     }
 
     /// Lets a bar go on for ever on one side, and leaves out what lies beyond.
@@ -242,8 +261,8 @@ impl<'a> Edits<'a> {
         if gone.is_empty() && end == End::Endless {
             return Err(ChangeError::Endless(name.to_owned()));
         }
-        let length = |name: &str| matches!(name, "length" | "travel");
-        if let Some(at) = bar.properties.iter().position(|own| length(&own.name.value)) {
+        let is_length = |own: &Property| LENGTHS.contains(&&*own.name.value);
+        if let Some(at) = bar.properties.iter().position(is_length) {
             let own = &bar.properties[at];
             let end = |at: usize| {
                 let own = &bar.properties[at];
@@ -271,7 +290,17 @@ impl<'a> Edits<'a> {
                 line.ends[1] = End::Endless;
             }
         });
-        self.remove_observables(&gone, Some((name, beyond)));
+        self.remove_observables(|term| {
+            let place = &term.place.value;
+            let has_gone = match &place.section {
+                Some(Section::Left) => beyond == Beyond::Left,
+                Some(Section::Right) => beyond == Beyond::Right,
+                // A share of its length.
+                Some(Section::At { unit, .. }) => unit.is_none(),
+                None => false,
+            };
+            gone.contains(&place.element.value) || place.element.value == name && has_gone
+        });
         Ok(())
     }
 
@@ -286,25 +315,12 @@ impl<'a> Edits<'a> {
         self.all.push((span, written.to_string()));
     }
 
-    /// Removes what is observed of elements that are gone, and at the end of a bar that has none any more or at a share of
-    /// its length.
-    fn remove_observables(&mut self, gone: &[String], endless: Option<(&str, Beyond)>) {
-        let is_gone = |place: &ObservedPlace| {
-            let lacks = |(bar, beyond): (&str, Beyond)| {
-                let section = match &place.section {
-                    Some(Section::Left) => beyond == Beyond::Left,
-                    Some(Section::Right) => beyond == Beyond::Right,
-                    Some(Section::At { unit, .. }) => unit.is_none(),
-                    None => false,
-                };
-                place.element.value == bar && section
-            };
-            gone.contains(&place.element.value) || endless.is_some_and(lacks)
-        };
+    /// Removes the observables with a term that is not told any more.
+    fn remove_observables(&mut self, is_gone: impl Fn(&ObservedTerm) -> bool) {
         let tree = self.tree;
         for statement in &tree.statements {
             let SceneStatementKind::Observe { terms, .. } = &statement.value else { continue };
-            if terms.iter().any(|term| is_gone(&term.value.place.value)) {
+            if terms.iter().any(|term| is_gone(&term.value)) {
                 self.remove(statement.span);
             }
         }

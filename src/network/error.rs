@@ -15,7 +15,7 @@ pub enum NetworkError {
     #[error("the equations of this scene cannot be solved for its waves: {0}")]
     Recurrence(#[source] Box<InvalidRecurrence>),
     #[error(
-        "{place}, {} decay together at rates that are not known exactly", waves.join(" and ")
+        "{place}, {} decay together at rates that have no short exact form", waves.join(" and ")
     )]
     Rates { place: String, waves: Vec<String> },
     #[error("{name}: {reason}")]

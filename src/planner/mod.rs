@@ -150,7 +150,7 @@ pub fn of_scene<'a>(
 /// first arrivals count where their number is given.
 pub(crate) fn difference<'a>(
     networks: [&'a Network; 2],
-    operands: [Box<dyn Signal + 'a>; 2],
+    operands: [Rc<dyn Signal + 'a>; 2],
     arrivals: Option<usize>,
     window: [&Rational; 2],
 ) -> Box<dyn Signal + 'a> {

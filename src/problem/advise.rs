@@ -5,16 +5,20 @@
 
 use super::comparison::{Comparison, PURPOSE};
 use super::{Other, Problem, ProblemError, Simpler, Size, Wanted};
-use crate::ball::Ball;
+use crate::ball::{Ball, Decimal};
 use crate::language::syntax::Declared;
 use crate::language::{self, Beyond, Change};
 use crate::signal::{Limit, Signal};
+use num_traits::Signed as _;
 use std::time::{Duration, Instant};
 use wavestep_polynomial::Rational;
 
 /// The precision of samples, and where in a stretch they are taken, in 64ths of it.
 const SAMPLE_BITS: u64 = 64;
 const PLACES: [i64; 5] = [1, 16, 32, 48, 63];
+
+/// The most digits of a sample's time: a reader can try it.
+const DIGITS: usize = 17;
 
 /// The most stretches that are sampled.
 const MAX_SAMPLED: usize = 48;
@@ -31,6 +35,9 @@ const MORE: usize = 3;
 const SHARES: std::ops::RangeInclusive<i64> = 2..=12;
 const PARTS: i64 = 20;
 const HALVINGS: u32 = 5;
+
+/// A share is looked for where the best of these is off by less than so many times the tolerance.
+const HOPELESS: i64 = 4;
 
 /// What is asked.
 pub struct Need<'a> {
@@ -101,6 +108,30 @@ struct Sampled {
     worst: Rational,
     at: Rational,
     each: Duration,
+}
+
+/// An answer, or its difference from the exact one.
+enum TellsOff<'a> {
+    Answer(Box<dyn Signal + 'a>),
+    Difference(Box<dyn Signal + 'a>),
+}
+
+impl TellsOff<'_> {
+    fn signal(&self) -> &dyn Signal {
+        match self {
+            TellsOff::Answer(signal) | TellsOff::Difference(signal) => &**signal,
+        }
+    }
+
+    /// By how much it is certainly off at the time of a sample.
+    fn off(&self, (time, exact): &(Rational, Ball)) -> Result<Rational, ProblemError> {
+        let value = (self.signal().point(time, Limit::Right)?.enclose)(SAMPLE_BITS)?;
+        let off = match self {
+            TellsOff::Answer(_) => exact.subtract(&value, SAMPLE_BITS),
+            TellsOff::Difference(_) => value,
+        };
+        Ok(off.smallest_size())
+    }
 }
 
 struct Adviser<'p> {
@@ -174,7 +205,7 @@ impl Problem {
     }
 }
 
-/// Times within the stretches of a signal, near their ends and between.
+/// Times within the stretches of a signal, near their ends and between, with few digits.
 fn sample_times(signal: &dyn Signal) -> Result<Vec<Rational>, ProblemError> {
     let [from, to] = signal.window();
     let count = signal.count()?;
@@ -190,9 +221,18 @@ fn sample_times(signal: &dyn Signal) -> Result<Vec<Rational>, ProblemError> {
         };
         let (first, last) = (end(Limit::Right)?, end(Limit::Left)?);
         let part = (&last - &first) / Rational::from_integer(64.into());
-        times.extend(PLACES.map(|place| &first + &part * Rational::from_integer(place.into())));
+        let near = &part / Rational::from_integer(4.into());
+        let at = |place: i64| &first + &part * Rational::from_integer(place.into());
+        times.extend(PLACES.map(|place| with_few_digits(at(place), &near)));
     }
     Ok(times)
+}
+
+/// The decimal with the fewest digits that is as near as this; the number itself where all need many.
+fn with_few_digits(number: Rational, near: &Rational) -> Rational {
+    let decimal = |digits| Decimal::from_rational(&number, digits).0.to_rational();
+    let short = (1..=DIGITS).map(decimal).find(|own| (own - &number).abs() <= *near);
+    short.unwrap_or(number)
 }
 
 impl Adviser<'_> {
@@ -200,32 +240,32 @@ impl Adviser<'_> {
         self.comparison.problem
     }
 
+    /// What tells how far an answer is off.
+    fn told_by<'o>(&'o self, other: &'o Other) -> Result<TellsOff<'o>, ProblemError> {
+        let Comparison { problem, wanted, window, .. } = self.comparison;
+        Ok(match other {
+            // What they leave out is told by the difference alone.
+            Other::Arrivals(_) => TellsOff::Difference(self.comparison.difference(other)?),
+            other => {
+                TellsOff::Answer(problem.counterpart(other.into(), wanted, window, PURPOSE)?.1)
+            }
+        })
+    }
+
     /// How far off samples are at most, and how many stretches the answer has.
     fn sample(&self, other: &Other) -> Result<(Sampled, usize), ProblemError> {
-        let Comparison { problem, wanted, window, .. } = self.comparison;
-        let signal = match other {
-            // What they leave out is told by the difference alone.
-            Other::Arrivals(_) => None,
-            other => Some(problem.counterpart(other.into(), wanted, window, PURPOSE)?.1),
-        };
-        let (signal, is_difference) = match signal {
-            Some(signal) => (signal, false),
-            None => (problem.difference_on(other, wanted, window, PURPOSE)?, true),
-        };
+        let told = self.told_by(other)?;
         let begun = Instant::now();
         let mut worst = (Rational::default(), self.samples[0].0.clone());
-        for (time, exact) in &self.samples {
-            let value = (signal.point(time, Limit::Right)?.enclose)(SAMPLE_BITS)?;
-            let off = if is_difference { value } else { exact.subtract(&value, SAMPLE_BITS) };
-            // What is certain of it.
-            let off = off.smallest_size();
+        for sample in &self.samples {
+            let off = told.off(sample)?;
             if off > worst.0 {
-                worst = (off, time.clone());
+                worst = (off, sample.0.clone());
             }
         }
         let each = begun.elapsed() / self.samples.len() as u32;
         let (worst, at) = worst;
-        Ok((Sampled { worst, at, each }, signal.count()?))
+        Ok((Sampled { worst, at, each }, told.signal().count()?))
     }
 
     /// The verdict of samples: nothing where they are near enough.
@@ -286,7 +326,14 @@ impl Adviser<'_> {
     fn passes(&self, simpler: &Simpler) -> Result<bool, ProblemError> {
         (self.tell)(simpler);
         let other = self.problem().simpler(simpler)?;
-        Ok(self.verdict(&self.sample(&other)?.0).is_none())
+        let told = self.told_by(&other)?;
+        // Errors grow with time more often than not.
+        for sample in self.samples.iter().rev() {
+            if self.share_of(&told.off(sample)?) > *self.tolerance {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 
     /// All bars rigid, and all of them springs.
@@ -320,8 +367,12 @@ impl Adviser<'_> {
             Some((most, share))
         };
         let shares = SHARES.map(|share| Rational::new(share.into(), PARTS.into()));
-        let begun = shares.filter_map(sampled).min();
-        let Some(mut best) = begun.and_then(|(_, share)| proven(share)) else { return };
+        let Some((worst, share)) = shares.filter_map(sampled).min() else { return };
+        // A share between two of these is hardly better.
+        if self.share_of(&worst) > self.tolerance * Rational::from_integer(HOPELESS.into()) {
+            return;
+        }
+        let Some(mut best) = proven(share) else { return };
         for halving in 1..=HALVINGS {
             let step = Rational::new(1.into(), (PARTS << halving).into());
             let beside = [&best.1 - &step, &best.1 + &step];

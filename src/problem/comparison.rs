@@ -4,6 +4,8 @@ use super::{Other, Problem, ProblemError, Size, Wanted};
 use crate::planner::Purpose;
 use crate::signal::Signal;
 use num_traits::Zero as _;
+use std::cell::OnceCell;
+use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
 /// The digits and bits of a size that is to be told from a tolerance.
@@ -21,7 +23,9 @@ pub(super) struct Comparison<'p> {
     pub problem: &'p Problem,
     pub wanted: &'p Wanted,
     pub window: [&'p Rational; 2],
-    pub signal: Box<dyn Signal + 'p>,
+    pub signal: Rc<dyn Signal + 'p>,
+    /// The same as its arrivals tell it, once that is asked for.
+    closed: OnceCell<Rc<dyn Signal + 'p>>,
     /// The largest value of the quantity, which is not zero.
     pub largest: Size,
 }
@@ -34,25 +38,48 @@ impl<'p> Comparison<'p> {
         wanted: &'p Wanted,
         window: [&'p Rational; 2],
     ) -> Result<Comparison<'p>, ProblemError> {
-        let signal = problem.signal_on(wanted, window, PURPOSE)?;
+        let signal: Rc<dyn Signal> = Rc::from(problem.signal_on(wanted, window, PURPOSE)?);
         let largest = Size::of(&*signal, TOLD, &Rational::zero())?;
         if largest.bounds[0].is_zero() {
             return Err(ProblemError::AllZero(wanted.name.clone()));
         }
-        Ok(Comparison { problem, wanted, window, signal, largest })
+        Ok(Comparison { problem, wanted, window, signal, closed: OnceCell::new(), largest })
+    }
+
+    /// The quantity less what an answer says of it.
+    ///
+    /// # Errors
+    /// As [`Problem::difference_on`].
+    pub fn difference<'o>(
+        &'o self,
+        other: &'o Other,
+    ) -> Result<Box<dyn Signal + 'o>, ProblemError> {
+        let Comparison { problem, wanted, window, .. } = self;
+        let Other::Arrivals(count) = other else {
+            let own = Rc::clone(&self.signal);
+            return problem.difference_from(own, other.into(), wanted, *window, PURPOSE);
+        };
+        let closed = match self.closed.get() {
+            Some(known) => known,
+            None => {
+                let found = problem.closed_on(wanted, *window)?;
+                self.closed.get_or_init(|| found)
+            }
+        };
+        problem.after_arrivals(Rc::clone(closed), *count, *window)
     }
 
     /// The largest difference of an answer over the largest value, between two bounds: near ones, or where the tolerance
     /// lies between these, ones to nine digits.
     ///
     /// # Errors
-    /// As [`Problem::difference_on`].
+    /// As [`Comparison::difference`].
     pub fn share(
         &self,
         other: &Other,
         tolerance: &Rational,
     ) -> Result<[Rational; 2], ProblemError> {
-        let difference = self.problem.difference_on(other, self.wanted, self.window, PURPOSE)?;
+        let difference = self.difference(other)?;
         let least = &self.largest.bounds[0];
         let negligible = (tolerance / Rational::from_integer(PART_OF_TOLERANCE.into()))
             .min(Rational::new(1.into(), PART_OF_LARGEST.into()))

@@ -3,6 +3,7 @@
 //! At some values of the symbol the largest difference of each simpler answer is proven. Where the first that is enough
 //! for a tolerance differs between two neighbours, what lies between them is halved until both are nearly the same.
 
+use super::advise::first_line;
 use super::between::{Claimed, Unproven};
 use super::comparison::Comparison;
 use super::{Problem, ProblemError, Simpler, number};
@@ -186,10 +187,13 @@ pub struct EnoughMap {
     /// Of each run the answers of which it is not proven, for all values from its first to its last, that they are enough, or
     /// not where another one is the first; without those that suit nowhere.
     pub open: Vec<Vec<(usize, Unproven)>>,
+    /// Those that suit at none of the values, each with what is told of the first.
+    pub unsuited: Vec<(usize, String)>,
 }
 
 impl EnoughMap {
-    /// The answers that are the first that is enough for some tolerance below the whole, at one value at least.
+    /// The answers that are the first that is enough for some tolerance below the whole, at one value at least, or for the
+    /// given tolerance on some run.
     pub fn useful(&self) -> Vec<usize> {
         let most = |own: &Option<[Rational; 2]>| own.as_ref().map(|[_, most]| most.clone());
         let is_first = |place: usize, off: &[Option<[Rational; 2]>]| {
@@ -197,8 +201,10 @@ impl EnoughMap {
             let least = cheaper.chain([Rational::one()]).min();
             most(&off[place]) < least && off[place].is_some()
         };
-        let is_useful =
-            |place: &usize| self.columns.iter().any(|column| is_first(*place, &column.off));
+        let is_useful = |place: &usize| {
+            self.columns.iter().any(|column| is_first(*place, &column.off))
+                || self.runs.iter().any(|run| run.state == Some(*place))
+        };
         (0..self.simpler.len()).filter(is_useful).collect()
     }
 }
@@ -269,8 +275,16 @@ impl Problem {
             return Err(ProblemError::AllZero(asked.quantity.to_owned()));
         }
         let columns = values.into_iter().map(|value| Ok(Column { off: off_at(&value)?, value }));
-        let columns = columns.collect::<Result<_, ProblemError>>()?;
-        Ok(EnoughMap { simpler, columns, runs, open })
+        let columns = columns.collect::<Result<Vec<Column>, ProblemError>>()?;
+        let suits = |place: usize| columns.iter().any(|column| column.off[place].is_some());
+        let unsuited = (0..simpler.len()).filter(|place| !suits(*place));
+        let unsuited = unsuited.filter_map(|place| {
+            let at_first = self.substituted(&range.symbol, &columns[0].value);
+            let error = at_first.and_then(|own| own.share_of(asked, &simpler[place])).err()?;
+            Some((place, first_line(&error)))
+        });
+        let unsuited = unsuited.collect();
+        Ok(EnoughMap { simpler, columns, runs, open, unsuited })
     }
 
     /// What is not proven of all values between two, where this answer is the first that is known to be enough at both; how far
@@ -349,6 +363,17 @@ impl Problem {
             comparison.share(&other, &asked.tolerance).ok()
         };
         Ok(Some(simpler.iter().map(share).collect()))
+    }
+
+    /// How far one simpler answer is off, over the largest value.
+    fn share_of(
+        &self,
+        asked: &MapRequest<'_>,
+        simpler: &Simpler,
+    ) -> Result<[Rational; 2], ProblemError> {
+        let (window, wanted) = ((asked.window)(self)?, self.wanted(asked.quantity)?);
+        let comparison = Comparison::new(self, &wanted, window.each_ref())?;
+        comparison.share(&self.simpler(simpler)?, &asked.tolerance)
     }
 
     /// These answers, if what they name is in the scene and no more modes are asked for than a map can tell.

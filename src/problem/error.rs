@@ -46,6 +46,8 @@ pub enum ProblemError {
     WaveOfClosedContacts(String),
     #[error("`{name}` is neither a wave nor an observable of \"{title}\"")]
     UnknownThere { name: String, title: String, names: Vec<String> },
+    #[error("`{name}` observes what is left out")]
+    LeftOut { name: String, names: Vec<String> },
     #[error("`{name}` has another unit in \"{title}\"")]
     Apart { name: String, title: String },
     #[error(transparent)]

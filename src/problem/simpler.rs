@@ -8,6 +8,7 @@ use crate::network::{Network, NetworkError};
 use crate::planner::{self, Origin, Purpose};
 use crate::signal::{EvaluateError, Goal, Place, Search, Signal};
 use std::fmt;
+use std::rc::Rc;
 use std::str::FromStr;
 use wavestep_polynomial::Rational;
 
@@ -68,9 +69,10 @@ impl FromStr for Simpler {
     type Err = ChangeError;
 
     fn from_str(text: &str) -> Result<Simpler, ChangeError> {
-        let count = |count: &str| {
-            let count = count.parse().ok().filter(|count| *count > 0);
-            count.ok_or_else(|| ChangeError::Unknown(text.to_owned()))
+        let count = |count: &str| match count.parse() {
+            Ok(0) => Err(ChangeError::Nothing(text.to_owned())),
+            Ok(count) => Ok(count),
+            Err(_) => Err(ChangeError::Unknown(text.to_owned())),
         };
         Ok(match text.split_once(':') {
             Some(("modes", number)) => Simpler::Modes(count(number)?),
@@ -110,8 +112,8 @@ impl<'p> From<&'p Other> for Against<'p> {
     }
 }
 
-/// A scene, what it says of a quantity, and how many arrivals count where not all do.
-type Counterpart<'p> = (&'p Network, Box<dyn Signal + 'p>, Option<usize>);
+/// A scene, and what it says of a quantity.
+type Counterpart<'p> = (&'p Network, Box<dyn Signal + 'p>);
 
 /// The largest absolute value of a signal on its window, with proof.
 #[derive(Clone, PartialEq, Debug)]
@@ -240,22 +242,69 @@ impl Problem {
         window: [&Rational; 2],
         purpose: Purpose,
     ) -> Result<Box<dyn Signal + 'p>, ProblemError> {
-        let other = other.into();
-        let purpose = match other {
-            // Arrivals are those of a closed form.
-            Against::Arrivals(_) => Purpose::Stretches,
-            _ => purpose,
-        };
-        let (network, others, arrivals) = self.counterpart(other, wanted, window, purpose)?;
-        let own = self.signal_on(wanted, window, purpose)?;
-        Ok(planner::difference([self.network()?, network], [own, others], arrivals, window))
+        match other.into() {
+            Against::Arrivals(count) => {
+                let own = self.closed_on(wanted, window)?;
+                Ok(self.after_arrivals(own, count, window)?)
+            }
+            other => {
+                let own = Rc::from(self.signal_on(wanted, window, purpose)?);
+                self.difference_from(own, other, wanted, window, purpose)
+            }
+        }
     }
 
-    /// What another answer says of a quantity on a window, and its scene; of arrivals the whole, and how many count.
+    /// A quantity that is known less what another answer says of it, which is not told by arrivals.
     ///
     /// # Errors
-    /// [`ProblemError::UnknownThere`]; [`ProblemError::Apart`] for quantities or times in other units; equations
-    /// without bars; arrivals of what has no closed form.
+    /// As [`Problem::counterpart`].
+    pub(super) fn difference_from<'p>(
+        &'p self,
+        own: Rc<dyn Signal + 'p>,
+        other: Against<'p>,
+        wanted: &Wanted,
+        window: [&Rational; 2],
+        purpose: Purpose,
+    ) -> Result<Box<dyn Signal + 'p>, ProblemError> {
+        let (network, others) = self.counterpart(other, wanted, window, purpose)?;
+        let networks = [self.network()?, network];
+        Ok(planner::difference(networks, [own, Rc::from(others)], None, window))
+    }
+
+    /// A quantity as its arrivals tell it.
+    ///
+    /// # Errors
+    /// [`EvaluateError::NoClosedForm`] where they are not told.
+    pub(super) fn closed_on<'p>(
+        &'p self,
+        wanted: &Wanted,
+        window: [&Rational; 2],
+    ) -> Result<Rc<dyn Signal + 'p>, ProblemError> {
+        let purpose = Purpose::Stretches;
+        if planner::origin(self.network()?, window[1], purpose) == Origin::Followed {
+            return Err(EvaluateError::NoClosedForm.into());
+        }
+        let signal = self.signal_on(wanted, window, purpose)?;
+        signal.closed_form()?;
+        Ok(Rc::from(signal))
+    }
+
+    /// Such a quantity less what its first arrivals tell of it.
+    pub(super) fn after_arrivals<'p>(
+        &'p self,
+        own: Rc<dyn Signal + 'p>,
+        count: usize,
+        window: [&Rational; 2],
+    ) -> Result<Box<dyn Signal + 'p>, ProblemError> {
+        let network = self.network()?;
+        Ok(planner::difference([network; 2], [own.clone(), own], Some(count), window))
+    }
+
+    /// What another answer says of a quantity on a window, and its scene; arrivals are no answer of their own.
+    ///
+    /// # Errors
+    /// [`ProblemError::UnknownThere`]; [`ProblemError::LeftOut`]; [`ProblemError::Apart`] for quantities or times in
+    /// other units; equations without bars; arrivals.
     pub(super) fn counterpart<'p>(
         &'p self,
         other: Against<'p>,
@@ -263,27 +312,19 @@ impl Problem {
         window: [&Rational; 2],
         purpose: Purpose,
     ) -> Result<Counterpart<'p>, ProblemError> {
-        let own = self.network()?;
         Ok(match other {
             Against::Problem(other) => {
                 let others = self.same(other, wanted)?;
-                (other.network()?, other.signal_on(&others, window, purpose)?, None)
+                (other.network()?, other.signal_on(&others, window, purpose)?)
             }
             Against::Modes(modes) => {
                 let place = wanted.place.ok_or_else(|| self.unknown(&wanted.name))?;
-                let own_modes = modes.vibration(place)?;
-                let sum = (own_modes.drift, &own_modes.modes[..]);
+                let (own, vibration) = (self.network()?, modes.vibration(place)?);
+                let sum = (vibration.drift, &vibration.modes[..]);
                 let signal = planner::vibration(own, sum, window);
-                (own, signal.ok_or_else(|| self.unknown(&wanted.name))?, None)
+                (own, signal.ok_or_else(|| self.unknown(&wanted.name))?)
             }
-            Against::Arrivals(count) => {
-                if planner::origin(own, window[1], purpose) == Origin::Followed {
-                    return Err(EvaluateError::NoClosedForm.into());
-                }
-                let signal = self.signal_on(wanted, window, purpose)?;
-                signal.closed_form()?;
-                (own, signal, Some(count))
-            }
+            Against::Arrivals(_) => return Err(EvaluateError::NoClosedForm.into()),
         })
     }
 
@@ -298,7 +339,11 @@ impl Problem {
             let waves = if is_observed(self) { Vec::new() } else { other.waves() };
             let names = waves.into_iter().chain(other.observables()).map(str::to_owned);
             let (name, names) = (wanted.name.clone(), names.collect());
-            return Err(ProblemError::UnknownThere { name, title: title(), names });
+            let is_changed = other.source.name() == self.source.name();
+            return Err(match is_changed && is_observed(self) {
+                true => ProblemError::LeftOut { name, names },
+                false => ProblemError::UnknownThere { name, title: title(), names },
+            });
         };
         if others.dimension != wanted.dimension || self.has_units() != other.has_units() {
             return Err(ProblemError::Apart { name: wanted.name.clone(), title: title() });

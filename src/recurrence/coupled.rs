@@ -23,7 +23,7 @@ use wavestep_polynomial::Rational;
 pub(crate) enum Stuck {
     /// The derivatives do not determine each other.
     Degenerate,
-    /// The roots of this polynomial, highest power first, are not known exactly.
+    /// The roots of this polynomial, highest power first, have no short exact form.
     Roots(Vec<Fraction>),
 }
 
@@ -41,6 +41,10 @@ type Matrix = Vec<Vec<Fraction>>;
 /// The most waves that are uncoupled together.
 const MAX_SIZE: usize = 8;
 
+/// With more waves than this, and more named constants in their rates, formulas have many thousands of terms.
+const MANY_WAVES: usize = 6;
+const MOST_NAMED: usize = 4;
+
 /// Uncouples as many forms as waves. Added waves are numbered from `hidden` on.
 pub(crate) fn uncouple(
     mut forms: Vec<LinearForm>,
@@ -56,7 +60,11 @@ pub(crate) fn uncouple(
         return Err(Stuck::Degenerate);
     }
     let polynomial = characteristic(&matrix);
-    let rates = roots::of(&polynomial, naming).ok_or(Stuck::Roots(polynomial))?;
+    let known = naming.constants.len();
+    let rates = roots::of(&polynomial, naming);
+    let named = naming.constants.len() - known;
+    let rates = rates.filter(|_| size <= MANY_WAVES || named <= MOST_NAMED);
+    let rates = rates.ok_or(Stuck::Roots(polynomial))?;
     let first = (0..size).find_map(|j| {
         let rows = rows(&matrix, j, &rates);
         let determinant = naming.assumptions.invert(&determinant(&rows).into()).ok()?;

@@ -128,8 +128,8 @@ pub enum Fault {
     #[error("{} depend on each other in the same period", .0.join(" and "))]
     Coupled(Vec<String>),
     /// The waves named are coupled by their derivatives, and their rates, the roots of a
-    /// polynomial, are not known exactly.
-    #[error("the rates at which {} decay together are not known exactly", waves.join(" and "))]
+    /// polynomial, have no short exact form.
+    #[error("the rates at which {} decay together have no short exact form", waves.join(" and "))]
     Rates {
         waves: Vec<String>,
         /// The characteristic polynomial, highest power first.

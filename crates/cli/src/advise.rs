@@ -7,26 +7,37 @@ use super::input;
 use super::json::SCHEMA_VERSION;
 use super::output;
 use super::progress;
-use super::share::{percent, whole};
+use super::share::{percent, percent_above, whole};
 use super::table::Table;
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
+use std::ffi::OsStr;
+use std::path::Path;
 use std::time::Duration;
-use wavestep::ball::{Bound, Decimal};
+use wavestep::ball::{Bound, Decimal, in_decimals};
 use wavestep::language::Change;
 use wavestep::problem::{Advice, Need, Problem, Tried, Verdict, Wanted, number};
 
-/// Digits of times that are only shown.
+/// Digits of the ends of a window that are only shown.
 const DIGITS: usize = 3;
 
 pub fn run(options: &Advise) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;
-    let tolerance = number("--tol", &options.tol)?;
-    if tolerance <= BigRational::default() {
-        return Err(Failure::usage("the tolerance is not positive", "write --tol 1e-2"));
-    }
+    let tolerance = tolerance(&options.tol)?;
     if let Some(over) = &options.over {
         return enough::run(options, &problem, over, tolerance);
+    }
+    if let Some(symbol) = problem.symbols().first() {
+        let message = format!("the symbol `{symbol}` has no value");
+        let remedy = format!("set it: --set {symbol}=1; or map a range: --for {symbol}=1/2..2");
+        return Err(Failure::usage(message, remedy));
+    }
+    if options.output.as_deref().is_some_and(is_picture) {
+        let message = "only a map over a symbol is drawn; without --for, -o writes a scene";
+        return Err(Failure::usage(
+            message,
+            "map a range: --for mu=1/2..2; or write -o reduced.wave",
+        ));
     }
     let wanted = problem.wanted(quantity(options, &problem))?;
     let window = input::window(&problem, &options.from, options.to.as_deref())?;
@@ -44,6 +55,23 @@ pub fn run(options: &Advise) -> Result<String, Failure> {
         Format::Csv => Table::of(&told.json()).csv(),
         _ => told.text(),
     })
+}
+
+/// A share of the largest value.
+fn tolerance(text: &str) -> Result<BigRational, Failure> {
+    let remedy = "write a share of the largest value: --tol 1e-2";
+    if text.trim_start().starts_with("abs:") {
+        return Err(Failure::usage("this tolerance cannot be absolute", remedy));
+    }
+    let tolerance = number("--tol", text)?;
+    match tolerance > BigRational::default() {
+        true => Ok(tolerance),
+        false => Err(Failure::usage("the tolerance is not positive", remedy)),
+    }
+}
+
+fn is_picture(path: &Path) -> bool {
+    ["svg", "pdf", "png"].map(OsStr::new).contains(&path.extension().unwrap_or_default())
 }
 
 /// Bounds in decimals that hold.
@@ -74,14 +102,15 @@ impl Told<'_> {
         }
     }
 
-    fn time(&self, time: &BigRational) -> String {
-        let second = if self.problem.has_units() { " s" } else { "" };
-        format!("{}{second}", Decimal::from_rational(time, DIGITS).0)
+    fn unit(&self) -> &str {
+        if self.problem.has_units() { " s" } else { "" }
     }
 
     fn window(&self) -> String {
         let [from, to] = self.need.window.map(|time| match self.problem.has_units() {
-            true if time.denom().bits() > 64 => self.time(time),
+            true if time.denom().bits() > 64 => {
+                format!("{}{}", Decimal::from_rational(time, DIGITS).0, self.unit())
+            }
             _ => self.problem.told_time(time),
         });
         format!("{from} <= t <= {to}")
@@ -92,8 +121,8 @@ impl Told<'_> {
             Verdict::Enough([_, most]) => percent(most, Bound::Upper)
                 .map_or("less than 1e-13 %".to_owned(), |most| format!("at most {most}")),
             Verdict::Misses { by, at } => {
-                let by = percent(by, Bound::Lower).unwrap_or_default();
-                format!("{by} at t = {}", self.time(at))
+                let by = percent_above(by, &self.need.tolerance);
+                format!("{by} at t = {}{}", in_decimals(at), self.unit())
             }
             Verdict::Unproven(why) => format!("not proven: {why}"),
             Verdict::Unsuited(why) => format!("not applicable: {why}"),

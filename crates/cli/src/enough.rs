@@ -110,6 +110,8 @@ impl Told<'_> {
                 "untried_from": untried_from.map(number),
             })
         };
+        let unsuited =
+            |(place, why): &(usize, String)| json!({ "what": self.name(*place), "why": why });
         let range = |(run, all): (&Run<Option<usize>>, &Vec<(usize, Unproven)>)| {
             json!({
                 "from": number(&run.between[0]),
@@ -130,6 +132,7 @@ impl Told<'_> {
             "to": to,
             "tolerance": self.asked.tolerance.to_string(),
             "values": self.map.columns.iter().map(value).collect::<Vec<_>>(),
+            "unsuited": self.map.unsuited.iter().map(unsuited).collect::<Vec<_>>(),
             "ranges": self.map.runs.iter().zip(&self.map.open).map(range).collect::<Vec<_>>(),
         })
     }
@@ -158,6 +161,10 @@ impl Told<'_> {
             let cells = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:<width$}"));
             text += cells.collect::<Vec<_>>().join("  ").trim_end();
             text.push('\n');
+        }
+        // Of the usual models many do not suit; of those that were named a reader expects to hear.
+        for (place, why) in self.map.unsuited.iter().filter(|_| !self.options.models.is_empty()) {
+            text += &format!("\n{}: not applicable: {why}\n", self.name(*place));
         }
         text += &format!("\nThe simplest model within {}:\n\n", whole(&self.asked.tolerance));
         for (Run { between: [from, to], state: first }, open) in

@@ -9,18 +9,32 @@ const NOTHING: u64 = 1_000_000_000_000_000;
 /// Digits of a share.
 const DIGITS: usize = 3;
 
+/// The most digits of a share that is hardly above a tolerance.
+const MOST_DIGITS: usize = 17;
+
 /// A bound of a share in per cent; none where it is less than 1e-13 %.
 pub fn percent(value: &BigRational, bound: Bound) -> Option<String> {
     if *value < BigRational::new(1.into(), NOTHING.into()) {
         return None;
     }
-    let hundredth = BigRational::from_integer(100.into());
-    Some(format!("{} %", Decimal::bound(&(value * hundredth), DIGITS, bound)))
+    Some(format!("{} %", Decimal::bound(&in_percent(value), DIGITS, bound)))
+}
+
+/// A lower bound of a share above a tolerance, in per cent, with as many digits as show that it is above.
+pub fn percent_above(value: &BigRational, tolerance: &BigRational) -> String {
+    let [value, tolerance] = [value, tolerance].map(in_percent);
+    let bounds = (DIGITS..MOST_DIGITS).map(|digits| Decimal::bound(&value, digits, Bound::Lower));
+    let above = bounds.into_iter().find(|bound| bound.to_rational() > tolerance);
+    let told = above.unwrap_or_else(|| Decimal::bound(&value, MOST_DIGITS, Bound::Lower));
+    format!("{told} %")
+}
+
+fn in_percent(share: &BigRational) -> BigRational {
+    share * BigRational::from_integer(100.into())
 }
 
 /// A tolerance as it is: in per cent, or as a fraction.
 pub fn whole(tolerance: &BigRational) -> String {
-    let percent = tolerance * BigRational::from_integer(100.into());
-    let decimals = in_decimals(&percent);
+    let decimals = in_decimals(&in_percent(tolerance));
     if decimals.contains('/') { tolerance.to_string() } else { format!("{decimals} %") }
 }

@@ -1,6 +1,6 @@
 //! The echoes of a network that arrive until a time, on a lattice of delays, and what they are in a field.
 
-use crate::ball::ComplexBall;
+use crate::ball::{Ball, ComplexBall};
 use crate::enclosure::{EnclosureError, Numbers};
 use crate::expression::{Field, Fraction, Transform};
 use crate::limits::MAX_ECHOES;
@@ -8,6 +8,7 @@ use crate::network::{Network, Unfolded};
 use crate::recurrence::{Recurrence, WaveIndex};
 use crate::signal::closed::memory::Memory;
 use crate::signal::error::EvaluateError;
+use crate::signal::signal::{Limit, has_begun};
 use crate::solution::{Demand, EchoByEcho};
 use num_traits::{One, Signed, ToPrimitive};
 use std::cmp::Ordering;
@@ -16,12 +17,17 @@ use wavestep_polynomial::Rational;
 /// The echoes of all waves, by wave and number.
 pub(crate) type Echoes<V = ComplexBall> = Vec<Vec<Transform<V>>>;
 
+/// Enough to tell most times from a delay.
+const NEAR_BITS: u64 = 64;
+
 /// When echoes arrive.
 pub(super) struct Arriving {
     /// The recurrence with lags on the lattice.
     pub unfolded: Unfolded,
     /// The echoes that can arrive by number, with their delays.
     pub arrivals: Vec<(usize, Fraction)>,
+    /// Enclosures of these delays.
+    near: Vec<Ball>,
     /// Until when they are known, in the scale of the scene.
     pub last: Fraction,
 }
@@ -59,8 +65,31 @@ impl Arriving {
             return Err(EvaluateError::MissingValue(symbol.clone()));
         }
         let delay = |k| (k, unfolded.delay(k).expect("within the bounds"));
-        let arrivals = unfolded.numbers().map(delay).collect();
-        Ok(Arriving { arrivals, last: last.clone(), unfolded })
+        let arrivals: Vec<(usize, Fraction)> = unfolded.numbers().map(delay).collect();
+        let near = arrivals.iter().map(|(_, delay)| numbers.enclose(delay, NEAR_BITS));
+        let near = near.collect::<Result<_, _>>()?;
+        Ok(Arriving { arrivals, near, last: last.clone(), unfolded })
+    }
+
+    /// The echoes that have arrived by a time, each with its delay.
+    pub fn begun(
+        &self,
+        numbers: &Numbers,
+        time: &Fraction,
+        side: Limit,
+    ) -> Result<Vec<&(usize, Fraction)>, EnclosureError> {
+        let near_time = numbers.enclose(time, NEAR_BITS)?;
+        let mut begun = Vec::new();
+        for (arrival, near) in self.arrivals.iter().zip(&self.near) {
+            let begins = match near.subtract(&near_time, NEAR_BITS).sign() {
+                Some(known) => known,
+                None => numbers.compare(&arrival.1, time)?,
+            };
+            if has_begun(begins, side) {
+                begun.push(arrival);
+            }
+        }
+        Ok(begun)
     }
 
     /// Adds an echo to those that are wanted, with all that it follows from.

@@ -162,12 +162,9 @@ impl<'a> SceneEchoes<'a> {
         let mut arrived = Vec::new();
         for seen in &observation.waves {
             let time = at - &seen.delay;
-            for (number, delay) in &self.arriving.arrivals {
-                let since = &time - delay;
-                if has_begun(self.numbers.compare(&Fraction::zero(), &since)?, side) {
-                    let (wave, coefficient) = (seen.wave, seen.coefficient.clone());
-                    arrived.push(Arrived { wave, number: *number, coefficient, since });
-                }
+            for (number, delay) in self.arriving.begun(&self.numbers, &time, side)? {
+                let (wave, coefficient) = (seen.wave, seen.coefficient.clone());
+                arrived.push(Arrived { wave, number: *number, coefficient, since: &time - delay });
             }
         }
         Ok(arrived)

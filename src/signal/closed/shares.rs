@@ -19,6 +19,7 @@ use crate::enclosure::Numbers;
 use crate::expression::{Field as _, Root, Transform};
 use crate::recurrence::{Observation, WaveIndex};
 use crate::signal::error::EvaluateError;
+use crate::signal::signal::Limit;
 use crate::solution::{Demand, FieldStep};
 use std::cell::Cell;
 use std::cmp::Ordering;
@@ -66,12 +67,10 @@ impl Shares {
             let gain = (!seen.slope).then_some(gain);
             let until = &arriving.last - &seen.delay;
             longest = longest.max(numbers.enclose(&until, BITS)?.magnitude());
-            for (number, delay) in &arriving.arrivals {
-                if numbers.compare(delay, &until)? != Ordering::Greater {
-                    arriving.want(&mut demand, seen.wave, *number);
-                    let nothing = Some(Magnitude::ZERO);
-                    add(gains.entry((seen.wave, *number)).or_insert(nothing), gain);
-                }
+            for (number, _) in arriving.begun(numbers, &until, Limit::Right)? {
+                arriving.want(&mut demand, seen.wave, *number);
+                let nothing = Some(Magnitude::ZERO);
+                add(gains.entry((seen.wave, *number)).or_insert(nothing), gain);
             }
         }
         let returns = |step| Returns::of(step, numbers, longest);

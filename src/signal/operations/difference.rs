@@ -21,7 +21,7 @@ use wavestep_polynomial::{Rational, Symbol};
 pub(crate) struct Difference<'a> {
     pub networks: [&'a Network; 2],
     pub scales: [Rc<Scale<'a>>; 2],
-    pub operands: [Box<dyn Signal + 'a>; 2],
+    pub operands: [Rc<dyn Signal + 'a>; 2],
     /// How many arrivals of the second operand count: after them it goes on as if no more came.
     pub arrivals: Option<usize>,
 }

@@ -22,7 +22,7 @@ pub struct Advise {
     #[arg(long, value_name = "NAME")]
     pub quantity: Option<String>,
     /// The tolerance, relative to the largest value
-    #[arg(long, value_name = "TOL", default_value = "1e-2")]
+    #[arg(long, value_name = "TOL", default_value = "1e-2", allow_hyphen_values = true)]
     pub tol: String,
     /// The first time of the window
     #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
