@@ -77,11 +77,10 @@ impl Decimal {
         if is_bound {
             return near;
         }
-        // Half a unit of the last digit is at most this part of the value.
+        // The nearest one is no more than half a unit of its last digit away.
         let ten = BigRational::from_integer(10.into());
-        let part =
-            value.abs() * ten.pow(1 - significant as i32) / BigRational::from_integer(2.into());
-        Self::from_rational(&(value + part * side), significant).0
+        let unit = ten.pow(near.exponent as i32 + 1 - significant as i32);
+        Self::from_rational(&(told + unit * side), significant).0
     }
 
     /// The number `value·10^place` with the digits of `value`.

@@ -6,8 +6,9 @@ use wavestep::history::{Body, ContactSummary, Ending, Event, EventKind, History}
 use wavestep::problem::Problem;
 use wavestep::scene::{Dimension, Joint};
 use wavestep::signal::{Place, Value};
+use wavestep_polynomial::Rational;
 
-/// Digits of the ends of an interval somewhere in which an extremum may be.
+/// The fewest digits of the ends of an interval somewhere in which an extremum may be.
 const PLACE_DIGITS: usize = 6;
 
 /// Tells what was found in a problem, in so many significant digits.
@@ -134,6 +135,17 @@ impl Teller<'_> {
         }
     }
 
+    /// The ends of an interval, rounded outwards, with as many digits as show about how wide it is.
+    fn ends(&self, from: &Rational, to: &Rational) -> [Decimal; 2] {
+        let ends = |digits| {
+            [Decimal::bound(from, digits, Bound::Lower), Decimal::bound(to, digits, Bound::Upper)]
+        };
+        let twice = (to - from) * Rational::from_integer(2.into());
+        let shows = |[from, to]: &[Decimal; 2]| to.to_rational() - from.to_rational() <= twice;
+        let last = self.digits.max(PLACE_DIGITS);
+        (PLACE_DIGITS..last).map(ends).find(shows).unwrap_or_else(|| ends(last))
+    }
+
     /// A place at which an extremum is taken.
     pub fn place(&self, place: &Place) -> String {
         match place {
@@ -152,8 +164,7 @@ impl Teller<'_> {
                 format!("for {} <= t {relation} {} (constant)", self.time(from), self.time(to))
             }
             Place::Undecided { from, to } => {
-                let bound = |time, side| Decimal::bound(time, PLACE_DIGITS, side).to_string();
-                let (from, to) = (bound(from, Bound::Lower), bound(to, Bound::Upper));
+                let [from, to] = self.ends(from, to);
                 let second = if self.problem.has_units() { " s" } else { "" };
                 format!("somewhere in {from}{second} <= t <= {to}{second} (undecided)")
             }

@@ -13,8 +13,8 @@
 use crate::ball::{Attempt, Ball, Binary, Precisions, Value};
 use crate::limits::{MAX_ROOTS, counted};
 use crate::signal::error::EvaluateError;
-use crate::signal::find::cover::{Finding, Record, middle_and_half};
-use crate::signal::find::refine::Isolated;
+use crate::signal::find::cover::{Cell, Finding, Record, middle_and_half};
+use crate::signal::find::refine::{Isolated, power_of_half};
 use crate::signal::find::search::{Search, Target, rationals};
 use crate::signal::signal::{At, Limit};
 use std::cell::RefCell;
@@ -28,6 +28,10 @@ fn comparisons() -> Precisions {
 
 /// Bits of balls beyond those of a value.
 const SPARE_BITS: u64 = 64;
+
+/// How near an end of a cell a change of sign is looked for: at parts of it of which each is the square of the one
+/// before.
+const NEAREST: usize = 9;
 
 /// Bits of the least size of interest, which is rounded down.
 const LEAST_BITS: u64 = 64;
@@ -289,26 +293,61 @@ impl<'s> Search<'s> {
         let concave = if record.negative { Ordering::Greater } else { Ordering::Less };
         let cells = self.cover(stretch, target, Some(record))?;
         for (i, cell) in cells.iter().enumerate() {
+            let whole = || [cell.from.clone(), cell.to.clone()];
             let open = match cell.finding {
-                Finding::Clear(_) | Finding::Low => false,
-                Finding::Open => true,
-                Finding::Monotone(sign) if sign != concave => false,
+                Finding::Clear(_) | Finding::Low => None,
+                Finding::Open => Some(whole()),
+                Finding::Monotone(sign) if sign != concave => None,
                 Finding::Monotone(_) => match self.signs(stretch, target, &cells, i, None)? {
                     // Exactly flat at an end: the limit there is the extremum of the run.
                     [Some(first), Some(last)] => {
                         let root = Isolated::between(cell, stretch, [first, last]);
                         left.extend(root.map(Candidate::Critical));
-                        false
+                        None
                     }
-                    _ => true,
+                    [None, None] => Some(whole()),
+                    [first, last] => {
+                        let side = if first.is_none() { Limit::Right } else { Limit::Left };
+                        // The slope falls from above zero to below, or the other way round.
+                        let turns = [concave.reverse(), concave][usize::from(first.is_none())];
+                        match first.or(last) == Some(turns) {
+                            true => {
+                                Some(self.beside_an_end(stretch, target, cell, (side, turns))?)
+                            }
+                            false => None,
+                        }
+                    }
                 },
             };
-            if open {
-                let (from, to) = (cell.from.clone(), cell.to.clone());
+            if let Some([from, to]) = open {
                 left.push(Candidate::Open { stretch, from, to });
             }
         }
         Ok(())
+    }
+
+    /// What is left of a cell on which the slope is monotone and has a sign that is known but at one end: near that end alone
+    /// it may change.
+    fn beside_an_end(
+        &self,
+        stretch: usize,
+        target: Target<'_>,
+        cell: &Cell,
+        (side, sign): (Limit, Ordering),
+    ) -> Result<[Rational; 2], EvaluateError> {
+        let (mut open, width) = ([cell.from.clone(), cell.to.clone()], &cell.to - &cell.from);
+        for bits in std::iter::successors(Some(1), |bits| Some(2 * bits)).take(NEAREST) {
+            let apart = &width * power_of_half(bits);
+            let (place, at) = match side {
+                Limit::Right => (1, &cell.from + apart),
+                Limit::Left => (0, &cell.to - apart),
+            };
+            if self.sign(stretch, target, At::Time(&at))? != Some(sign) {
+                break;
+            }
+            open[place] = at;
+        }
+        Ok(open)
     }
 }
 
