@@ -3,6 +3,7 @@
 //! Rounding is to nearest, ties to the even last digit. It is monotone, so a ball rounds one way
 //! only if both of its ends do.
 
+use std::cmp::Ordering;
 use std::fmt;
 
 use num_bigint::BigInt;
@@ -71,16 +72,21 @@ impl Decimal {
         let near = Self::from_rational(value, significant).0;
         let told = near.to_rational();
         let (is_bound, side) = match bound {
-            Bound::Upper => (told >= *value, BigRational::one()),
-            Bound::Lower => (told <= *value, -BigRational::one()),
+            Bound::Upper => (told >= *value, 1),
+            Bound::Lower => (told <= *value, -1),
         };
         if is_bound {
             return near;
         }
-        // The nearest one is no more than half a unit of its last digit away.
-        let ten = BigRational::from_integer(10.into());
-        let unit = ten.pow(near.exponent as i32 + 1 - significant as i32);
-        Self::from_rational(&(told + unit * side), significant).0
+        // The one beside it, which has more digits, or fewer, at a power of ten.
+        let place = near.exponent + 1 - near.digits.len() as i64;
+        let nearest: BigInt = near.digits.parse().expect("digits");
+        let signed = if near.negative { -nearest } else { nearest };
+        let beside = Self::from_scaled(&(signed + side), place);
+        match beside.digits.len().cmp(&near.digits.len()) {
+            Ordering::Equal => beside,
+            _ => Self::from_rational(&beside.to_rational(), significant).0,
+        }
     }
 
     /// The number `value·10^place` with the digits of `value`.

@@ -158,7 +158,7 @@ pub(crate) fn difference<'a>(
     let (scale, unit) = (Rc::clone(&scales[0]), Root::from(Fraction::one()));
     Box::new(Operation::new(
         &scale,
-        Difference { networks, scales, operands, arrivals },
+        Difference { networks, scales, operands, arrivals, from: window[0].clone() },
         unit,
         window,
     ))

@@ -164,8 +164,6 @@ impl Problem {
         let samples = samples?;
         let each = begun.elapsed() / samples.len() as u32;
         let work = self.work(signal.count()?);
-        let arrivals =
-            (0..signal.count()?).filter(|stretch| !signal.is_instant(*stretch)).count() - 1;
         let mut adviser = Adviser {
             comparison,
             tolerance: &need.tolerance,
@@ -177,6 +175,7 @@ impl Problem {
         adviser.whole();
         adviser.shares();
         adviser.reduced()?;
+        let arrivals = adviser.comparison.arrivals()?;
         if arrivals > 1 {
             adviser.counted(MAX_ARRIVALS.min(arrivals - 1), Simpler::Arrivals);
         }

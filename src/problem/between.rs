@@ -7,7 +7,7 @@ use super::enough_map::{MapRequest, middle};
 use super::largest::{Exact, scaled};
 use super::{Problem, ProblemError, Simpler};
 use crate::expression::{Fraction, Root};
-use crate::history::family::envelope::{Envelope, StepWindow};
+use crate::history::family::envelope::Envelope;
 use crate::history::family::grid::Grid;
 use crate::history::family::modes::SumOfModes;
 use crate::history::family::on_cell::OnCell;
@@ -252,12 +252,11 @@ impl Problem {
 
 impl Arrivals {
     /// Of the first `count` steps those at whose start something arrives, ascending; none where it may be others for some
-    /// value of the symbol: a wave is not seen at all, or the window begins before one of them or after it.
+    /// value of the symbol, since a wave is not seen at all.
     fn steps(
         &self,
         (over, step): (&Over<'_>, &Root),
         count: usize,
-        window: &StepWindow,
     ) -> Result<Option<Vec<usize>>, NotOverSymbol> {
         let period = over.whole_steps(&self.period, step)?;
         let count = i64::try_from(count).map_err(|_| NotOverSymbol::TooManySteps)?;
@@ -268,15 +267,11 @@ impl Arrivals {
             }
             let mut at = over.whole_steps(delay, step)?;
             while at < count {
-                steps.insert(at);
+                steps.extend(usize::try_from(at).ok().filter(|at| *at > 0));
                 at += period;
             }
         }
-        let [first, latest] = &window.from;
-        let is_after = |at: &i64, time: &Rational| Rational::from_integer((*at).into()) > *time;
-        steps.retain(|at| is_after(at, first));
-        let is_certain = steps.iter().all(|at| is_after(at, latest));
-        Ok(is_certain.then(|| steps.into_iter().map(|at| at as usize).collect()))
+        Ok(Some(steps.into_iter().collect()))
     }
 
     /// How far the scene is from the function of its first arrivals; none where these may be others for some value of the
@@ -287,7 +282,7 @@ impl Arrivals {
         exact: &mut Exact,
     ) -> Result<Option<Envelope>, NotOverSymbol> {
         let grid = &exact.followed.grid;
-        let steps = self.steps((own, &grid.step), exact.observed.len(), &exact.window)?;
+        let steps = self.steps((own, &grid.step), exact.observed.len())?;
         let Some(steps) = steps else { return Ok(None) };
         // From a cell on both differ.
         let (first, off) = match steps[self.count.saturating_sub(1).min(steps.len())..] {

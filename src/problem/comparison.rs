@@ -59,14 +59,24 @@ impl<'p> Comparison<'p> {
             let own = Rc::clone(&self.signal);
             return problem.difference_from(own, other.into(), wanted, *window, PURPOSE);
         };
-        let closed = match self.closed.get() {
-            Some(known) => known,
-            None => {
-                let found = problem.closed_on(wanted, *window)?;
-                self.closed.get_or_init(|| found)
-            }
-        };
-        problem.after_arrivals(Rc::clone(closed), *count, *window)
+        problem.after_arrivals(Rc::clone(self.closed()?), *count, *window)
+    }
+
+    /// The quantity as its arrivals tell it.
+    fn closed(&self) -> Result<&Rc<dyn Signal + 'p>, ProblemError> {
+        if self.closed.get().is_none() {
+            let found = self.problem.closed_until(self.wanted, self.window[1])?;
+            return Ok(self.closed.get_or_init(|| found));
+        }
+        Ok(self.closed.get().expect("it is known"))
+    }
+
+    /// How many arrivals there are from the start to the end of the window, where they can be counted; else how many
+    /// breaks on the window.
+    pub fn arrivals(&self) -> Result<usize, ProblemError> {
+        let signal = self.closed().unwrap_or(&self.signal);
+        let stretches = (0..signal.count()?).filter(|stretch| !signal.is_instant(*stretch));
+        Ok(stretches.count() - 1)
     }
 
     /// The largest difference of an answer over the largest value, between two bounds: near ones, or where the tolerance

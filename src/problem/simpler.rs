@@ -19,7 +19,7 @@ pub enum Simpler {
     Scene(Vec<Change>),
     /// So many modes of vibration.
     Modes(usize),
-    /// What so many arrivals in the window tell, as if no more came.
+    /// What the first so many arrivals tell, as if no more came.
     Arrivals(usize),
 }
 
@@ -244,7 +244,7 @@ impl Problem {
     ) -> Result<Box<dyn Signal + 'p>, ProblemError> {
         match other.into() {
             Against::Arrivals(count) => {
-                let own = self.closed_on(wanted, window)?;
+                let own = self.closed_until(wanted, window[1])?;
                 Ok(self.after_arrivals(own, count, window)?)
             }
             other => {
@@ -271,20 +271,20 @@ impl Problem {
         Ok(planner::difference(networks, [own, Rc::from(others)], None, window))
     }
 
-    /// A quantity as its arrivals tell it.
+    /// A quantity as its arrivals tell it, from the start on.
     ///
     /// # Errors
     /// [`EvaluateError::NoClosedForm`] where they are not told.
-    pub(super) fn closed_on<'p>(
+    pub(super) fn closed_until<'p>(
         &'p self,
         wanted: &Wanted,
-        window: [&Rational; 2],
+        to: &Rational,
     ) -> Result<Rc<dyn Signal + 'p>, ProblemError> {
         let purpose = Purpose::Stretches;
-        if planner::origin(self.network()?, window[1], purpose) == Origin::Followed {
+        if planner::origin(self.network()?, to, purpose) == Origin::Followed {
             return Err(EvaluateError::NoClosedForm.into());
         }
-        let signal = self.signal_on(wanted, window, purpose)?;
+        let signal = self.signal_on(wanted, [&Rational::default(), to], purpose)?;
         signal.closed_form()?;
         Ok(Rc::from(signal))
     }
@@ -339,7 +339,7 @@ impl Problem {
             let waves = if is_observed(self) { Vec::new() } else { other.waves() };
             let names = waves.into_iter().chain(other.observables()).map(str::to_owned);
             let (name, names) = (wanted.name.clone(), names.collect());
-            let is_changed = other.source.name() == self.source.name();
+            let is_changed = other.title() == self.title();
             return Err(match is_changed && is_observed(self) {
                 true => ProblemError::LeftOut { name, names },
                 false => ProblemError::UnknownThere { name, title: title(), names },

@@ -2,7 +2,7 @@
 
 use wavestep::planner::Purpose;
 use wavestep::signal::{Search, Signal};
-use wavestep::{Goal, Problem, Value};
+use wavestep::{Goal, Place, Problem, Value};
 use wavestep_polynomial::Rational;
 
 const ROD: &str = "scene \"A mass on a fixed rod\"\nsymbol mu > 0\nbar rod { impedance = 1, travel = 1 }\n\
@@ -107,4 +107,30 @@ fn what_has_no_difference_is_told() {
          line free - m - rod - fixed\nobserve v = velocity(m)",
     );
     assert!(told(with_units.unwrap()).contains("has another unit"));
+}
+
+/// Until the contact opens the difference is `−2 (t − 2) e^(2 − t)`, flat where it is largest: at 3, where a wave arrives.
+/// That its slope is zero there no ball tells, but how large it is at most.
+#[test]
+fn an_extremum_beside_a_flat_end_has_all_digits() {
+    let own = Problem::builtin("saint-venant").unwrap().with("mu", 1).unwrap();
+    let other = own.simpler(&"endless:rod.right".parse().unwrap()).unwrap();
+    let wanted = own.wanted("velocity").unwrap();
+    let (from, digits) = (Rational::default(), 30);
+    for to in [3, 4].map(|to| Rational::from_integer(to.into())) {
+        let signal = own.difference_on(&other, &wanted, [&from, &to], Purpose::Search).unwrap();
+        let found = Search::new(&*signal).unwrap().extremum(Goal::Smallest, digits, 1 << 12);
+        let found = found.unwrap();
+        assert_eq!(found.value.to_string(), "-0.735758882342884643191047540323"); // −2/e
+        let holds = |place: &Place| match place {
+            Place::Undecided { from, to } => {
+                let three = Rational::from_integer(3.into());
+                *from <= three
+                    && three <= *to
+                    && to - from < Rational::new(1.into(), 1_000_000_000_000_i64.into())
+            }
+            place => matches!(place, Place::Arrival { time, .. } if time.to_f64() == 3.0),
+        };
+        assert!(found.places.iter().all(holds), "{:?}", found.places);
+    }
 }

@@ -258,7 +258,10 @@ fn enclosures_over_a_symbol_hold_single_values() {
                 let over =
                     Over::new(other.scaled().unwrap(), quantity, (&symbol_of, ends.each_ref()));
                 let over = [over.unwrap()];
-                let grid = Over::grid(&[&over[0]]).unwrap();
+                // As where the two are compared: what has no waves has no steps of its own.
+                let whole =
+                    Over::new(problem.scaled().unwrap(), quantity, (&symbol_of, ends.each_ref()));
+                let grid = Over::grid(&[&whole.unwrap(), &over[0]]).unwrap();
                 let [_, last] = over[0].in_steps(&Fraction::constant(&to), &grid.step).unwrap();
                 let window = StepWindow { from: Default::default(), to: [last.clone(), last] };
                 let mut followed = match over[0].follow(&grid, &[], window.count()) {

@@ -3,7 +3,7 @@
 use num_traits::Signed as _;
 use wavestep::language::{Change, changed};
 use wavestep::planner::Purpose;
-use wavestep::problem::{Against, MapRequest, Need, Simpler, Size, Verdict};
+use wavestep::problem::{Against, MapRequest, Need, Other, ProblemError, Simpler, Size, Verdict};
 use wavestep::signal::{At, Limit, Search, value};
 use wavestep::{Method, Problem};
 use wavestep_polynomial::Rational;
@@ -201,6 +201,48 @@ fn changes_keep_what_the_author_wrote() {
     {
         assert!(wrong.parse::<Simpler>().is_err(), "{wrong}");
     }
+}
+
+/// A later window sees the same arrivals: where the largest difference of a longer one lies in it, it is the same.
+#[test]
+fn arrivals_are_counted_from_the_start() {
+    let rod = builtin("mass-on-fixed-bar", "1");
+    let (wanted, to) = (rod.wanted("velocity").unwrap(), rational(7, 1));
+    let size = |count: usize, from: i64| {
+        let window = [&rational(from, 1), &to];
+        let signal =
+            rod.difference_on(Against::Arrivals(count), &wanted, window, Purpose::Search).unwrap();
+        Size::of(&*signal, (9, 1 << 12), &Rational::default()).unwrap().bounds
+    };
+    // Waves arrive at 2, 4 and 6.
+    for (count, from) in [(1, 3), (1, 5), (2, 5), (2, 6)] {
+        let [[low, high], [less, more]] = [size(count, 0), size(count, from)];
+        assert!(less.is_positive() && low <= more && less <= high, "{count} from {from}");
+    }
+    assert_eq!(size(3, 5), [Rational::default(), Rational::default()]);
+}
+
+/// A rigid bar has no known force, and an endless one is no rigid body: what is left is still compared.
+#[test]
+fn rigid_bars_leave_what_they_can_tell() {
+    let rigid = "rigid".parse().unwrap();
+    let told = |problem: &Problem, name: &str| {
+        let (wanted, zero, one) =
+            (problem.wanted(name).unwrap(), Rational::default(), rational(1, 1));
+        let other = problem.simpler(&rigid).unwrap();
+        let signal = problem.difference_on(&other, &wanted, [&zero, &one], Purpose::Search)?;
+        Ok::<_, ProblemError>(Size::of(&*signal, (9, 1 << 12), &zero).unwrap().bounds)
+    };
+    let rod = builtin("struck-free-bar", "1/100");
+    let Other::Problem(model) = rod.simpler(&rigid).unwrap() else { panic!("a scene") };
+    assert_eq!(model.observables(), ["velocity", "far_velocity", "energy", "momentum"]);
+    // All the momentum in both: 1/(1 + mu), and 1 at the first instant.
+    assert_eq!(told(&rod, "velocity").unwrap(), [rational(1, 101), rational(1, 101)]);
+    let refused = told(&rod, "impact_force").unwrap_err();
+    assert!(matches!(&refused, ProblemError::LeftOut { name, .. } if name == "impact_force"));
+    // The first force is Z v of a rigid striker, and half of that with bars of one impedance.
+    let striker = Problem::builtin("stepped-striker").unwrap();
+    assert_eq!(told(&striker, "pulse").unwrap(), [rational(1, 2), rational(1, 2)]);
 }
 
 /// Proven distances hold those of samples, and are within 1e-6 of the largest of them.

@@ -16,14 +16,17 @@ use std::rc::Rc;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// # Invariants
-/// - both operands have the window of the difference, and values in one unit.
+/// - both operands have values in one unit, and the window of the difference; where arrivals are left out one that begins with
+///   the start.
 /// - where arrivals are left out, the function of each stretch of the second operand is known for all times after it.
 pub(crate) struct Difference<'a> {
     pub networks: [&'a Network; 2],
     pub scales: [Rc<Scale<'a>>; 2],
     pub operands: [Rc<dyn Signal + 'a>; 2],
-    /// How many arrivals of the second operand count: after them it goes on as if no more came.
+    /// How many arrivals of the second operand count, from the start on: after them it goes on as if no more came.
     pub arrivals: Option<usize>,
+    /// When the window begins.
+    pub from: Rational,
 }
 
 impl<'a> Difference<'a> {
@@ -75,7 +78,15 @@ impl<'a> Difference<'a> {
 
 impl Rule for Difference<'_> {
     fn ranges(&self) -> Outcome<Vec<Range<usize>>> {
-        Ok(vec![0..self.operands[0].count()?, 0..self.places()?])
+        let range = |operand: usize, end: usize| -> Outcome<Range<usize>> {
+            let own = &self.operands[operand];
+            let begun = match own.window()[0] < &self.from {
+                true => own.stretch_at(&self.from, Limit::Right)?.unwrap_or(0),
+                false => 0,
+            };
+            Ok(begun.min(end - 1)..end)
+        };
+        Ok(vec![range(0, self.operands[0].count()?)?, range(1, self.places()?)?])
     }
 
     /// Arrivals of two scenes may be one instant that no normal form shows.

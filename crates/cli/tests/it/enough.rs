@@ -364,6 +364,55 @@ fn distances_say_what_is_known_of_them() {
     assert_eq!(text, "velocity: largest difference from echoes:99 < 1e-15 of the largest value\n");
 }
 
+/// The time in the text is the whole time: the difference there is above the tolerance, and is shown to be.
+#[test]
+fn a_reader_can_try_a_witness() {
+    let scene = "mass-on-fixed-bar --set mu=1/10";
+    let (code, text, errors) =
+        run(anywhere(), &words(&format!("advise {scene} --quantity velocity --tol 1e-2 --to 1")));
+    assert_eq!((code, errors.as_str()), (0, ""));
+    let misses = text.lines().filter_map(|line| {
+        let (model, rest) = line.strip_prefix("  ")?.split_once(' ')?;
+        let (share, rest) = rest.trim_start().split_once(" % at t = ")?;
+        Some((model, share.parse::<f64>().unwrap(), rest.split_once(';')?.0))
+    });
+    let mut seen = 0;
+    for (model, share, time) in misses {
+        assert!(share > 1.0, "{text}");
+        let line = format!(
+            "find {scene} --distance velocity --minus {model} --from {time} --to 1 --format json"
+        );
+        let (_, told, _) = run(anywhere(), &words(&line));
+        let told: Value = serde_json::from_str(&told).unwrap();
+        let off = told["distances"][0]["distance"]["decimal"].as_str().unwrap();
+        // The largest value is 1.
+        assert!(off.parse::<f64>().unwrap() * 100.0 >= share, "{told}");
+        seen += 1;
+    }
+    assert!(seen >= 3, "{text}");
+}
+
+/// A model that was named and does not suit the scene is not passed over.
+#[test]
+fn a_map_tells_why_a_named_model_does_not_suit() {
+    let line = "advise mass-on-fixed-bar --for mu=1..2 --to 1 --points 2 --models rigid third";
+    let (code, text, errors) = run(anywhere(), &words(line));
+    assert_eq!((code, errors.as_str()), (0, ""));
+    assert!(text.contains("\nrigid: not applicable: this bar cannot move\n"), "{text}");
+    let (_, json, _) = run(anywhere(), &words(&format!("{line} --format json")));
+    let told: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(told["unsuited"], json!([{ "what": "rigid", "why": "this bar cannot move" }]));
+}
+
+/// Eight rates that are roots of one polynomial have a formula that nobody would read, and that takes minutes.
+#[test]
+fn a_formula_in_too_many_rates_is_refused() {
+    let line = "derive percussive-drill --quantity gauge --through 0 --model third";
+    let (code, text, errors) = run(anywhere(), &words(line));
+    assert!(code == 1 && text.is_empty(), "{code} {text}");
+    assert!(errors.contains("no short exact form"), "{errors}");
+}
+
 #[test]
 fn a_map_has_so_many_modes_at_most() {
     let line = "advise mass-on-fixed-bar --for mu=1..2 --models modes:99999999999";
@@ -377,6 +426,26 @@ fn what_cannot_be_weighed_is_told() {
     let scene = "mass-on-fixed-bar --set mu=1";
     for (line, reason, remedy) in [
         (format!("advise {scene} --tol 0"), "not positive", "1e-2"),
+        (format!("advise {scene} --tol -1e-2"), "not positive", "1e-2"),
+        (format!("advise {scene} --tol abs:1e-2"), "cannot be absolute", "share of the largest"),
+        (format!("advise {scene} --to 1 -o map.svg"), "only a map", "--for"),
+        ("advise saint-venant".to_owned(), "`mu` has no value", "--for mu="),
+        (
+            "advise mass-on-fixed-bar --for mu=1..2 --models modes:0".to_owned(),
+            "1 or larger",
+            "modes:1",
+        ),
+        (
+            format!("find {scene} --distance velocity --minus echoes:0 --to 1"),
+            "1 or larger",
+            "echoes:1",
+        ),
+        (
+            "find struck-free-bar --set mu=1 --distance impact_force --minus rigid --to 1"
+                .to_owned(),
+            "`impact_force` observes what is left out",
+            "velocity",
+        ),
         (format!("advise {scene} --tol x"), "x", "number"),
         (format!("advise {scene} --quantity velocty"), "velocty", "velocity"),
         (format!("advise {scene} --from 3 --to 2"), "is empty", ""),
