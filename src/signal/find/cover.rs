@@ -18,9 +18,10 @@
 //! extrema cells whose largest value is below one that is known to be taken are dropped
 //! ([`Finding::Low`]).
 
-use crate::ball::{Attempt, Ball, Binary, Magnitude, Precisions};
+use crate::ball::{Attempt, Ball, Magnitude, Precisions};
 use crate::limits::{MAX_EXPANSIONS, MAX_POLYNOMIALS, pause};
 use crate::signal::error::EvaluateError;
+use crate::signal::find::goal::Record;
 use crate::signal::find::search::{Search, Target};
 use crate::signal::signal::Limit;
 use crate::signal::taylor::Taylor;
@@ -77,38 +78,6 @@ pub(crate) struct Cell {
     pub finding: Finding,
 }
 
-/// The largest value that is known to be taken, of the observable or of its negative.
-pub(crate) struct Record {
-    pub negative: bool,
-    pub best: Option<Binary>,
-}
-
-impl Record {
-    /// Notes a value that is taken.
-    pub(crate) fn note(&mut self, value: &Ball) {
-        let (lower, _) = value.endpoints();
-        if self.best.as_ref().is_none_or(|best| *best < lower) {
-            self.best = Some(lower);
-        }
-    }
-
-    /// A value of the observable, or of its negative.
-    fn signed(&self, value: Ball) -> Ball {
-        if self.negative { value.negate() } else { value }
-    }
-
-    /// Whether all values of a sign are: of the observable itself, not of its negative.
-    pub(crate) fn beats_sign(&self, sign: Ordering) -> bool {
-        let below = if self.negative { Ordering::Greater } else { Ordering::Less };
-        sign == below && self.best.as_ref().is_some_and(|best| *best >= Binary::zero())
-    }
-
-    /// Whether all values of a ball are below it.
-    pub(crate) fn beats(&self, value: &Ball) -> bool {
-        self.best.as_ref().is_some_and(|best| value.endpoints().1 < *best)
-    }
-}
-
 /// Polynomials about the middle of a cell.
 struct Expansion {
     middle: Rational,
@@ -154,7 +123,7 @@ impl Search<'_> {
         if let Some(record) = record.as_deref() {
             let observable = Target { order: 0, ..target };
             let range = self.range(stretch, observable, (&from, &to), self.bits.get())?;
-            if record.beats(&record.signed(range)) {
+            if record.beats(&record.goal.raised(range)) {
                 return Ok(vec![Cell { from, to, finding: Finding::Low }]);
             }
         }
@@ -369,9 +338,9 @@ impl Cover<'_, '_, '_> {
             let order = self.target.order;
             let mut polynomials = vec![of(order)?, of(order + 1)?];
             if let Some(record) = &self.record {
-                let one = Ball::from_integer(&if record.negative { -1 } else { 1 }.into());
                 let observable = Target { order: 0, ..self.target };
                 let observable = search.expand(self.stretch, observable, place, TERMS, bits)?;
+                let one = record.goal.raised(Ball::from_integer(&1.into()));
                 polynomials.push(observable.scaled(&one, bits));
             }
             let own = &polynomials[0];

@@ -13,7 +13,8 @@
 use crate::ball::{Attempt, Ball, Binary, Precisions, Value};
 use crate::limits::{MAX_ROOTS, counted};
 use crate::signal::error::EvaluateError;
-use crate::signal::find::cover::{Cell, Finding, Record, middle_and_half};
+use crate::signal::find::cover::{Cell, Finding, middle_and_half};
+use crate::signal::find::goal::{Goal, Record};
 use crate::signal::find::refine::{Isolated, power_of_half};
 use crate::signal::find::search::{Search, Target, rationals};
 use crate::signal::signal::{At, Limit};
@@ -35,23 +36,6 @@ const NEAREST: usize = 9;
 
 /// Bits of the least size of interest, which is rounded down.
 const LEAST_BITS: u64 = 64;
-
-/// Which extremum.
-///
-/// ```
-/// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
-/// let strain = mass.signal("strain_fixed")?;
-/// let least = strain.extremum(wavestep::Goal::Smallest, 0..=5, 9)?;
-/// assert_eq!(least.value.to_string(), "-2.27067057"); // -2 - 2 exp(-2)
-/// # Ok::<(), wavestep::Error>(())
-/// ```
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Goal {
-    /// The supremum.
-    Largest,
-    /// The infimum.
-    Smallest,
-}
 
 /// Where an extremum is taken, or approached. Times are the user's.
 ///
@@ -247,8 +231,8 @@ impl<'s> Search<'s> {
         let limit_bits = self.most_bits(limit_bits);
         let least = least.map(|least| Ball::from_rational(least, LEAST_BITS).endpoints().0);
         self.work.set(0);
-        let (negative, zero) = (goal == Goal::Smallest, Rational::default());
-        let mut record = Record { negative, best: least.clone() };
+        let zero = Rational::default();
+        let mut record = Record { goal, best: least.clone() };
         let (mut left, mut moving) = (Vec::new(), Vec::new());
         let left_over = RefCell::default();
         let contenders = Contenders { search: self, goal, limit_bits, least, left: left_over };
@@ -290,7 +274,7 @@ impl<'s> Search<'s> {
         record: &mut Record,
         left: &mut Vec<Candidate>,
     ) -> Result<(), EvaluateError> {
-        let concave = if record.negative { Ordering::Greater } else { Ordering::Less };
+        let concave = record.goal.lesser();
         let cells = self.cover(stretch, target, Some(record))?;
         for (i, cell) in cells.iter().enumerate() {
             let whole = || [cell.from.clone(), cell.to.clone()];
@@ -352,15 +336,7 @@ impl<'s> Search<'s> {
 }
 
 impl Contenders<'_, '_> {
-    /// The observable, or its negative, so that the largest is sought.
-    fn signed(&self, value: Ball) -> Ball {
-        match self.goal {
-            Goal::Largest => value,
-            Goal::Smallest => value.negate(),
-        }
-    }
-
-    /// The value at a candidate, signed.
+    /// The value at a candidate, raised as the goal asks.
     fn value(&self, candidate: &mut Candidate, bits: u64) -> Result<Ball, EvaluateError> {
         let search = self.search;
         let working = (bits + SPARE_BITS).max(search.bits.get());
@@ -381,7 +357,7 @@ impl Contenders<'_, '_> {
                 search.range_of_small(*stretch, target, (from, to), working)?
             }
         };
-        Ok(self.signed(value))
+        Ok(self.goal.raised(value))
     }
 
     /// Whether a limit is beaten by the sign that is known of it.
@@ -401,7 +377,7 @@ impl Contenders<'_, '_> {
         let mut left = self.left.borrow_mut();
         if left.len() > 1 || self.least.is_some() {
             let values = self.values(&mut left, bits)?;
-            let mut record = Record { negative: false, best: self.least.clone() };
+            let mut record = Record { goal: self.goal, best: self.least.clone() };
             values.iter().for_each(|value| record.note(value));
             let mut values = values.iter();
             left.retain(|_| !record.beats(values.next().expect("one value each")));
@@ -413,12 +389,12 @@ impl Contenders<'_, '_> {
     fn enclose(&self, bits: u64) -> Result<Ball, EvaluateError> {
         let values = self.values(&mut self.left.borrow_mut(), bits)?;
         if let [only] = &values[..] {
-            return Ok(self.signed(only.clone()));
+            return Ok(self.goal.raised(only.clone()));
         }
         let larger = |(a, b): (Rational, Rational), (c, d)| (a.max(c), b.max(d));
         let bounds = values.iter().map(rationals).reduce(larger);
         let (lower, upper) = bounds.expect("a window has ends");
-        Ok(self.signed(Ball::between(&lower, &upper, bits + SPARE_BITS)))
+        Ok(self.goal.raised(Ball::between(&lower, &upper, bits + SPARE_BITS)))
     }
 
     /// The extremum where it is the same rational number at all places that are left.

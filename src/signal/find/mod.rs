@@ -16,6 +16,7 @@
 
 mod cover;
 mod extrema;
+mod goal;
 pub mod refine;
 mod roots;
 mod search;
@@ -23,6 +24,7 @@ mod size;
 mod square;
 
 pub(crate) use cover::middle_and_half;
-pub use extrema::{Extremum, Goal, Place};
+pub use extrema::{Extremum, Place};
+pub use goal::Goal;
 pub use roots::{Root, Roots};
 pub use search::Search;
