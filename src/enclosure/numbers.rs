@@ -28,6 +28,20 @@ impl Numbers {
         Numbers { constants: constants.to_vec(), known: RefCell::default() }
     }
 
+    /// The constants, in the order of their definitions.
+    pub fn constants(&self) -> &[Constant] {
+        &self.constants
+    }
+
+    /// Adds a constant with a name of its own, defined by those before it.
+    pub fn add(&mut self, constant: Constant) {
+        self.constants.push(constant);
+    }
+
+    pub fn into_constants(self) -> Vec<Constant> {
+        self.constants
+    }
+
     /// The value of a symbol with about so many bits; `None` where it has none.
     pub fn value(&self, symbol: &Symbol, bits: u64) -> Option<Ball> {
         let key = (symbol.clone(), bits);

@@ -60,9 +60,9 @@ pub(crate) fn uncouple(
         return Err(Stuck::Degenerate);
     }
     let polynomial = characteristic(&matrix);
-    let known = naming.constants.len();
+    let known = naming.numbers.constants().len();
     let rates = roots::of(&polynomial, naming);
-    let named = naming.constants.len() - known;
+    let named = naming.numbers.constants().len() - known;
     let rates = rates.filter(|_| size <= MANY_WAVES || named <= MOST_NAMED);
     let rates = rates.ok_or(Stuck::Roots(polynomial))?;
     let first = (0..size).find_map(|j| {

@@ -15,9 +15,8 @@ const GUESS_DIGITS: usize = 17;
 const STRETCHES: i64 = 64;
 
 /// The constants of a statement and those named since, with the assumptions on them.
-#[derive(Clone, Debug, Default)]
 pub(crate) struct Naming {
-    pub constants: Vec<Constant>,
+    pub numbers: Numbers,
     pub assumptions: Assumptions,
     /// Names that are taken besides those of symbols.
     taken: Vec<String>,
@@ -27,8 +26,8 @@ impl Naming {
     pub fn new(statement: &Statement) -> Naming {
         let times = [&statement.local, &statement.time].map(|symbol| symbol.name().to_owned());
         let taken = statement.waves.iter().cloned().chain(times).collect();
-        let (constants, assumptions) = (statement.constants.clone(), statement.assumptions.clone());
-        Naming { constants, assumptions, taken }
+        let numbers = Numbers::new(&statement.constants);
+        Naming { numbers, assumptions: statement.assumptions.clone(), taken }
     }
 
     /// `√square` as a named constant, times `i` where the square is negative; `None` where its sign
@@ -81,7 +80,7 @@ impl Naming {
     /// The parts `σ, ω` of a pair of complex zeros `σ ± iω` of a polynomial as named constants; `None`
     /// where there is no symbol-free one.
     pub fn complex_zero(&mut self, polynomial: &[Fraction]) -> Option<(Fraction, Fraction)> {
-        let numbers = Numbers::new(&self.constants);
+        let numbers = &self.numbers;
         let decimal = |c: &Fraction| {
             let ball = numbers.enclose(c, GUESS_BITS).ok()?;
             Some(ball.to_decimal(GUESS_DIGITS).midpoint().to_rational())
@@ -126,11 +125,11 @@ impl Naming {
     }
 
     fn sign(&self, value: &Fraction) -> Option<Ordering> {
-        Numbers::new(&self.constants).compare(value, &Fraction::zero()).ok()
+        self.numbers.compare(value, &Fraction::zero()).ok()
     }
 
     fn name(&mut self, name: &str, value: Definition, relation: Relation) -> Symbol {
-        if let Some(known) = self.constants.iter().find(|constant| constant.value == value) {
+        if let Some(known) = self.numbers.constants().iter().find(|known| known.value == value) {
             return known.symbol.clone();
         }
         let taken = |name: &str| {
@@ -143,8 +142,8 @@ impl Naming {
         let symbol = Symbol::new(&free).expect("a name with letters in front");
         let condition = Condition { relation, bound: Rational::default() };
         self.assumptions.declare_symbol(symbol.clone(), Some(condition));
-        self.constants.push(Constant { symbol: symbol.clone(), value });
-        if let Some((lower, upper)) = Numbers::new(&self.constants).bounds(&symbol) {
+        self.numbers.add(Constant { symbol: symbol.clone(), value });
+        if let Some((lower, upper)) = self.numbers.bounds(&symbol) {
             self.assumptions.declare_bounds(symbol.clone(), lower, upper);
         }
         symbol

@@ -48,7 +48,8 @@ impl Recurrence {
             return Err(InvalidRecurrence { clause: Clause::Equation(0), fault });
         }
         let Ordered { steps, hidden, naming, coupled } = ordering::order(&statement)?;
-        (statement.constants, statement.assumptions) = (naming.constants, naming.assumptions);
+        (statement.constants, statement.assumptions) =
+            (naming.numbers.into_constants(), naming.assumptions);
         let growth = Growth::of(&statement, &steps);
         Ok(Recurrence { statement, steps, hidden, coupled, growth })
     }
