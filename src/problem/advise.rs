@@ -37,7 +37,7 @@ const PARTS: i64 = 20;
 const HALVINGS: u32 = 5;
 
 /// A share is looked for where the best of these is off by less than so many times the tolerance.
-const HOPELESS: i64 = 4;
+const HOPELESS: i64 = 2;
 
 /// What is asked.
 pub struct Need<'a> {
