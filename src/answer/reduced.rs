@@ -1,10 +1,10 @@
-//! A scene whose bars are all rigid, or all springs with a share of their mass: it moves without waves.
+//! A scene whose bars of finite length are all rigid, or all springs with a share of their mass: no wave returns in it.
 
 use crate::answer::way::WayError;
 use crate::model::{ModelError, NotRepresented};
 use crate::network::{Network, NetworkError, ScaledScene};
 use crate::planner::{self, Purpose, SignalError};
-use crate::scene::{Fault, Ideal, Kind, Part, Scene};
+use crate::scene::{Element, Fault, Ideal, Kind, Part, Scene};
 use crate::signal::{Compiled, Table};
 use wavestep_polynomial::Rational;
 
@@ -20,12 +20,15 @@ pub enum NotReduced {
     Signal(#[from] SignalError),
 }
 
-/// The scene with contacts that stay closed, this in the place of each bar, and one of its observables.
+/// The scene with contacts that stay closed, this in the place of each bar of finite length, and one of its observables.
 fn network(scaled: &ScaledScene, observable: usize, ideal: &Ideal) -> Result<Network, NotReduced> {
     let mut scene = Scene { contacts_open: false, ..scaled.scene().clone() };
     let name = |element: usize| scaled.scene().elements[element].name.clone();
     scene.observables = vec![scene.observables.swap_remove(observable)];
-    for element in &mut scene.elements {
+    let is_finite = |own: &Element| matches!(&own.kind, Kind::Bar(bar) if !bar.is_endless());
+    // That there is none is a fault.
+    let is_any = scene.elements.iter().any(is_finite);
+    for element in scene.elements.iter_mut().filter(|own| is_finite(own) || !is_any) {
         if let Kind::Bar(bar) = &mut element.kind {
             bar.ideal = Some(ideal.clone());
         }

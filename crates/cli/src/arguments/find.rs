@@ -34,7 +34,7 @@ pub struct Find {
     /// The largest difference from --minus, also relative to the largest value; without a name, for all observables
     #[arg(long, value_name = "QUANTITY", requires = "minus", num_args = 0..=1, default_missing_value = "")]
     pub distance: Option<String>,
-    /// Subtract the same quantity in another scene, or in this scene simplified: `rigid` (all bars are rigid),
+    /// Subtract the same quantity in another scene, or in this scene simplified: `rigid` (finite bars are rigid),
     /// `third` (bars are springs with a third of their mass), `rigid:BAR`, `spring:BAR`, `without:ELEMENT`,
     /// `endless:BAR.right`, `closed` (contacts stay closed), several of these joined by `+`; `modes:N`, `echoes:N`
     #[arg(long, value_name = "WHAT", conflicts_with = "equal")]
