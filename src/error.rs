@@ -316,9 +316,10 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
         ProblemError::WaveOfClosedContacts(_) => "choose an observable, or remove `contacts open`",
         ProblemError::Equations(_) => DESCRIBE,
         ProblemError::Change(ChangeError::NotABar(_)) => "name a bar of the line",
+        ProblemError::NoArrivals(_) => "choose another quantity, or another model",
         ProblemError::Change(ChangeError::Nothing(_)) => "write `modes:1`, or `echoes:1`",
         ProblemError::Change(_) => "choose another simplification",
-        ProblemError::AllZero(_) => "use a longer window",
+        ProblemError::AllZero(_) => "use a longer window, or another quantity",
         ProblemError::SymbolRange(_) => {
             "write it as mu=1/10..10; the first value must be positive and smaller than the last"
         }

@@ -51,6 +51,8 @@ pub enum ChangeError {
     Ideal(String),
     #[error("there is no bar in this scene")]
     NoBar,
+    #[error("there is no bar of finite length in this scene")]
+    NoFiniteBar,
     #[error("the bar `{0}` is already endless")]
     Endless(String),
     #[error("contacts stay closed in this scene")]
@@ -166,7 +168,10 @@ impl<'a> Edits<'a> {
                 let statements = self.tree.statements.iter();
                 let spans = statements.filter(|own| open(&own.value)).map(|own| own.span);
                 let spans: Vec<Span> = spans.collect();
-                if spans.is_empty() {
+                let touches = |(line, _): (&Line, Span)| {
+                    line.joints.iter().any(|own| own.value == Joint::Contact)
+                };
+                if spans.is_empty() || !self.line().is_some_and(touches) {
                     return Err(ChangeError::NoContacts);
                 }
                 spans.into_iter().for_each(|span| self.remove(span));
@@ -208,31 +213,34 @@ impl<'a> Edits<'a> {
         })
     }
 
+    /// The bars of finite length that are neither rigid nor springs; all of finite length where none is left.
+    fn bars_with_waves(&self) -> Result<Vec<&'a Declaration>, ChangeError> {
+        let statements = self.tree.statements.iter();
+        let bars = statements.filter_map(|own| match &own.value {
+            SceneStatementKind::Declaration(own) if own.kind == Declared::Bar => Some(own),
+            _ => None,
+        });
+        let bars: Vec<&Declaration> = bars.collect();
+        let finite = bars.iter().copied().filter(|bar| has_property(bar, &LENGTHS));
+        let finite: Vec<&Declaration> = finite.collect();
+        let left = finite.iter().copied().filter(|bar| !has_property(bar, &["as"]));
+        let left: Vec<&Declaration> = left.collect();
+        match (bars.is_empty(), finite.is_empty(), left.is_empty()) {
+            (true, ..) => Err(ChangeError::NoBar),
+            (_, true, _) => Err(ChangeError::NoFiniteBar),
+            (.., true) => Ok(finite),
+            _ => Ok(left),
+        }
+    }
+
     /// Gives a bar, or each bar of finite length, the property `as`; the names of these bars.
     fn idealise(&mut self, name: Option<&str>, ideal: &str) -> Result<Vec<&'a str>, ChangeError> {
-        let has = |bar: &Declaration, names: &[&str]| {
-            bar.properties.iter().any(|own| names.contains(&&*own.name.value))
-        };
         let bars: Vec<&Declaration> = match name {
-            Some(name) => {
-                vec![self.bar(name)?]
-            }
-            None => {
-                let declarations = self.tree.statements.iter().filter_map(|own| match &own.value {
-                    SceneStatementKind::Declaration(own) if own.kind == Declared::Bar => Some(own),
-                    _ => None,
-                });
-                let bars: Vec<&Declaration> = declarations.collect();
-                let finite = bars.iter().copied().filter(|bar| has(bar, &LENGTHS));
-                let finite: Vec<&Declaration> = finite.collect();
-                if finite.is_empty() { bars } else { finite }
-            }
+            Some(name) => vec![self.bar(name)?],
+            None => self.bars_with_waves()?,
         };
-        if let Some(bar) = bars.iter().find(|bar| has(bar, &["as"])) {
+        if let Some(bar) = bars.iter().find(|bar| has_property(bar, &["as"])) {
             return Err(ChangeError::Ideal(bar.name.value.clone()));
-        }
-        if bars.is_empty() {
-            return Err(ChangeError::NoBar);
         }
         for bar in &bars {
             let Some(last) = bar.properties.last() else { continue };
@@ -346,6 +354,10 @@ impl<'a> Edits<'a> {
         }
         text
     }
+}
+
+fn has_property(bar: &Declaration, names: &[&str]) -> bool {
+    bar.properties.iter().any(|own| names.contains(&&*own.name.value))
 }
 
 /// A line as it is written anew.

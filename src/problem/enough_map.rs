@@ -192,8 +192,8 @@ pub struct EnoughMap {
 }
 
 impl EnoughMap {
-    /// The answers that are the first that is enough for some tolerance below the whole, at one value at least, or for the
-    /// given tolerance on some run.
+    /// The answers that are the first that is enough for some tolerance below the whole, at one value at least, and those of
+    /// which a run says something.
     pub fn useful(&self) -> Vec<usize> {
         let most = |own: &Option<[Rational; 2]>| own.as_ref().map(|[_, most]| most.clone());
         let is_first = |place: usize, off: &[Option<[Rational; 2]>]| {
@@ -204,6 +204,7 @@ impl EnoughMap {
         let is_useful = |place: &usize| {
             self.columns.iter().any(|column| is_first(*place, &column.off))
                 || self.runs.iter().any(|run| run.state == Some(*place))
+                || self.open.iter().flatten().any(|(own, _)| own == place)
         };
         (0..self.simpler.len()).filter(is_useful).collect()
     }
@@ -235,7 +236,10 @@ impl Problem {
         let mut off_at = |value: &Rational| {
             if !known.contains_key(value) {
                 tell(value);
-                let off = self.substituted(&range.symbol, value)?.shares(asked, &simpler)?;
+                let off = match self.substituted(&range.symbol, value) {
+                    Err(error) if error.is_at_rest() => None,
+                    own => own?.shares(asked, &simpler)?,
+                };
                 is_zero.set(is_zero.get() && off.is_none());
                 let off = off.unwrap_or_else(|| vec![None; simpler.len()]);
                 known.insert(value.clone(), off);
@@ -279,9 +283,11 @@ impl Problem {
         let suits = |place: usize| columns.iter().any(|column| column.off[place].is_some());
         let unsuited = (0..simpler.len()).filter(|place| !suits(*place));
         let unsuited = unsuited.filter_map(|place| {
-            let at_first = self.substituted(&range.symbol, &columns[0].value);
-            let error = at_first.and_then(|own| own.share_of(asked, &simpler[place])).err()?;
-            Some((place, first_line(&error)))
+            let told = |column: &Column| {
+                let own = self.substituted(&range.symbol, &column.value).ok()?;
+                own.share_of(asked, &simpler[place]).err()
+            };
+            Some((place, first_line(&columns.iter().find_map(told)?)))
         });
         let unsuited = unsuited.collect();
         Ok(EnoughMap { simpler, columns, runs, open, unsuited })

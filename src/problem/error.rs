@@ -10,7 +10,7 @@ use crate::lock::LockError;
 use crate::model::{ModelError, equivalent_stiffness};
 use crate::network::{NetworkError, ScaledScene};
 use crate::planner::SignalError;
-use crate::scene::Dimension;
+use crate::scene::{Dimension, Mistake};
 use crate::signal::{EvaluateError, MethodError};
 use crate::solution::SolveError;
 use std::cmp::Ordering;
@@ -46,6 +46,10 @@ pub enum ProblemError {
     WaveOfClosedContacts(String),
     #[error("`{name}` is neither a wave nor an observable of \"{title}\"")]
     UnknownThere { name: String, title: String, names: Vec<String> },
+    #[error(
+        "the echoes of `{0}` cannot be counted: it is an energy, contacts open, or there is a local contact"
+    )]
+    NoArrivals(String),
     #[error("`{name}` observes what is left out")]
     LeftOut { name: String, names: Vec<String> },
     #[error("`{name}` has another unit in \"{title}\"")]
@@ -218,6 +222,12 @@ impl ProblemError {
     /// Whether the closed form of waves takes too much, so that a scene is better followed.
     pub(super) fn is_too_much_of_a_closed_form(&self) -> bool {
         matches!(self, ProblemError::Evaluate(error) if error.is_too_much())
+    }
+
+    /// Whether it is that nothing moves in the scene.
+    pub(super) fn is_at_rest(&self) -> bool {
+        let told = Mistake::NothingMoves.to_string();
+        matches!(self, ProblemError::Text(all) if all.iter().any(|own| own.message() == told))
     }
 
     /// What is said of a scene with a local contact by all that needs a recurrence.

@@ -35,7 +35,8 @@ impl Simpler {
             ["rigid", "third", "spring", "endless", "without", "closed", "modes", "echoes"];
         let end = text.find(':').unwrap_or(text.len());
         let (word, rest) = text.split_at(end);
-        let known = closest(word, WORDS)?;
+        // Where the word is right something else is wrong.
+        let known = closest(word, WORDS).filter(|known| *known != word)?;
         let corrected = [format!("{known}{rest}"), format!("{known}{rest}.right")];
         corrected.into_iter().find(|text| text.parse::<Simpler>().is_ok())
     }
@@ -274,19 +275,23 @@ impl Problem {
     /// A quantity as its arrivals tell it, from the start on.
     ///
     /// # Errors
-    /// [`EvaluateError::NoClosedForm`] where they are not told.
+    /// [`ProblemError::NoArrivals`] where they are not told.
     pub(super) fn closed_until<'p>(
         &'p self,
         wanted: &Wanted,
         to: &Rational,
     ) -> Result<Rc<dyn Signal + 'p>, ProblemError> {
-        let purpose = Purpose::Stretches;
+        let (purpose, untold) =
+            (Purpose::Stretches, || ProblemError::NoArrivals(wanted.name.clone()));
         if planner::origin(self.network()?, to, purpose) == Origin::Followed {
-            return Err(EvaluateError::NoClosedForm.into());
+            return Err(untold());
         }
         let signal = self.signal_on(wanted, [&Rational::default(), to], purpose)?;
-        signal.closed_form()?;
-        Ok(Rc::from(signal))
+        match signal.closed_form() {
+            Err(EvaluateError::NoClosedForm | EvaluateError::NotLinear) => Err(untold()),
+            Err(error) => Err(error.into()),
+            Ok(_) => Ok(Rc::from(signal)),
+        }
     }
 
     /// Such a quantity less what its first arrivals tell of it.
@@ -324,7 +329,7 @@ impl Problem {
                 let signal = planner::vibration(own, sum, window);
                 (own, signal.ok_or_else(|| self.unknown(&wanted.name))?)
             }
-            Against::Arrivals(_) => return Err(EvaluateError::NoClosedForm.into()),
+            Against::Arrivals(_) => return Err(ProblemError::NoArrivals(wanted.name.clone())),
         })
     }
 

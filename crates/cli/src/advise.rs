@@ -7,7 +7,7 @@ use super::input;
 use super::json::SCHEMA_VERSION;
 use super::output;
 use super::progress;
-use super::share::{percent, percent_above, whole};
+use super::share::{nothing, percent, percent_above, upper, whole};
 use super::table::Table;
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
@@ -118,8 +118,11 @@ impl Told<'_> {
 
     fn verdict(&self, verdict: &Verdict) -> String {
         match verdict {
-            Verdict::Enough([_, most]) => percent(most, Bound::Upper)
-                .map_or("less than 1e-13 %".to_owned(), |most| format!("at most {most}")),
+            Verdict::Enough([_, most]) => match percent(most, Bound::Upper) {
+                Some(most) => format!("at most {most}"),
+                None if self.need.tolerance < nothing() => format!("at most {}", upper(most)),
+                None => "less than 1e-13 %".to_owned(),
+            },
             Verdict::Misses { by, at } => {
                 let by = percent_above(by, &self.need.tolerance);
                 format!("{by} at t = {}{}", in_decimals(at), self.unit())

@@ -244,8 +244,8 @@ fn for_network(error: &NetworkError) -> Option<&'static str> {
             "use `derive --form echo` for echoes in order of arrival, or `eval` for values"
         }
         NetworkError::Rates { .. } => {
-            "give values with --set; or state the elements by their rates a and b, or sigma and \
-             omega, as docs/scene-language.md shows"
+            "compute values with `eval`, which works with any rates; or state the elements by their rates a \
+             and b, or sigma and omega, as docs/scene-language.md shows"
         }
         NetworkError::NotLinear(_) => {
             "compute values with `eval`: its methods certified, compiled and steps support such scenes"

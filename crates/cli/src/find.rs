@@ -11,7 +11,7 @@ use super::progress;
 use super::validity;
 use num_rational::BigRational;
 use wavestep::planner::Purpose;
-use wavestep::problem::Size;
+use wavestep::problem::{ProblemError, Size};
 use wavestep::signal::{Extremum, Goal, Place, Search, Value};
 
 pub fn run(options: &Find) -> Result<String, Failure> {
@@ -101,10 +101,19 @@ fn distances(
     // What is so much smaller than the quantity is no distance.
     let nothing = BigRational::new(1.into(), num_bigint::BigInt::from(1) << 100_u32);
     let mut rows = Vec::new();
-    for name in names {
-        let wanted = problem.wanted(name)?;
+    let last = names.last().copied();
+    for own in names {
+        let wanted = problem.wanted(own)?;
         let difference =
-            problem.difference_on(other, &wanted, window.each_ref(), Purpose::Search)?;
+            match problem.difference_on(other, &wanted, window.each_ref(), Purpose::Search) {
+                // Of all observables those are told that have it, if any does.
+                Err(ProblemError::NoArrivals(_))
+                    if name.is_empty() && !(rows.is_empty() && Some(own) == last) =>
+                {
+                    continue;
+                }
+                difference => difference?,
+            };
         let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?;
         let asked = (options.digits, options.max_bits);
         let size = Size::of(&*signal, asked, &Default::default())?;

@@ -14,10 +14,21 @@ const MOST_DIGITS: usize = 17;
 
 /// A bound of a share in per cent; none where it is less than 1e-13 %.
 pub fn percent(value: &BigRational, bound: Bound) -> Option<String> {
-    if *value < BigRational::new(1.into(), NOTHING.into()) {
-        return None;
-    }
-    Some(format!("{} %", Decimal::bound(&in_percent(value), DIGITS, bound)))
+    (*value >= nothing()).then(|| bounded(value, bound))
+}
+
+/// An upper bound of a share in per cent, however small it is.
+pub fn upper(value: &BigRational) -> String {
+    bounded(value, Bound::Upper)
+}
+
+/// Below this share nothing is told but that.
+pub fn nothing() -> BigRational {
+    BigRational::new(1.into(), NOTHING.into())
+}
+
+fn bounded(value: &BigRational, bound: Bound) -> String {
+    format!("{} %", Decimal::bound(&in_percent(value), DIGITS, bound))
 }
 
 /// A lower bound of a share above a tolerance, in per cent, with as many digits as show that it is above.

@@ -170,11 +170,6 @@ fn what_has_waves_or_cannot_move_is_refused() {
     let refused = [
         (
             Method::Rigid,
-            "bar e { impedance = 1 }\nline free - a - e - endless",
-            "`e`: an endless bar cannot be rigid or a spring",
-        ),
-        (
-            Method::Rigid,
             "bar s { impedance = 1, travel = 1, strain = 1 }\nline free - a - s - free",
             "`s`: a bar without waves has no strain at the start",
         ),
@@ -185,11 +180,6 @@ fn what_has_waves_or_cannot_move_is_refused() {
             "`X`: the force in a rigid bar is unknown",
         ),
         (Method::Third, "line fixed - a - fixed", "`a`: this bar cannot move"),
-        (
-            Method::Third,
-            "bar e { impedance = 1 }\nline free - a - e - endless",
-            "`e`: an endless bar cannot be rigid or a spring",
-        ),
     ];
     for (method, scene, told) in refused {
         let text = format!("scene \"A\"\n{BAR}{scene}\nobserve v = velocity(a.left)");
@@ -200,6 +190,28 @@ fn what_has_waves_or_cannot_move_is_refused() {
         let text = error.to_string();
         assert!(text.ends_with(&format!("does not support this scene: {told}")), "{text}");
     }
+}
+
+/// An endless bar stays one: a rigid bar of mass 1 is slowed down by its impedance 1, `v = e^(−t)`.
+#[test]
+fn endless_bars_stay_beside_rigid_ones() {
+    let bar = read(&format!(
+        "scene \"A\"\n{BAR}bar e {{ impedance = 1 }}\nline free - a - e - endless\n\
+         observe v = velocity(a.left)\nobserve F = force(e.left)"
+    ));
+    for name in ["v", "F"] {
+        let value = values(&bar, name, &[1.5], Method::Rigid)[0];
+        assert!((value - f64::exp(-1.5)).abs() < 1e-14, "{name}: {value}");
+    }
+    // As a spring it has half of its mass at each end.
+    let third = read(
+        "scene \"B\"\nmass l { mass = 1/2, velocity = 1 }\nspring k { stiffness = 1 }\n\
+         mass r { mass = 1/2, velocity = 1 }\nbar e { impedance = 1 }\n\
+         line free - l - k - r - e - endless\nobserve F = force(e.left)",
+    );
+    let exact = third.signal("F").unwrap().at("3/2", 15).unwrap().to_f64();
+    let value = values(&bar, "F", &[1.5], Method::Third)[0];
+    assert!((value - exact).abs() < 1e-13, "{value} {exact}");
 }
 
 /// What used to take one body takes several, and forces that vary.

@@ -303,6 +303,27 @@ fn distances_are_told_in_all_formats() {
     assert_eq!(told["distances"].as_array().unwrap().len(), 5);
 }
 
+/// Without a name all observables are told that have echoes; an energy has none.
+#[test]
+fn distances_from_first_echoes_leave_energies_out() {
+    let line = "find mass-on-fixed-bar --set mu=1/10 --distance --minus echoes:2 --to 1";
+    let (code, text, errors) = run(anywhere(), &words(line));
+    assert_eq!((code, errors.as_str()), (0, ""));
+    assert!(text.starts_with("velocity: ") && text.contains("\nstrain_fixed: "), "{text}");
+    assert!(!text.contains("energy"), "{text}");
+}
+
+/// A tolerance below what is usually told apart from nothing is met by what is shown.
+#[test]
+fn tiny_tolerances_are_met_by_what_is_shown() {
+    let line = "advise mass-on-fixed-bar --set mu=1 --to 1 --tol 1e-30";
+    let (code, text, errors) = run(anywhere(), &words(line));
+    assert_eq!((code, errors.as_str()), (0, ""));
+    let (_, told) = text.split_once("Enough: `endless:rod.right`, proven error at most ").unwrap();
+    let (share, _) = told.split_once(" %.").unwrap();
+    assert!(share.parse::<f64>().unwrap() <= 1e-28, "{text}");
+}
+
 #[test]
 fn formulas_of_a_model_stand_below_the_exact_ones() {
     let line = "derive mass-on-fixed-bar --quantity strain_fixed --through 0 --model third";
@@ -474,6 +495,22 @@ fn what_cannot_be_weighed_is_told() {
             "cannot move",
             "remove `as`",
         ),
+        (
+            "find striker-on-long-bar --set r=1 --distance --minus closed --to 1".to_owned(),
+            "contacts stay closed",
+            "",
+        ),
+        (
+            format!("find {scene} --distance energy --minus echoes:2 --to 1"),
+            "the echoes of `energy` cannot be counted",
+            "another quantity",
+        ),
+        (
+            format!("find {scene} --distance --minus endless:rod.right+rigid --to 1"),
+            "no bar of finite length",
+            "another",
+        ),
+        (format!("find {scene} --distance --minus rigid: --to 1"), "`rigid:`", "choose one of"),
         (format!("derive {scene} --model modes:3"), "no scene", "third"),
     ] {
         let (code, text, errors) = run(anywhere(), &words(&line));
