@@ -29,16 +29,16 @@ impl Simpler {
         `endless:BAR.right`, `endless:BAR.left`, `without:ELEMENT`, `closed`, several of these joined by `+`; \
         `modes:N`, `echoes:N`";
 
-    /// What a text may have meant whose first word is mistyped.
+    /// What a text may have meant whose first word is mistyped, or that names no end of a bar.
     pub(crate) fn corrected(text: &str) -> Option<String> {
         const WORDS: [&str; 8] =
             ["rigid", "third", "spring", "endless", "without", "closed", "modes", "echoes"];
         let end = text.find(':').unwrap_or(text.len());
         let (word, rest) = text.split_at(end);
-        // Where the word is right something else is wrong.
-        let known = closest(word, WORDS).filter(|known| *known != word)?;
-        let corrected = [format!("{known}{rest}"), format!("{known}{rest}.right")];
-        corrected.into_iter().find(|text| text.parse::<Simpler>().is_ok())
+        let known = closest(word, WORDS)?;
+        let side = if known == "endless" && !rest.contains('.') { ".right" } else { "" };
+        let corrected = format!("{known}{rest}{side}");
+        (corrected != text && corrected.parse::<Simpler>().is_ok()).then_some(corrected)
     }
 
     /// What it consists of, where it is no scene.
