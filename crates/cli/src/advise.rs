@@ -7,7 +7,7 @@ use super::input;
 use super::json::SCHEMA_VERSION;
 use super::output;
 use super::progress;
-use super::share::{nothing, percent, percent_above, upper, whole};
+use super::share::{at_most, percent_above, whole};
 use super::table::Table;
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
@@ -118,11 +118,7 @@ impl Told<'_> {
 
     fn verdict(&self, verdict: &Verdict) -> String {
         match verdict {
-            Verdict::Enough([_, most]) => match percent(most, Bound::Upper) {
-                Some(most) => format!("at most {most}"),
-                None if self.need.tolerance < nothing() => format!("at most {}", upper(most)),
-                None => "less than 1e-13 %".to_owned(),
-            },
+            Verdict::Enough([_, most]) => at_most(most, &self.need.tolerance),
             Verdict::Misses { by, at } => {
                 let by = percent_above(by, &self.need.tolerance);
                 format!("{by} at t = {}{}", in_decimals(at), self.unit())

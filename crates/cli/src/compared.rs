@@ -20,6 +20,16 @@ impl Compared {
             Compared::Simpler(_) => None,
         }
     }
+
+    /// Whether it tells an observable of a problem: echoes tell sums of waves alone.
+    pub fn tells(&self, of: &Problem, name: &str) -> bool {
+        match self {
+            Compared::Simpler(Other::Arrivals(_)) => {
+                of.wanted(name).is_ok_and(|wanted| wanted.observation().is_some())
+            }
+            other => other.problem().is_none_or(|own| own.observables().contains(&name)),
+        }
+    }
 }
 
 impl<'p> From<&'p Compared> for Against<'p> {

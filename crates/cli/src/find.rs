@@ -11,7 +11,7 @@ use super::progress;
 use super::validity;
 use num_rational::BigRational;
 use wavestep::planner::Purpose;
-use wavestep::problem::{ProblemError, Size};
+use wavestep::problem::Size;
 use wavestep::signal::{Extremum, Goal, Place, Search, Value};
 
 pub fn run(options: &Find) -> Result<String, Failure> {
@@ -92,28 +92,18 @@ fn distances(
     name: &str,
 ) -> Result<String, Failure> {
     let window = input::window(problem, &options.from, options.to.as_deref())?;
-    let is_there = |name: &&str| other.problem().is_none_or(|own| own.observables().contains(name));
     let names: Vec<&str> = match name {
-        "" => problem.observables().into_iter().filter(is_there).collect(),
+        "" => problem.observables().into_iter().filter(|own| other.tells(problem, own)).collect(),
         _ => vec![name],
     };
     let _progress = progress::spinner("searching");
     // What is so much smaller than the quantity is no distance.
     let nothing = BigRational::new(1.into(), num_bigint::BigInt::from(1) << 100_u32);
     let mut rows = Vec::new();
-    let last = names.last().copied();
-    for own in names {
-        let wanted = problem.wanted(own)?;
+    for name in names {
+        let wanted = problem.wanted(name)?;
         let difference =
-            match problem.difference_on(other, &wanted, window.each_ref(), Purpose::Search) {
-                // Of all observables those are told that have it, if any does.
-                Err(ProblemError::NoArrivals(_))
-                    if name.is_empty() && !(rows.is_empty() && Some(own) == last) =>
-                {
-                    continue;
-                }
-                difference => difference?,
-            };
+            problem.difference_on(other, &wanted, window.each_ref(), Purpose::Search)?;
         let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?;
         let asked = (options.digits, options.max_bits);
         let size = Size::of(&*signal, asked, &Default::default())?;

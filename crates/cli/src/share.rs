@@ -17,13 +17,16 @@ pub fn percent(value: &BigRational, bound: Bound) -> Option<String> {
     (*value >= nothing()).then(|| bounded(value, bound))
 }
 
-/// An upper bound of a share in per cent, however small it is.
-pub fn upper(value: &BigRational) -> String {
-    bounded(value, Bound::Upper)
+/// What a share is at most, in per cent, told so that it meets its tolerance.
+pub fn at_most(share: &BigRational, tolerance: &BigRational) -> String {
+    match *share >= nothing() || *tolerance < nothing() {
+        true => format!("at most {}", bounded(share, Bound::Upper)),
+        false => "less than 1e-13 %".to_owned(),
+    }
 }
 
 /// Below this share nothing is told but that.
-pub fn nothing() -> BigRational {
+fn nothing() -> BigRational {
     BigRational::new(1.into(), NOTHING.into())
 }
 

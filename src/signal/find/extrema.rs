@@ -290,17 +290,14 @@ impl<'s> Search<'s> {
                         None
                     }
                     [None, None] => Some(whole()),
-                    [first, last] => {
-                        let side = if first.is_none() { Limit::Right } else { Limit::Left };
-                        // The slope falls from above zero to below, or the other way round.
-                        let turns = [concave.reverse(), concave][usize::from(first.is_none())];
-                        match first.or(last) == Some(turns) {
-                            true => {
-                                Some(self.beside_an_end(stretch, target, cell, (side, turns))?)
-                            }
-                            false => None,
-                        }
+                    // The slope falls from above zero to below, or the other way round.
+                    [Some(first), None] if first == concave.reverse() => {
+                        Some(self.beside_an_end(stretch, target, cell, (Limit::Left, first))?)
                     }
+                    [None, Some(last)] if last == concave => {
+                        Some(self.beside_an_end(stretch, target, cell, (Limit::Right, last))?)
+                    }
+                    [Some(_), None] | [None, Some(_)] => None,
                 },
             };
             if let Some([from, to]) = open {
