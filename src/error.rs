@@ -408,7 +408,7 @@ fn remedy_of_history(error: &HistoryError) -> &'static str {
         HistoryError::Undecided { .. } => "change a value slightly, or choose an earlier end",
         HistoryError::TooManyEvents { .. } => "choose an earlier end",
         HistoryError::TooManyCells { .. } => {
-            "choose an earlier end, or remove a light mass or stiff spring that rings"
+            "choose an earlier end; if a light mass or a stiff spring rings, leave it out"
         }
         HistoryError::TooMuchMemory { .. } => "choose an earlier end, or raise --memory",
         HistoryError::Refused(_) => {

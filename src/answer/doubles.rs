@@ -144,7 +144,7 @@ struct Cut<'a> {
 
 /// Leaves out what cannot matter for a tolerance. What a relative one is relative to is found without more echoes: the
 /// largest value `m` is at most the sum of all shares; where echoes of `δ·M/8` are left out for an `M ≥ m`, none is worked
-/// out that `δ·m` does not need. `None` where nothing is made of single echoes, or the largest value is not told so.
+/// out that `δ·m` does not need. `None` where no echo can be left out, or the largest value is not told so.
 fn cut<'a>(
     question: &'a Question<'_>,
     tolerance: Tolerance,

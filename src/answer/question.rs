@@ -18,7 +18,7 @@ pub struct Question<'a> {
 }
 
 impl Question<'_> {
-    /// The same without echoes that come to no more than `most` together, where there are single echoes.
+    /// The same without echoes that come to no more than `most` together, where some can be left out.
     ///
     /// # Errors
     /// As [`Signal::within`].

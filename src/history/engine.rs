@@ -146,6 +146,8 @@ pub(crate) struct Engine {
     pub states: Vec<State>,
     pub open: Vec<Contact>,
     pub places: Vec<String>,
+    /// Of the elements of the scene.
+    names: Vec<String>,
     pub count: usize,
     /// What the cells hold that are kept, about.
     pub bytes: u64,
@@ -242,6 +244,7 @@ impl Engine {
         }
         let places: Vec<String> =
             (0..nodes.len()).map(|node| format!("{}:", network.place_in_words(node))).collect();
+        let names = network.scene().elements.iter().map(|element| element.name.clone()).collect();
         let mut engine = Engine {
             clock,
             cut: Truncation::new(bits, 0),
@@ -255,6 +258,7 @@ impl Engine {
             states: Vec::new(),
             open: Vec::new(),
             places,
+            names,
             count: 0,
             bytes: 0,
             asked_from: 0.0,
@@ -270,6 +274,16 @@ impl Engine {
         engine.set_rate()?;
         engine.begin()?;
         Ok(engine)
+    }
+
+    /// The names of the masses of two runs that are nearest to each other, the left one first.
+    pub fn nearest_masses(&self, node: &Node<Number>, [left, right]: [usize; 2]) -> [String; 2] {
+        let masses = |run: usize| {
+            let masses = node.elements.iter().filter(move |own| own.run == run);
+            masses.filter(|own| matches!(own.law, ElementLaw::Mass { .. }))
+        };
+        let nearest = [masses(left).next_back(), masses(right).next()];
+        nearest.map(|mass| self.names[mass.expect("the run has a mass").element].clone())
     }
 
     /// The rate of the norm of cells: above the norm of each node in any state of its contacts, and the
@@ -316,7 +330,8 @@ impl Engine {
             let system = self.system(number, |_| true)?;
             let still = vec![Number::zero(); node.elements.len()];
             let velocity = |run: usize| self.starting_velocity(node, run);
-            let state = system.state(node, velocity, &still, &self.places[number], bits)?;
+            let masses = |runs| self.nearest_masses(node, runs);
+            let state = system.state(node, velocity, &still, masses, bits)?;
             let passivity = Passivity::at(node, &system, (&state, bits))?;
             let errors = passivity.errors(&state);
             if let Some(all) = &mut self.errors {

@@ -118,14 +118,14 @@ pub enum NotFollowed {
         /// Where, in words.
         place: String,
     },
-    /// Two masses that meet with different velocities, at this place.
+    /// Two masses that meet with different velocities.
     #[error(
-        "{place} two rigid masses meet with different velocities: put a spring or a bar between \
-         them"
+        "the rigid masses {} meet with different velocities: put a spring or a bar between them",
+        .masses.each_ref().map(|mass| format!("`{mass}`")).join(" and ")
     )]
     RigidImpact {
-        /// Where, in words.
-        place: String,
+        /// Their names.
+        masses: [String; 2],
     },
 }
 

@@ -552,7 +552,7 @@ impl System<Number> {
         (state, after)
     }
 
-    /// The state that continues with these velocities of runs and displacements of elements.
+    /// The state that continues with these velocities of runs and displacements of elements; masses are told by their names.
     ///
     /// # Errors
     /// [`HistoryError::Refused`] where rigid masses of different velocities meet.
@@ -561,20 +561,22 @@ impl System<Number> {
         node: &Node<Number>,
         velocity: impl Fn(usize) -> Option<Number>,
         displaced: &[Number],
-        place: &str,
+        masses: impl Fn([usize; 2]) -> [String; 2],
         bits: u64,
     ) -> Result<Vec<Number>, HistoryError> {
         let mut state = Vec::with_capacity(self.states());
         for group in &self.heavy {
             let own = (0..node.runs()).filter(|run| self.group[*run] == *group);
             let mut own = own.filter(|run| !node.mass_of(*run, bits).is_zero());
-            let first = own.next().and_then(&velocity).expect("a mass has a velocity");
+            let first = own.next().expect("a heavy group has a mass");
+            let common = velocity(first).expect("a mass has a velocity");
             for run in own {
-                if velocity(run).is_none_or(|other| other != first) {
-                    return Err(NotFollowed::RigidImpact { place: place.to_owned() }.into());
+                if velocity(run).is_none_or(|other| other != common) {
+                    let masses = masses([first, run]);
+                    return Err(NotFollowed::RigidImpact { masses }.into());
                 }
             }
-            state.push(first);
+            state.push(common);
         }
         let kept = displaced.iter().zip(&self.kept).filter(|(_, kept)| kept.is_some());
         state.extend(kept.map(|(value, _)| value.clone()));

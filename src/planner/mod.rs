@@ -195,7 +195,7 @@ pub(crate) fn chosen<'a>(
     }
     let closed = || from(Origin::Closed);
     if origin(network, window[1], purpose) == Origin::Closed
-        || is_marched(network, observed, window, purpose)
+        || purpose == Purpose::Polynomials && is_short(network, observed, window)
     {
         return closed();
     }
@@ -209,17 +209,13 @@ pub(crate) fn chosen<'a>(
     }
 }
 
-/// Whether polynomials come from a march through the waves of one pole and one lag, which takes no memory.
-fn is_marched(
-    network: &Network,
-    observed: &Observed,
-    window: [&Rational; 2],
-    purpose: Purpose,
-) -> bool {
-    let signal = || ClosedSignal::of_scene(network, observed, window).ok();
-    let has_taps =
-        |signal: ClosedSignal<'_>| signal.closed_form().is_ok_and(|form| Taps::of(form).is_ok());
-    purpose == Purpose::Polynomials && signal().is_some_and(has_taps)
+/// Whether polynomials come from a march through the waves of one pole and one lag, which takes no memory, or echoes die
+/// out, so that most are left out.
+fn is_short(network: &Network, observed: &Observed, window: [&Rational; 2]) -> bool {
+    let Ok(signal) = ClosedSignal::of_scene(network, observed, window) else { return false };
+    let is_short =
+        |form: &ClosedForm| Taps::of(form).is_ok() || form.falls(window[1]).unwrap_or(false);
+    signal.closed_form().is_ok_and(is_short)
 }
 
 /// The same from one of the two sources.

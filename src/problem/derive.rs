@@ -23,6 +23,9 @@ const MOST_PIECES: usize = 8;
 /// How many orders are derived after the first, where nothing is said.
 const FEW: usize = 3;
 
+/// The most orders beyond the first that are derived of waves that do not return.
+const MOST_WITHOUT_RETURN: usize = 16;
+
 /// The most terms of all waves that an echo with names for rates has of these.
 const FEW_TERMS: usize = 5_000;
 
@@ -166,8 +169,13 @@ impl Problem {
     }
 
     /// The orders from one on that are derived where none are asked for: four, or those before the first whose
-    /// formulas are long, with what says so.
+    /// formulas are long, with what says so. Where nothing returns, the last function holds at all times after it began, and
+    /// there are no more.
     pub fn first_orders(&self, what: ToDerive<'_>, from: usize) -> (Orders, Option<ProblemError>) {
+        let all = self.last_arrival().filter(|last| *last <= MOST_WITHOUT_RETURN);
+        if let Some(last) = all {
+            return (Orders::Through(from, last.max(from)), None);
+        }
         let last = from.saturating_add(FEW);
         let named = self.recurrence().ok().filter(|of| of.has_named_rates() && !self.on_lattice());
         let Some(recurrence) = named else { return (Orders::Through(from, last), None) };

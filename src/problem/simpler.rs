@@ -164,6 +164,7 @@ impl Size {
                 } else if others[1] >= own[0] {
                     places.extend(more);
                     places.sort_by_key(|place| place.from());
+                    places.dedup();
                 }
                 let [[low, high], [other_low, other_high]] = [own, others];
                 ([low.max(other_low), high.max(other_high)], places)
@@ -216,6 +217,12 @@ impl Problem {
     pub fn waves_return(&self) -> bool {
         let mut bars = self.scaled().map(|scaled| scaled.model().bars.values());
         bars.as_mut().map_or(true, |bars| bars.any(|bar| bar.travel.is_some()))
+    }
+
+    /// The last period with which something arrives, where waves have one period and do not return.
+    pub(super) fn last_arrival(&self) -> Option<usize> {
+        let recurrence = self.network().ok()?.recurrence().ok()?;
+        recurrence.arrivals()?.iter().flatten().copied().max()
     }
 
     /// What it was read from.

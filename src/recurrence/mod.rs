@@ -21,6 +21,7 @@ pub use notation::SourceNotation;
 pub(crate) use notation::SourceProduct;
 pub use ordering::{Coupled, Start, Step};
 pub use recurrence::Recurrence;
+pub(crate) use recurrence::{put_in, right_of};
 pub use statement::{
     Clause, Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave,
     ProductTerm, Quadratic, Statement,

@@ -8,7 +8,11 @@ use crate::recurrence::statement::{
     Clause, Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave, Quadratic,
     Statement,
 };
+use std::collections::BTreeSet;
 use wavestep_polynomial::{Polynomial, Symbol};
+
+/// More arrivals than these are not counted one by one.
+const MOST_ARRIVALS: usize = 1000;
 
 /// A recurrence that can be solved step by step.
 ///
@@ -74,6 +78,37 @@ impl Recurrence {
         let holds = |rate: &Fraction| self.constants().iter().any(|c| rate.contains(&c.symbol));
         let mut systems = self.coupled.iter();
         systems.any(|system| system.rates.len() > 2 && system.rates.iter().any(holds))
+    }
+
+    /// By wave, the periods with which a piece begins that does not merely go on from the piece before it; `None` where waves
+    /// return, so that there is no last one.
+    pub(crate) fn arrivals(&self) -> Option<Vec<BTreeSet<usize>>> {
+        let equations = put_in(&self.steps, &self.statement.time);
+        let mut known = vec![BTreeSet::from([0]); self.steps.len()];
+        // A chain without a return passes each wave once.
+        for _ in 0..=self.steps.len() {
+            let before = known.clone();
+            for (step, equation) in &equations {
+                let continuous = step.start.iter().map(|start| &start.continuous);
+                let mut own = BTreeSet::new();
+                for form in continuous.chain([equation]) {
+                    own.extend(form.forcing_terms().iter().map(|(lag, _)| lag));
+                    for (of, operator) in form.operators() {
+                        for lag in operator.lags().filter(|lag| of != step.wave || *lag > 0) {
+                            own.extend(known[of].iter().map(|earlier| earlier + lag));
+                        }
+                    }
+                }
+                known[step.wave].extend(own);
+            }
+            if known == before {
+                return Some(known);
+            }
+            if known.iter().any(|own| own.len() > MOST_ARRIVALS) {
+                return None;
+            }
+        }
+        None
     }
 
     /// The number of waves, those that were added to uncouple equations included.
@@ -202,4 +237,31 @@ fn degree(value: &Expression) -> u64 {
 fn degree_of_fraction(value: &Fraction) -> u64 {
     let factors = value.factors().map(|(p, power)| u64::from(p.total_degree() * power));
     u64::from(value.numerator().total_degree()) + factors.sum::<u64>()
+}
+
+/// The equations of steps, with the waves put in that others give: what these reflect may cancel.
+pub(crate) fn put_in<'s>(steps: &'s [Step], time: &Symbol) -> Vec<(&'s Step, LinearForm)> {
+    let mut given: Vec<(WaveIndex, LinearForm)> = Vec::new();
+    let equations = steps.iter().map(|step| {
+        let mut equation = step.equation.clone();
+        for (wave, solved) in given.iter().rev() {
+            let mut without = equation.clone();
+            if without.replace(*wave, solved, time) {
+                equation = without;
+            }
+        }
+        let right = right_of(step, &equation);
+        if step.start.is_none() && right.operators().all(|(wave, _)| wave != step.wave) {
+            given.push((step.wave, right));
+        }
+        (step, equation)
+    });
+    equations.collect()
+}
+
+/// The right side of an equation that is solved for the wave of a step.
+pub(crate) fn right_of(step: &Step, equation: &LinearForm) -> LinearForm {
+    let mut right = step.left();
+    right.add_scaled(equation, &-&Expression::one(), 0);
+    right
 }

@@ -155,8 +155,9 @@ impl<'a> Window<'a> {
         Ok(doubles.filter(|(_, (first, last))| first <= last))
     }
 
-    /// About the largest absolute value at the beginning, in the middle and at the end of some of the
-    /// stretches; the largest one on the window is not smaller by more than one part in 2^18.
+    /// About the largest absolute value at the beginning and the end of some of the stretches and between: in the middle,
+    /// and where stretches are few, ever nearer to the beginning. The largest one on the window is not smaller by more than
+    /// one part in 2^18.
     pub(crate) fn scale(&self) -> Result<Magnitude, EvaluateError> {
         /// How many stretches are looked at.
         const SAMPLES: usize = 40;
@@ -169,8 +170,9 @@ impl<'a> Window<'a> {
         let count = self.count()?;
         let mut scale = Magnitude::ZERO;
         for stretch in (0..count).step_by(count.div_ceil(SAMPLES)) {
-            let middle = self.middle(stretch)?;
-            for at in [At::End(Limit::Right), At::Time(&middle), At::End(Limit::Left)] {
+            let between = self.between(stretch, (SAMPLES / count).max(1))?;
+            let ends = [At::End(Limit::Right), At::End(Limit::Left)];
+            for at in ends.into_iter().chain(between.iter().map(At::Time)) {
                 let attempt = |bits| {
                     let value = self.signal.enclose(stretch, 0, at, bits)?;
                     let fine = value.radius().scale(20) <= value.magnitude()
@@ -211,14 +213,18 @@ impl<'a> Window<'a> {
         Ok(size)
     }
 
-    /// A time near the middle of a stretch.
-    fn middle(&self, stretch: usize) -> Result<Rational, EvaluateError> {
+    /// So many times within a stretch: about its middle, and each next one half as far from its beginning.
+    fn between(&self, stretch: usize, count: usize) -> Result<Vec<Rational>, EvaluateError> {
         let time = |end| match self.signal.exact_time(stretch, end) {
             Some(time) => Ok::<_, EvaluateError>(time),
             None => Ok(Rational::from(self.signal.time(stretch, end, LOOK_BITS)?.midpoint())),
         };
-        let sum = time(Limit::Right)? + time(Limit::Left)?;
-        Ok(sum / Rational::from_integer(2.into()))
+        let (from, mut to) = (time(Limit::Right)?, time(Limit::Left)?);
+        let halved = (0..count).map(|_| {
+            to = (&from + &to) / Rational::from_integer(2.into());
+            to.clone()
+        });
+        Ok(halved.collect())
     }
 
     /// The polynomials of all cells, fitting as they shall.

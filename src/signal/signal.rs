@@ -219,7 +219,7 @@ pub trait Signal {
     }
 
     /// The same signal without echoes that come to no more than `most` together: enclosures of its values hold what is
-    /// left out. Of its derivatives nothing is known then. `None` where it is not made of single echoes.
+    /// left out. Of its derivatives nothing is known then. `None` where it is not made of echoes, or none can be left out.
     ///
     /// # Errors
     /// [`EvaluateError`] where arrivals cannot be told or are too many.

@@ -36,7 +36,7 @@ impl<V: Clone> FieldStep<V> {
         recurrence.steps().iter().map(|step| FieldStep::of(step, recurrence, field)).collect()
     }
 
-    fn of<F: Field<Value = V>>(
+    pub(crate) fn of<F: Field<Value = V>>(
         step: &Step,
         recurrence: &Recurrence,
         field: &F,

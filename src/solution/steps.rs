@@ -4,7 +4,7 @@
 //! pieces before are formed and put in, so that the right side is seen, and the result is compared.
 
 use crate::expression::Expression;
-use crate::recurrence::{LinearForm, Recurrence, Step, WaveIndex};
+use crate::recurrence::{LinearForm, Recurrence, Step, WaveIndex, put_in, right_of};
 use crate::solution::error::{SolveError, Unsolvable};
 use crate::solution::general::GeneralForm;
 use crate::solution::period::PeriodByPeriod;
@@ -22,24 +22,11 @@ pub struct Solved<'a> {
 /// The equations of a recurrence, each solved for its wave, in solving order.
 #[must_use]
 pub fn solved_for_waves(recurrence: &Recurrence) -> Vec<Solved<'_>> {
-    let mut all = Vec::new();
-    let mut explicit: Vec<(WaveIndex, LinearForm)> = Vec::new();
-    for step in recurrence.steps() {
-        let mut equation = step.equation.clone();
-        for (wave, solved) in explicit.iter().rev() {
-            let mut put_in = equation.clone();
-            if put_in.replace(*wave, solved, &recurrence.statement().time) {
-                equation = put_in;
-            }
-        }
-        let mut right = -&equation;
-        right.add_scaled(&step.left(), &Expression::one(), 0);
-        if step.start.is_none() && !right.operators().any(|(wave, _)| wave == step.wave) {
-            explicit.push((step.wave, right.clone()));
-        }
-        all.push(Solved { step, right });
-    }
-    all
+    let equations = put_in(recurrence.steps(), &recurrence.statement().time);
+    let solved = equations
+        .into_iter()
+        .map(|(step, equation)| Solved { step, right: right_of(step, &equation) });
+    solved.collect()
 }
 
 /// How a wave follows on one period from what is known.

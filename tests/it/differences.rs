@@ -1,6 +1,8 @@
 //! How far a scene is from a simpler one: the proven distance against samples, and instants that are one in both.
 
+use std::collections::BTreeSet;
 use wavestep::planner::Purpose;
+use wavestep::problem::Size;
 use wavestep::signal::{Search, Signal};
 use wavestep::{Goal, Place, Problem, Value};
 use wavestep_polynomial::Rational;
@@ -133,4 +135,22 @@ fn an_extremum_beside_a_flat_end_has_all_digits() {
         };
         assert!(found.places.iter().all(holds), "{:?}", found.places);
     }
+}
+
+/// Two bars that part at `t = 2`, or stay together: behind the third bar, nothing is felt before `t = 4`, nor at once then.
+#[test]
+fn a_difference_that_is_zero_until_a_wave_comes_is_told_once() {
+    let text = "scene \"Two bars\"\nbar a { impedance = 1, travel = 1, velocity = 1 }\n\
+        bar b { impedance = 2, travel = 1 }\nspring s { stiffness = 1 }\nbar c { impedance = 2, travel = 3 }\n\
+        bar d { impedance = 2 }\nline free - a | b - s - c - d - endless\ncontacts open\n\
+        observe g = force(d.left)";
+    let open = Problem::read("open.wave", text).unwrap();
+    let closed = open.simpler(&"closed".parse().unwrap()).unwrap();
+    let (wanted, window) = (open.wanted("g").unwrap(), [&whole(0), &whole(4)]);
+    let signal = open.difference_on(&closed, &wanted, window, Purpose::Search).unwrap();
+    let size = Size::of(&*signal, (12, 1 << 12), &Rational::default()).unwrap();
+    assert_eq!(size.bounds, [whole(0), whole(0)]);
+    let told: Vec<String> = size.places.iter().map(|place| format!("{place:?}")).collect();
+    let distinct: BTreeSet<&String> = told.iter().collect();
+    assert_eq!(distinct.len(), told.len(), "{told:?}");
 }

@@ -5,6 +5,7 @@
 
 use num_traits::Signed as _;
 use std::collections::BTreeMap;
+use wavestep::Method;
 use wavestep::language::parse_number;
 use wavestep::network::Network;
 use wavestep::planner::{Origin, Purpose, of_origin, origin};
@@ -125,4 +126,31 @@ fn signals_enclose_the_values_of_scenes() {
         }
     }
     assert!(compared > 300, "{compared}");
+}
+
+/// A mass on an endless bar: `e^(−2t)`, one function at all times, however long the window is. Beyond a bar between two
+/// endless ones a single wave comes.
+#[test]
+fn without_returns_nothing_arrives() {
+    let mass = "scene \"No return\"\nmass m { mass = 1, velocity = 1 }\nbar b { impedance = 2 }\n\
+        line free - m - b - endless\nobserve v = velocity(m)";
+    let passing = "scene \"Passing\"\nbar a { impedance = 2 }\nmass m { mass = 1, velocity = 1 }\n\
+        bar c { impedance = 1, travel = 1 }\nbar b { impedance = 1 }\n\
+        line endless - a - m - c - b - endless\nobserve v = velocity(b.left)";
+    for (text, arrivals, rate, since) in [(mass, 0, -2.0, 0.0), (passing, 1, -3.0, 1.0)] {
+        let problem = Problem::read("no-return.wave", text).unwrap();
+        let network = problem.network().unwrap();
+        let (wanted, from) = (&network.observables()[0], Rational::default());
+        for to in [7, 1_000_000] {
+            let to = Rational::from_integer(to.into());
+            let signal = ClosedSignal::of_scene(network, wanted, [&from, &to]).unwrap();
+            assert_eq!(signal.count().unwrap(), 1 + arrivals);
+            let times = [2.0, 5.0, 7.0];
+            let found = problem.signal("v").unwrap().values_by(&times, Method::Compiled).unwrap();
+            for (time, value) in times.iter().zip(found.values) {
+                let expected = f64::exp(rate * (time - since));
+                assert!((value - expected).abs() < 1e-15, "{time}: {value} {expected}");
+            }
+        }
+    }
 }

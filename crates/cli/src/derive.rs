@@ -129,10 +129,6 @@ fn derived(
     }
     let progress = progress::spinner("deriving");
     let orders = orders.unwrap_or_else(|| {
-        // Where nothing returns, the first function holds at all times.
-        if !problem.waves_return() {
-            return Orders::Through(0, 0);
-        }
         let (orders, stopped) = problem.first_orders(what, options.from);
         if let Some(reason) = stopped {
             progress.suspend(|| eprintln!("note: {reason}; --through N derives more"));

@@ -54,7 +54,10 @@ impl Arriving {
             _ => whole_periods(&numbers, &latest, period, MAX_ECHOES),
         };
         let directions = network.lattice().periods().iter().zip(network.largest_lags());
-        let bounds: Vec<usize> = directions.map(bound).collect::<Result<_, _>>()?;
+        let bounds: Vec<usize> = match last_number(network)? {
+            Some(last) => vec![last],
+            None => directions.map(bound).collect::<Result<_, _>>()?,
+        };
         let total =
             bounds.iter().fold(1_u128, |product, bound| product.saturating_mul(*bound as u128 + 1));
         if total > MAX_ECHOES as u128 {
@@ -97,6 +100,15 @@ impl Arriving {
         let exists = |k| self.unfolded.counts(k).is_some();
         demand.add_where(self.unfolded.recurrence(), wave, number, exists);
     }
+}
+
+/// The number of the last echo that there is, where waves have one period and do not return.
+fn last_number(network: &Network) -> Result<Option<usize>, EvaluateError> {
+    if network.lattice().periods().len() > 1 {
+        return Ok(None);
+    }
+    let arrivals = network.recurrence()?.arrivals();
+    Ok(arrivals.map(|all| all.iter().flatten().copied().max().unwrap_or(0)))
 }
 
 /// How many whole periods fit into a time, or one more; no more than a limit.

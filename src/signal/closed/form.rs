@@ -14,13 +14,13 @@ use crate::signal::closed::shares::{Kept, Shares};
 
 use crate::ball::Magnitude;
 use crate::expression::{Expression, Fraction, Root};
-use crate::limits::MAX_PIECES;
+use crate::limits::{MAX_ECHOES, MAX_PIECES};
 use crate::network::Network;
-use crate::recurrence::{Observation, Recurrence};
+use crate::recurrence::{Observation, ObservedWave, Recurrence, WaveIndex};
 use crate::signal::error::EvaluateError;
 use crate::solution::Demand;
 use std::cell::{OnceCell, RefCell};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
@@ -29,6 +29,9 @@ pub(super) const MAX_STRETCHES: usize = 200_000;
 
 /// The most periods that are counted.
 const MAX_ORDER: usize = 1_000_000_000;
+
+/// The number of an echo on a grid that tells whether echoes become smaller.
+const TELLING: usize = 32;
 
 /// The precision of the first pieces, which tell what all will take.
 const FORESEEING_BITS: u64 = 192;
@@ -54,8 +57,10 @@ pub struct ClosedForm {
     pub(super) numbers: Rc<Numbers>,
     /// The echoes, where arrivals lie on no grid.
     pub(super) lattice: Option<Rc<Arriving>>,
+    /// By wave, when something arrives, once it was asked for.
+    arrivals: OnceCell<Option<Vec<BTreeSet<usize>>>>,
     /// What each echo can bring to what is seen, once it was asked for.
-    shares: Rc<OnceCell<Shares>>,
+    shares: Rc<OnceCell<Option<Shares>>>,
     /// The echoes that are worked out, where others may be left out.
     pub(super) kept: Option<Rc<Kept>>,
     /// All that is seen of the waves, here and in other views of them.
@@ -116,6 +121,7 @@ impl ClosedForm {
             unit,
             slowness,
             lattice: None,
+            arrivals: OnceCell::new(),
             shares: Rc::default(),
             kept: None,
             seen: Rc::new(observation.clone()),
@@ -130,20 +136,62 @@ impl ClosedForm {
         ClosedForm { observation: observation.clone(), unit, shares, ..self.clone() }
     }
 
-    /// The same from fewer echoes: those that are left out come to no more than `most` together, at any time of the
-    /// window, and enclosures of values hold as much more. `None` on a grid, where pieces are not made of single echoes.
-    pub(super) fn within(&self, most: &Magnitude) -> Result<Option<ClosedForm>, EvaluateError> {
-        let Some(lattice) = &self.lattice else { return Ok(None) };
+    /// The same from fewer echoes: those that are left out come to no more than `most` together, at any time until the end of
+    /// the window, and enclosures of values hold as much more. `None` on a grid where later echoes do not become smaller,
+    /// or all are needed.
+    pub(super) fn within(
+        &self,
+        most: &Magnitude,
+        to: &Rational,
+    ) -> Result<Option<ClosedForm>, EvaluateError> {
         let shares = match self.shares.get() {
             Some(shares) => shares,
             None => {
-                let shares = Shares::of(lattice, &self.observation, &self.unit, &self.numbers)?;
+                let shares = self.bounded_shares(to)?;
                 self.shares.get_or_init(|| shares)
             }
         };
-        let (kept, seen) =
-            (Some(Rc::new(shares.keep(lattice, most))), Rc::new(self.observation.clone()));
-        Ok(Some(ClosedForm { kept, seen, solved: Rc::default(), ..self.clone() }))
+        let Some(shares) = shares else { return Ok(None) };
+        let (kept, arrivals) = match &self.lattice {
+            Some(lattice) => (shares.keep(lattice, most), OnceCell::new()),
+            None => {
+                let kept = shares.keep_first(&self.recurrence, most);
+                let last = kept.demand.last().unwrap_or(0);
+                if last >= self.order(to)? {
+                    return Ok(None);
+                }
+                let arrivals = vec![(0..=last).collect(); self.recurrence.wave_count()];
+                (kept, OnceCell::from(Some(arrivals)))
+            }
+        };
+        let (kept, seen) = (Some(Rc::new(kept)), Rc::new(self.observation.clone()));
+        let solved = Rc::default();
+        Ok(Some(ClosedForm { kept, seen, solved, arrivals, ..self.clone() }))
+    }
+
+    fn bounded_shares(&self, to: &Rational) -> Result<Option<Shares>, EvaluateError> {
+        match &self.lattice {
+            Some(lattice) => {
+                Shares::of(lattice, &self.observation, &self.unit, &self.numbers).map(Some)
+            }
+            None if self.falls(to)? => self.shares_on_grid(to, MAX_ECHOES).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// Whether waves on a grid are known to die out, and a window until this time is long enough for it.
+    pub fn falls(&self, to: &Rational) -> Result<bool, EvaluateError> {
+        let is_long = self.is_on_grid() && (TELLING..=MAX_ECHOES).contains(&self.order(to)?);
+        Ok(is_long && self.shares_on_grid(to, TELLING)?.fall(TELLING))
+    }
+
+    fn shares_on_grid(&self, to: &Rational, most: usize) -> Result<Shares, EvaluateError> {
+        let until = self.slowness.scale(to);
+        let last_piece = |seen| Ok(self.last_piece(seen, &until, MAX_ECHOES)?.min(most));
+        let waves = self.observation.waves.iter();
+        let last = waves.map(last_piece).collect::<Result<Vec<_>, EvaluateError>>()?;
+        let wanted = (&self.recurrence, &last[..]);
+        Shares::on_grid(wanted, &self.observation, &self.unit, (&self.numbers, &until))
     }
 
     /// What is left out of a value, and of a derivative, of which nothing is known then.
@@ -199,20 +247,57 @@ impl ClosedForm {
         self.lattice.is_none()
     }
 
-    /// How many periods have begun at a time, or one more; on a lattice, how many echoes of a wave can have
+    /// On a grid, the piece of a wave that is seen at a time, or the one after it; no more than a limit.
+    pub(super) fn last_piece(
+        &self,
+        seen: &ObservedWave,
+        at: &Fraction,
+        limit: usize,
+    ) -> Result<usize, EvaluateError> {
+        let since = at - &seen.delay;
+        match self.arrivals(seen.wave).map(last_of) {
+            Some(0) => Ok(0),
+            Some(last) => Ok(last.min(self.whole_periods(&since, usize::MAX)?)),
+            None => self.whole_periods(&since, limit),
+        }
+    }
+
+    /// As [`Recurrence::arrivals`], of one wave.
+    pub(super) fn arrivals(&self, wave: WaveIndex) -> Option<&BTreeSet<usize>> {
+        Some(&self.all_arrivals()?[wave])
+    }
+
+    fn all_arrivals(&self) -> Option<&[BTreeSet<usize>]> {
+        self.arrivals.get_or_init(|| self.recurrence.arrivals()).as_deref()
+    }
+
+    fn whole_periods(&self, time: &Fraction, limit: usize) -> Result<usize, EvaluateError> {
+        whole_periods(&self.numbers, time, &self.recurrence.statement().period, limit)
+    }
+
+    /// How many periods of the waves that are seen have begun at a time, or one more.
+    pub fn periods(&self, at: &Rational) -> Result<usize, EvaluateError> {
+        let at = self.slowness.scale(at);
+        // A wave may be seen before its own clock.
+        let mut periods = self.whole_periods(&at, MAX_ORDER)?;
+        for seen in &self.observation.waves {
+            periods = periods.max(self.whole_periods(&(&at - &seen.delay), MAX_ORDER)?);
+        }
+        Ok(periods)
+    }
+
+    /// How many pieces follow the first one of a wave up to a time, or one more; on a lattice, how many echoes of a wave can have
     /// arrived, of those that are worked out.
     pub fn order(&self, at: &Rational) -> Result<usize, EvaluateError> {
-        let at = self.slowness.scale(at);
         match &self.lattice {
             None => {
-                // A wave may be seen before its own clock.
-                let period = &self.recurrence.statement().period;
-                let mut order = whole_periods(&self.numbers, &at, period, MAX_ORDER)?;
-                for seen in &self.observation.waves {
-                    let since = &at - &seen.delay;
-                    order = order.max(whole_periods(&self.numbers, &since, period, MAX_ORDER)?);
+                match self.all_arrivals().map(|all| all.iter().map(last_of).max().unwrap_or(0)) {
+                    Some(0) => Ok(0),
+                    last => {
+                        let periods = self.periods(at)?;
+                        Ok(last.map_or(periods, |last| last.min(periods)))
+                    }
                 }
-                Ok(order)
             }
             Some(lattice) => Ok(match &self.kept {
                 Some(kept) => kept.demand.most_of_a_wave(),
@@ -333,4 +418,8 @@ impl ClosedForm {
         }
         demand
     }
+}
+
+fn last_of(arrivals: &BTreeSet<usize>) -> usize {
+    arrivals.last().copied().unwrap_or(0)
 }

@@ -16,8 +16,8 @@
 use super::echoes::Arriving;
 use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::Numbers;
-use crate::expression::{Field as _, Root, Transform};
-use crate::recurrence::{Observation, WaveIndex};
+use crate::expression::{Field as _, Fraction, Root, Transform};
+use crate::recurrence::{Observation, ObservedWave, Recurrence, Step, WaveIndex, put_in};
 use crate::signal::error::EvaluateError;
 use crate::signal::signal::Limit;
 use crate::solution::{Demand, FieldStep};
@@ -45,8 +45,30 @@ pub(super) struct Kept {
     pub rest: Magnitude,
     /// How many echoes can reach what is seen.
     pub arriving: usize,
-    /// How many echoes other than zero were worked out.
+    /// How many echoes other than zero were worked out; on a grid, how many are in pieces that are.
     pub expanded: Cell<usize>,
+}
+
+/// What is seen of echoes, by how much, and what these follow from.
+struct Seen {
+    demand: Demand,
+    gains: BTreeMap<(WaveIndex, usize), Size>,
+    /// The longest time since an echo began.
+    longest: Magnitude,
+}
+
+impl Seen {
+    fn none(recurrence: &Recurrence) -> Seen {
+        let (demand, gains) = (Demand::none(recurrence), BTreeMap::new());
+        Seen { demand, gains, longest: Magnitude::ZERO }
+    }
+
+    /// Adds a gain, of a value or of a slope, of which nothing is known.
+    fn gain(&mut self, seen: &ObservedWave, number: usize, gain: Magnitude) {
+        let nothing = Some(Magnitude::ZERO);
+        let known = self.gains.entry((seen.wave, number)).or_insert(nothing);
+        add(known, (!seen.slope).then_some(gain));
+    }
 }
 
 impl Shares {
@@ -58,24 +80,58 @@ impl Shares {
         numbers: &Numbers,
     ) -> Result<Shares, EvaluateError> {
         let recurrence = arriving.unfolded.recurrence();
-        let (field, unit) = (numbers.field(BITS), numbers.enclose_root(unit, BITS)?.magnitude());
-        let (mut demand, mut longest) = (Demand::none(recurrence), Magnitude::ZERO);
-        let mut gains = BTreeMap::<(WaveIndex, usize), Size>::new();
-        for seen in &observation.waves {
-            let gain = field.embed(&seen.coefficient)?.magnitude().multiply(&unit);
-            // Of slopes nothing is known.
-            let gain = (!seen.slope).then_some(gain);
+        let mut all = Seen::none(recurrence);
+        for (seen, gain) in gains(observation, unit, numbers)? {
             let until = &arriving.last - &seen.delay;
-            longest = longest.max(numbers.enclose(&until, BITS)?.magnitude());
+            all.longest = all.longest.max(numbers.enclose(&until, BITS)?.magnitude());
             for (number, _) in arriving.begun(numbers, &until, Limit::Right)? {
-                arriving.want(&mut demand, seen.wave, *number);
-                let nothing = Some(Magnitude::ZERO);
-                add(gains.entry((seen.wave, *number)).or_insert(nothing), gain);
+                arriving.want(&mut all.demand, seen.wave, *number);
+                all.gain(seen, *number, gain);
             }
         }
-        let returns = |step| Returns::of(step, numbers, longest);
-        let steps = FieldStep::all(recurrence, &field)?.into_iter().map(returns);
-        let bounds = bounds(&steps.collect::<Result<Vec<_>, _>>()?, &demand);
+        Shares::bounded(recurrence, all, numbers)
+    }
+
+    /// Of waves on a grid, whose echoes arrive one a period, until a time of the scene: of each that is seen up to its last
+    /// number.
+    pub fn on_grid(
+        (recurrence, last): (&Recurrence, &[usize]),
+        observation: &Observation,
+        unit: &Root,
+        (numbers, until): (&Numbers, &Fraction),
+    ) -> Result<Shares, EvaluateError> {
+        let mut all = Seen::none(recurrence);
+        for ((seen, gain), last) in gains(observation, unit, numbers)?.into_iter().zip(last) {
+            let since = until - &seen.delay;
+            all.longest = all.longest.max(numbers.enclose(&since, BITS)?.magnitude());
+            for number in 0..=*last {
+                all.demand.add(recurrence, seen.wave, number);
+                all.gain(seen, number, gain);
+            }
+        }
+        Shares::bounded(recurrence, all, numbers)
+    }
+
+    /// Whether the echo of this number is smaller than half that of half the number, and both are bounded.
+    pub fn fall(&self, number: usize) -> bool {
+        let shares = self.by_number();
+        let share = |number: usize| shares.get(&number).copied().flatten();
+        share(number).zip(share(number / 2)).is_some_and(|(end, middle)| end.scale(1) < middle)
+    }
+
+    fn bounded(
+        recurrence: &Recurrence,
+        Seen { demand, gains, longest }: Seen,
+        numbers: &Numbers,
+    ) -> Result<Shares, EvaluateError> {
+        let field = numbers.field(BITS);
+        // What comes by way of another wave is bounded at once: parts of it cancel.
+        let at_once = put_in(recurrence.steps(), &recurrence.statement().time);
+        let returns = at_once.into_iter().map(|(step, equation)| {
+            let step = FieldStep::of(&Step { equation, ..step.clone() }, recurrence, &field)?;
+            Returns::of(step, numbers, longest)
+        });
+        let bounds = bounds(&returns.collect::<Result<Vec<_>, EvaluateError>>()?, &demand);
         let share = |((wave, number), gain): ((WaveIndex, usize), Size)| {
             (product(gain, bounds[wave][number].size()), wave, number)
         };
@@ -102,6 +158,48 @@ impl Shares {
         }
         Kept { demand, rest, arriving: self.arriving, expanded: Cell::new(0) }
     }
+
+    /// Leaves out the last ones of a grid, after which pieces go on as if no more came.
+    pub fn keep_first(&self, recurrence: &Recurrence, most: &Magnitude) -> Kept {
+        let (mut demand, mut rest) = (Demand::none(recurrence), Magnitude::ZERO);
+        let numbers = self.by_number();
+        let mut last = 0;
+        for (number, share) in numbers.into_iter().rev() {
+            match share.map(|share| rest.add(&share)).filter(|sum| sum <= most) {
+                Some(sum) if number > 0 => rest = sum,
+                _ => {
+                    last = number;
+                    break;
+                }
+            }
+        }
+        for (_, wave, number) in self.shares.iter().filter(|(.., number)| *number <= last) {
+            demand.add(recurrence, *wave, *number);
+        }
+        let expanded = Cell::new(demand.count());
+        Kept { demand, rest, arriving: self.arriving, expanded }
+    }
+
+    fn by_number(&self) -> BTreeMap<usize, Size> {
+        let mut sums = BTreeMap::new();
+        for (share, _, number) in &self.shares {
+            add(sums.entry(*number).or_insert(Some(Magnitude::ZERO)), *share);
+        }
+        sums
+    }
+}
+
+/// By how much a value of each wave that is seen is multiplied.
+fn gains<'o>(
+    observation: &'o Observation,
+    unit: &Root,
+    numbers: &Numbers,
+) -> Result<Vec<(&'o ObservedWave, Magnitude)>, EvaluateError> {
+    let (field, unit) = (numbers.field(BITS), numbers.enclose_root(unit, BITS)?.magnitude());
+    let gain = |seen: &'o ObservedWave| {
+        Ok((seen, field.embed(&seen.coefficient)?.magnitude().multiply(&unit)))
+    };
+    observation.waves.iter().map(gain).collect()
 }
 
 /// An echo until a time: a constant, and a rest of at most this size.

@@ -16,6 +16,7 @@ use crate::signal::signal::{
 use crate::signal::silence::Silence;
 use crate::signal::taylor::Taylor;
 use crate::solution::Solution;
+use num_traits::{Signed as _, Zero as _};
 use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -159,8 +160,11 @@ impl<'a> ClosedSignal<'a> {
         Ok(self.form.get_or_init(|| form))
     }
 
-    /// A limit at a time after the start, from the pieces of its period.
+    /// A limit at a time, from the pieces of its period; before the start all is zero.
     fn enclosed(&self, at: &Rational, side: Limit) -> Result<Point<'_>, EvaluateError> {
+        if at.is_negative() || at.is_zero() && side == Limit::Left {
+            return Ok(Point::exact(Rational::default()));
+        }
         let form = self.form()?;
         let stretches = form.stretches(&Rational::default(), at)?;
         let at = form.slowness().scale(at);
@@ -366,7 +370,7 @@ impl Signal for ClosedSignal<'_> {
         let Source::Scene { network, value, unit, echoes, .. } = &self.source else {
             return Ok(None);
         };
-        let Some(form) = self.form()?.within(most)? else { return Ok(None) };
+        let Some(form) = self.form()?.within(most, &self.window[1])? else { return Ok(None) };
         let (value, unit, echoes) = (value.clone(), unit.clone(), Rc::clone(echoes));
         let exact = OnceCell::from(None);
         let source = Source::Scene { network, value, unit, exact, echoes };

@@ -3,7 +3,6 @@
 use super::form::{ClosedForm, MAX_STRETCHES};
 use crate::expression::Fraction;
 use crate::limits::MAX_ECHOES;
-use crate::signal::closed::echoes::whole_periods;
 use crate::signal::error::EvaluateError;
 use std::cmp::Ordering;
 use std::rc::Rc;
@@ -63,11 +62,15 @@ impl ClosedForm {
             match &self.lattice {
                 None => {
                     // The last piece that is there at `from` is the only one that still counts.
-                    let first =
-                        whole_periods(&self.numbers, &(from - &wave.delay), period, MAX_ECHOES)?
-                            .max(1)
-                            - 1;
-                    for n in first.. {
+                    let first = self.last_piece(wave, from, MAX_ECHOES)?.saturating_sub(1);
+                    let numbers: &mut dyn Iterator<Item = usize> = match self.arrivals(wave.wave) {
+                        None => &mut (first..),
+                        Some(all) => {
+                            let begun = all.range(..=first).next_back().copied().unwrap_or(0);
+                            &mut all.range(begun..).copied()
+                        }
+                    };
+                    for n in numbers {
                         let delay = period.scale(&Rational::from_integer(n.into()));
                         if n > MAX_ECHOES {
                             let (echoes, limit) = (n as u128, MAX_ECHOES);

@@ -47,6 +47,15 @@ impl Isolated {
         let rises = signs[1] == Ordering::Greater;
         differ(signs).then(|| Isolated::on(cell, stretch, rises))
     }
+
+    /// Leaves the side of a time on which the root is, by the sign of the function there.
+    fn cut(&mut self, at: Rational, sign: Ordering) {
+        match (sign == Ordering::Greater) == self.rises {
+            true if at < self.to => self.to = at,
+            false if at > self.from => self.from = at,
+            _ => {}
+        }
+    }
 }
 
 /// Whether one of two signs is positive, and one negative.
@@ -96,15 +105,24 @@ impl Search<'_> {
             }
             match value.sign() {
                 Some(Ordering::Equal) => (root.from, root.to) = (middle.clone(), middle),
-                Some(sign) => match (sign == Ordering::Greater) == root.rises {
-                    true if middle < root.to => root.to = middle,
-                    false if middle > root.from => root.from = middle,
-                    _ => {}
-                },
-                None => match precisions.after(working) {
-                    Some(more) => working = more,
-                    None => return Ok(()),
-                },
+                Some(sign) => root.cut(middle, sign),
+                // The root is near the middle: times on both sides tell so, where they are far enough from it.
+                None => {
+                    let quarter = &narrowed / Rational::from_integer(4.into());
+                    for beside in [&middle - &quarter, &middle + &quarter] {
+                        let value = self.enclose(stretch, target, At::Time(&beside), working)?;
+                        if let Some(sign) = value.sign().filter(|sign| sign.is_ne()) {
+                            root.cut(beside, sign);
+                        }
+                    }
+                    if &root.to - &root.from < narrowed {
+                        continue;
+                    }
+                    match precisions.after(working) {
+                        Some(more) => working = more,
+                        None => return Ok(()),
+                    }
+                }
             }
         }
     }

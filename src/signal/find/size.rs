@@ -48,13 +48,16 @@ impl Search<'_> {
     pub fn largest(&self, negligible: &Rational) -> Result<[Rational; 2], EvaluateError> {
         let (known, negligible) = (Default::default(), negligible.clone());
         let mut bounding = Bounding { search: self, known, negligible, expansions: 0 };
+        let mut moving = Vec::new();
         for stretch in 0..self.count {
-            bounding.note_ends(stretch)?;
-        }
-        for stretch in counted(0..self.count, "of the stretches") {
-            if !self.function.is_instant(stretch) && !self.function.is_zero(stretch) {
-                bounding.cover(stretch)?;
+            let has_one_value = self.function.is_instant(stretch) || self.is_constant(stretch)?;
+            bounding.note_ends(stretch, has_one_value)?;
+            if !has_one_value {
+                moving.push(stretch);
             }
+        }
+        for i in counted(0..moving.len(), "of the stretches") {
+            bounding.cover(moving[i])?;
         }
         Ok(bounding.known)
     }
@@ -75,18 +78,18 @@ impl Bounding<'_, '_> {
         }
     }
 
-    /// The limits at both ends of a stretch.
-    fn note_ends(&mut self, stretch: usize) -> Result<(), EvaluateError> {
+    /// The limits at both ends of a stretch, or its one value.
+    fn note_ends(&mut self, stretch: usize, has_one_value: bool) -> Result<(), EvaluateError> {
         let (search, zero) = (self.search, Rational::default());
         let target = Target { order: 0, level: &zero, limit_bits: self.bits() };
         for end in [Limit::Right, Limit::Left] {
-            if end == Limit::Left && search.function.is_instant(stretch) {
+            if end == Limit::Left && has_one_value {
                 continue;
             }
             let value = search.enclose(stretch, target, At::End(end), self.bits())?;
             let [_, high] = &mut self.known;
             let most = Rational::from(&value.magnitude());
-            if search.function.is_instant(stretch) && most > *high {
+            if has_one_value && most > *high {
                 *high = most;
             }
             self.note(&value);

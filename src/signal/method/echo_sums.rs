@@ -120,7 +120,7 @@ impl EchoSums {
         if !signal.is_on_grid() {
             return Err(NoTaps::NoGrid.into());
         }
-        let order = signal.order(to)?;
+        let order = signal.periods(to)?;
         if order > MAX_SUMMED_ECHOES {
             return Err(MethodError::TooManyPeriods { periods: order, limit: MAX_SUMMED_ECHOES });
         }

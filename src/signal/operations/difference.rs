@@ -155,6 +155,13 @@ impl Rule for Difference<'_> {
         (is_common && other.symbols().iter().all(means_the_same)).then(|| &own + &-&other)
     }
 
+    fn exact_value(&self, places: &[usize], at: &Fraction) -> Outcome<Option<Rational>> {
+        let Some(theirs) = self.rescaled(at, [0, 1]) else { return Ok(None) };
+        let own = self.operands[0].exact(places[0], At::Scaled(at))?;
+        let other = self.operands[1].exact(places[1], At::Scaled(&theirs))?;
+        Ok(own.zip(other).map(|(own, other)| own - other))
+    }
+
     /// By the exact function of both, where that is known; else both are as flat.
     fn flatness(
         &self,

@@ -298,6 +298,11 @@ pub(crate) trait Rule {
     /// As [`Signal::exact_at`].
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression>;
 
+    /// The value in the user's unit at one exact time in the scale of the scene, where the operands know theirs.
+    fn exact_value(&self, _: &[usize], _: &Fraction) -> Outcome<Option<Rational>> {
+        Ok(None)
+    }
+
     /// As [`Signal::flatness`], at the mark of the end.
     fn flatness(&self, _: &[usize], _: (&Mark<'_>, Limit), _: usize) -> Outcome<usize> {
         Ok(0)
@@ -575,11 +580,12 @@ impl<R: Rule> Signal for Operation<'_, R> {
                 _ => return Ok(None),
             },
         };
-        let value = self.rule.exact_at(&self.step(stretch).places, &at, Effort::Much);
-        Ok(match self.told(value) {
-            Known::Rational(value) => Some(value),
-            Known::Irrational | Known::Unknown => None,
-        })
+        let places = &self.step(stretch).places;
+        match self.told(self.rule.exact_at(places, &at, Effort::Much)) {
+            Known::Rational(value) => Ok(Some(value)),
+            Known::Irrational => Ok(None),
+            Known::Unknown => self.rule.exact_value(places, &at),
+        }
     }
 
     fn flatness(&self, stretch: usize, end: Limit, order: usize) -> Outcome<usize> {

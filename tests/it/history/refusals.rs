@@ -90,7 +90,7 @@ fn rigid_masses_that_meet_are_refused() {
     let text = "scene \"Two masses\"\nmass a { mass = 1, velocity = 1 }\nmass b { mass = 1 }\n\
                 line free - a | b - free\ncontacts open";
     let error = History::of(&network_of(text, &[]), None, 9).err().unwrap();
-    assert!(error.to_string().contains("two rigid masses meet"), "{error}");
+    assert!(error.to_string().contains("the rigid masses `a` and `b` meet"), "{error}");
 }
 
 #[test]
