@@ -168,13 +168,12 @@ fn cut<'a>(
         }
         // The largest value is not smaller.
         let scale = (scale - rest).max(0.0);
-        let finer = match tolerance {
-            Tolerance::Absolute(_) => None,
-            _ => question.within(most(scale))?,
+        // What is worked out is enough, where no more than that is left out; else more is, or all of it.
+        return match tolerance {
+            Tolerance::Absolute(_) => Ok(Some(Cut { question: found, scale })),
+            _ if rest <= most(scale) => Ok(Some(Cut { question: found, scale })),
+            _ => Ok(question.within(most(scale))?.map(|question| Cut { question, scale })),
         };
-        // What is worked out is enough, where no more than that is left out.
-        let finer = finer.filter(|_| rest > most(scale));
-        return Ok(Some(Cut { question: finer.unwrap_or(found), scale }));
     }
     Ok(None)
 }

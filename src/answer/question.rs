@@ -51,6 +51,14 @@ impl Question<'_> {
         Some(values.iter().map(|value| value.abs()).fold(0.0, f64::max))
     }
 
+    /// How many periods begin on the window, whatever is left out of them; without periods as [`Question::order`].
+    pub fn periods(&self) -> Result<usize, EvaluateError> {
+        match self.signal.closed_form() {
+            Ok(form) if form.is_on_grid() => form.periods(self.signal.window()[1]),
+            _ => self.order(),
+        }
+    }
+
     /// How many reflections the window sees; without a closed form, how many stretches it has.
     pub fn order(&self) -> Result<usize, EvaluateError> {
         match self.signal.closed_form() {

@@ -89,19 +89,26 @@ pub fn consider(
     tolerance: f64,
     scale: f64,
 ) -> Result<Weighed, EvaluateError> {
-    let order = question.order()?;
+    let (order, periods) = (question.order()?, question.periods()?);
     let form = question.signal.closed_form();
     let taps = form.as_ref().map(|form| Taps::of(form));
     let marches = matches!((&form, &taps), (Ok(form), Ok(Ok(taps))) if taps.is_rational() && form.is_rational());
     let size = Size { order, points, marches };
+    // Echoes that are left out are so where pieces are made; a march or a sum goes through all periods.
+    let size_of = |method: Method| match method {
+        Method::Certified | Method::Compiled | Method::Expanded => size,
+        _ => Size { order: periods, ..size },
+    };
     let ulp = unit_in_the_last_place(scale);
     let left_out = question.signal.left_out().scale(1).to_double();
     let candidate = |method: Method| {
         let cost = match (method, &form, &taps) {
-            (Method::Marched { .. }, Ok(form), Ok(Err(_))) => {
-                Some(Cost::of_waves(size, form.recurrence().wave_count(), question.costs))
-            }
-            _ => Cost::of(method, size, question.costs),
+            (Method::Marched { .. }, Ok(form), Ok(Err(_))) => Some(Cost::of_waves(
+                size_of(method),
+                form.recurrence().wave_count(),
+                question.costs,
+            )),
+            _ => Cost::of(method, size_of(method), question.costs),
         };
         let seconds = cost.map_or(f64::INFINITY, |cost| cost.seconds(points));
         let told = |promise, verdict| Candidate { method, promise, seconds, verdict };
@@ -126,7 +133,7 @@ pub fn consider(
             // Twice what is left out.
             Method::Certified => Promise::Proven((ulp / 2.0).max(left_out)),
             Method::Compiled => Promise::Proven((COMPILED_ULPS * ulp).max(tolerance / 2.0)),
-            Method::Marched { .. } => Promise::Proven(MARCHED_ULPS * (order as f64 + 1.0) * ulp),
+            Method::Marched { .. } => Promise::Proven(MARCHED_ULPS * (periods as f64 + 1.0) * ulp),
             Method::Stable(StablePrecision::Double) => Promise::Measured(64.0 * ulp),
             Method::Stable(StablePrecision::DoubleDouble) => Promise::Measured(2.0 * ulp),
             _ => Promise::Nothing,

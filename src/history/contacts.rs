@@ -365,7 +365,7 @@ impl Engine {
             .map(|place| known(*place).unwrap_or_else(Number::zero))
             .collect();
         let velocity = |run: usize| known(state.system.place_of_velocity(run));
-        let masses = |runs| self.nearest_masses(own, runs);
+        let masses = |runs| self.masses_that_meet(own, runs);
         let next = system.state(own, velocity, &displaced, masses, bits)?;
         let is_kept = |system: &System<Number>, place: usize| system.kept[place].is_some();
         let is_spring = |place: &usize| !own.elements[*place].law.is_driven();

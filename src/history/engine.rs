@@ -276,8 +276,8 @@ impl Engine {
         Ok(engine)
     }
 
-    /// The names of the masses of two runs that are nearest to each other, the left one first.
-    pub fn nearest_masses(&self, node: &Node<Number>, [left, right]: [usize; 2]) -> [String; 2] {
+    /// The names of the last mass of one run and the first of the next.
+    pub fn masses_that_meet(&self, node: &Node<Number>, [left, right]: [usize; 2]) -> [String; 2] {
         let masses = |run: usize| {
             let masses = node.elements.iter().filter(move |own| own.run == run);
             masses.filter(|own| matches!(own.law, ElementLaw::Mass { .. }))
@@ -330,7 +330,7 @@ impl Engine {
             let system = self.system(number, |_| true)?;
             let still = vec![Number::zero(); node.elements.len()];
             let velocity = |run: usize| self.starting_velocity(node, run);
-            let masses = |runs| self.nearest_masses(node, runs);
+            let masses = |runs| self.masses_that_meet(node, runs);
             let state = system.state(node, velocity, &still, masses, bits)?;
             let passivity = Passivity::at(node, &system, (&state, bits))?;
             let errors = passivity.errors(&state);

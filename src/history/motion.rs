@@ -570,11 +570,13 @@ impl System<Number> {
             let mut own = own.filter(|run| !node.mass_of(*run, bits).is_zero());
             let first = own.next().expect("a heavy group has a mass");
             let common = velocity(first).expect("a mass has a velocity");
+            let mut before = first;
             for run in own {
                 if velocity(run).is_none_or(|other| other != common) {
-                    let masses = masses([first, run]);
+                    let masses = masses([before, run]);
                     return Err(NotFollowed::RigidImpact { masses }.into());
                 }
+                before = run;
             }
             state.push(common);
         }

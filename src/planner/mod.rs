@@ -195,7 +195,7 @@ pub(crate) fn chosen<'a>(
     }
     let closed = || from(Origin::Closed);
     if origin(network, window[1], purpose) == Origin::Closed
-        || purpose == Purpose::Polynomials && is_short(network, observed, window)
+        || purpose == Purpose::Polynomials && is_cheap_closed(network, observed, window)
     {
         return closed();
     }
@@ -209,13 +209,13 @@ pub(crate) fn chosen<'a>(
     }
 }
 
-/// Whether polynomials come from a march through the waves of one pole and one lag, which takes no memory, or echoes die
-/// out, so that most are left out.
-fn is_short(network: &Network, observed: &Observed, window: [&Rational; 2]) -> bool {
+/// Whether the closed form is cheap for polynomials: a march through waves of one pole and one lag, which takes no memory, or
+/// echoes that die out, so that most are left out.
+fn is_cheap_closed(network: &Network, observed: &Observed, window: [&Rational; 2]) -> bool {
     let Ok(signal) = ClosedSignal::of_scene(network, observed, window) else { return false };
-    let is_short =
-        |form: &ClosedForm| Taps::of(form).is_ok() || form.falls(window[1]).unwrap_or(false);
-    signal.closed_form().is_ok_and(is_short)
+    signal
+        .closed_form()
+        .is_ok_and(|form| Taps::of(form).is_ok() || form.falls(window[1]).unwrap_or(false))
 }
 
 /// The same from one of the two sources.

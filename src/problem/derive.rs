@@ -23,7 +23,7 @@ const MOST_PIECES: usize = 8;
 /// How many orders are derived after the first, where nothing is said.
 const FEW: usize = 3;
 
-/// The most orders beyond the first that are derived of waves that do not return.
+/// Where waves do not return, all orders are derived if there are no more than these.
 const MOST_WITHOUT_RETURN: usize = 16;
 
 /// The most terms of all waves that an echo with names for rates has of these.

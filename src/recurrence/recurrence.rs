@@ -11,7 +11,7 @@ use crate::recurrence::statement::{
 use std::collections::BTreeSet;
 use wavestep_polynomial::{Polynomial, Symbol};
 
-/// More arrivals than these are not counted one by one.
+/// The most arrivals of one wave that are listed.
 const MOST_ARRIVALS: usize = 1000;
 
 /// A recurrence that can be solved step by step.
@@ -80,8 +80,8 @@ impl Recurrence {
         systems.any(|system| system.rates.len() > 2 && system.rates.iter().any(holds))
     }
 
-    /// By wave, the periods with which a piece begins that does not merely go on from the piece before it; `None` where waves
-    /// return, so that there is no last one.
+    /// For each wave, the periods at which something arrives: on all others the piece continues the one before it. `None` where
+    /// waves return, or where arrivals are too many to list.
     pub(crate) fn arrivals(&self) -> Option<Vec<BTreeSet<usize>>> {
         let equations = put_in(&self.steps, &self.statement.time);
         let mut known = vec![BTreeSet::from([0]); self.steps.len()];

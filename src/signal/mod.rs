@@ -41,7 +41,7 @@ pub(crate) use operations::{
     Balanced, Combination, Constant, Difference, Integral, Operation, Product, Scale, Vibrating,
 };
 pub use signal::{At, EchoCount, Effort, Instant, Limit, Point, Signal, Signed};
-pub(crate) use signal::{Enclosure, Known, MAX_FLATNESS, has_begun, last_begun, zeros_of};
+pub(crate) use signal::{Enclosure, Known, MAX_FLATNESS, has_begun, last_begun, later, zeros_of};
 pub(crate) use silence::Silence;
 pub use taps::{NoTaps, Taps};
 pub(crate) use taylor::of_exponential;

@@ -27,6 +27,11 @@ pub(crate) fn zeros_of(
     Ok(count)
 }
 
+/// How much later than a time another one is, as a symbol: a function is asked for beside that time.
+pub(crate) fn later() -> Symbol {
+    Symbol::new("later_than_a_time").expect("a name")
+}
+
 /// Where in a stretch.
 #[derive(Clone, Copy)]
 pub enum At<'a> {

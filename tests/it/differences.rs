@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use wavestep::planner::Purpose;
 use wavestep::problem::Size;
 use wavestep::signal::{Search, Signal};
-use wavestep::{Goal, Place, Problem, Value};
+use wavestep::{Goal, Place, Problem, Root, Value};
 use wavestep_polynomial::Rational;
 
 const ROD: &str = "scene \"A mass on a fixed rod\"\nsymbol mu > 0\nbar rod { impedance = 1, travel = 1 }\n\
@@ -153,4 +153,25 @@ fn a_difference_that_is_zero_until_a_wave_comes_is_told_once() {
     let told: Vec<String> = size.places.iter().map(|place| format!("{place:?}")).collect();
     let distinct: BTreeSet<&String> = told.iter().collect();
     assert_eq!(distinct.len(), told.len(), "{told:?}");
+}
+
+/// Of two loads on an endless bar: the velocities differ by `(t − 1)²/2` from `t = 0` on, which is zero at 1 alone.
+#[test]
+fn a_difference_that_touches_zero_is_decided() {
+    let scene = |force: &str| {
+        let text = format!(
+            "scene \"Two loads\"\nbar west {{ impedance = 1 }}\nbar east {{ impedance = 1 }}\n\
+             load p {{ force = {force} }}\nline endless - west - p - east - endless\n\
+             observe v = velocity(east.left)"
+        );
+        Problem::read("loads.wave", text).unwrap()
+    };
+    let (own, other) = (scene("exp(-t) + t^2"), scene("exp(-t) + 2*t - 1"));
+    ask([&own, &other], "v", whole(2), |signal| {
+        let search = Search::new(signal).unwrap();
+        let found = search.roots(&Rational::default(), 12, 1 << 12).unwrap().all;
+        assert_eq!(found, [Root::Double { time: Value::Exact(whole(1)) }]);
+        let least = search.extremum(Goal::Smallest, 12, 1 << 12).unwrap();
+        assert_eq!((least.value, least.places.len()), (Value::Exact(whole(0)), 1));
+    });
 }

@@ -123,7 +123,9 @@ fn settled(report: String, undecided: usize, what: &str) -> Result<String, Failu
     let message = format!("{} {stay} undecided", plural(undecided, what));
     let remedy = match what {
         "distance" | "value" => "ask for fewer digits, or a shorter window",
-        _ => "raise --max-bits; roots of even order stay undecided at any precision",
+        _ => {
+            "raise --max-bits; a root without a change of sign is proven only at a simple fraction"
+        }
     };
     Err(Failure::new(ACCURACY, message, remedy).with_report(report))
 }

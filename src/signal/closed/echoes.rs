@@ -55,7 +55,11 @@ impl Arriving {
         };
         let directions = network.lattice().periods().iter().zip(network.largest_lags());
         let bounds: Vec<usize> = match last_number(network)? {
-            Some(last) => vec![last],
+            Some(0) => vec![0],
+            Some(last) => {
+                let period = &network.lattice().periods()[0];
+                vec![last.min(whole_periods(&numbers, &latest, period, usize::MAX)?)]
+            }
             None => directions.map(bound).collect::<Result<_, _>>()?,
         };
         let total =

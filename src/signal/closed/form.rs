@@ -247,7 +247,10 @@ impl ClosedForm {
         self.lattice.is_none()
     }
 
-    /// On a grid, the piece of a wave that is seen at a time, or the one after it; no more than a limit.
+    /// On a grid, the number of the piece that is seen at a time, or the next one.
+    ///
+    /// # Errors
+    /// [`EvaluateError::TooManyEchoes`] beyond a limit, where waves return.
     pub(super) fn last_piece(
         &self,
         seen: &ObservedWave,

@@ -45,11 +45,11 @@ pub(super) struct Kept {
     pub rest: Magnitude,
     /// How many echoes can reach what is seen.
     pub arriving: usize,
-    /// How many echoes other than zero were worked out; on a grid, how many are in pieces that are.
+    /// How many echoes other than zero were worked out; on a grid, how many the computed pieces contain.
     pub expanded: Cell<usize>,
 }
 
-/// What is seen of echoes, by how much, and what these follow from.
+/// The echoes that are seen, their factors, and the echoes they depend on.
 struct Seen {
     demand: Demand,
     gains: BTreeMap<(WaveIndex, usize), Size>,
@@ -112,11 +112,14 @@ impl Shares {
         Shares::bounded(recurrence, all, numbers)
     }
 
-    /// Whether the echo of this number is smaller than half that of half the number, and both are bounded.
+    /// Whether the echoes of the second half of the numbers up to one come to less than half of those of the first half.
     pub fn fall(&self, number: usize) -> bool {
-        let shares = self.by_number();
-        let share = |number: usize| shares.get(&number).copied().flatten();
-        share(number).zip(share(number / 2)).is_some_and(|(end, middle)| end.scale(1) < middle)
+        let mut sums = [Some(Magnitude::ZERO); 2];
+        for (share, _, own) in self.shares.iter().filter(|(.., own)| (1..=number).contains(own)) {
+            add(&mut sums[usize::from(*own > number / 2)], *share);
+        }
+        let [early, late] = sums;
+        early.zip(late).is_some_and(|(early, late)| late.scale(1) < early)
     }
 
     fn bounded(
@@ -159,7 +162,7 @@ impl Shares {
         Kept { demand, rest, arriving: self.arriving, expanded: Cell::new(0) }
     }
 
-    /// Leaves out the last ones of a grid, after which pieces go on as if no more came.
+    /// Leaves out the last echoes of a grid: the last piece that is kept continues unchanged.
     pub fn keep_first(&self, recurrence: &Recurrence, most: &Magnitude) -> Kept {
         let (mut demand, mut rest) = (Demand::none(recurrence), Magnitude::ZERO);
         let numbers = self.by_number();

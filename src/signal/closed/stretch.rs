@@ -72,12 +72,12 @@ impl ClosedForm {
                     };
                     for n in numbers {
                         let delay = period.scale(&Rational::from_integer(n.into()));
+                        if !place((Some(seen), n, &delay + &wave.delay))? {
+                            break;
+                        }
                         if n > MAX_ECHOES {
                             let (echoes, limit) = (n as u128, MAX_ECHOES);
                             return Err(EvaluateError::TooManyEchoes { echoes, limit });
-                        }
-                        if !place((Some(seen), n, &delay + &wave.delay))? {
-                            break;
                         }
                     }
                 }

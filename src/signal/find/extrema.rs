@@ -397,13 +397,19 @@ impl Contenders<'_, '_> {
     /// The extremum where it is the same rational number at all places that are left.
     fn exact(&self) -> Result<Option<Rational>, EvaluateError> {
         let mut common: Option<Rational> = None;
-        for candidate in &*self.left.borrow() {
-            let (Candidate::Limit { stretch, side } | Candidate::Plateau { stretch, side }) =
-                candidate
-            else {
-                return Ok(None);
+        let (search, zero) = (self.search, Rational::default());
+        let slope = Target { order: 1, level: &zero, limit_bits: self.limit_bits };
+        for candidate in &mut *self.left.borrow_mut() {
+            let exact = match candidate {
+                Candidate::Limit { stretch, side } | Candidate::Plateau { stretch, side } => {
+                    search.function.exact(*stretch, At::End(*side))?
+                }
+                Candidate::Critical(root) => match search.narrowed_to_fraction(root, slope)? {
+                    Some(time) => search.function.exact(root.stretch, At::Time(&time))?,
+                    None => None,
+                },
+                Candidate::Open { .. } => None,
             };
-            let exact = self.search.function.exact(*stretch, At::End(*side))?;
             let Some(value) = exact else { return Ok(None) };
             if common.get_or_insert_with(|| value.clone()) != &value {
                 return Ok(None);

@@ -48,7 +48,7 @@ impl Isolated {
         differ(signs).then(|| Isolated::on(cell, stretch, rises))
     }
 
-    /// Leaves the side of a time on which the root is, by the sign of the function there.
+    /// Keeps the side of a time that holds the root, by the sign of the function there.
     fn cut(&mut self, at: Rational, sign: Ordering) {
         match (sign == Ordering::Greater) == self.rises {
             true if at < self.to => self.to = at,
@@ -106,7 +106,7 @@ impl Search<'_> {
             match value.sign() {
                 Some(Ordering::Equal) => (root.from, root.to) = (middle.clone(), middle),
                 Some(sign) => root.cut(middle, sign),
-                // The root is near the middle: times on both sides tell so, where they are far enough from it.
+                // The root may be too near the middle to decide the sign there; a quarter of the interval away it may be decided.
                 None => {
                     let quarter = &narrowed / Rational::from_integer(4.into());
                     for beside in [&middle - &quarter, &middle + &quarter] {
@@ -136,12 +136,7 @@ impl Search<'_> {
         digits: usize,
     ) -> Result<Value, EvaluateError> {
         let mut root = root.clone();
-        self.narrow(&mut root, target, SUSPICION_BITS)?;
-        let simple = simplest(&root.from, &root.to);
-        if target.order == 0
-            && simple.denom().bits() <= MAX_DENOMINATOR_BITS
-            && self.function.exact(root.stretch, At::Time(&simple))?.as_ref() == Some(target.level)
-        {
+        if let Some(simple) = self.narrowed_to_fraction(&mut root, target)? {
             return Ok(Value::Exact(simple));
         }
         let time = Value::certify(digits, target.limit_bits, |bits| {
@@ -153,6 +148,39 @@ impl Search<'_> {
             ))
         })?;
         Ok(time.exact_if_known())
+    }
+
+    /// The root, where it is a rational number with a short denominator at which the function or the derivative is exactly
+    /// zero.
+    pub(crate) fn narrowed_to_fraction(
+        &self,
+        root: &mut Isolated,
+        target: Target<'_>,
+    ) -> Result<Option<Rational>, EvaluateError> {
+        self.narrow(root, target, SUSPICION_BITS)?;
+        match root.from <= root.to {
+            true => self.fraction_within(root, target),
+            false => Ok(None),
+        }
+    }
+
+    /// The same on an interval that is short.
+    pub(crate) fn fraction_within(
+        &self,
+        root: &Isolated,
+        target: Target<'_>,
+    ) -> Result<Option<Rational>, EvaluateError> {
+        let simple = simplest(&root.from, &root.to);
+        if simple.denom().bits() > MAX_DENOMINATOR_BITS {
+            return Ok(None);
+        }
+        let is_root = match target.order {
+            0 => {
+                self.function.exact(root.stretch, At::Time(&simple))?.as_ref() == Some(target.level)
+            }
+            order => self.zeros_at(root.stretch, &simple, order) > 0,
+        };
+        Ok(is_root.then_some(simple))
     }
 }
 

@@ -4,12 +4,13 @@
 //! monotone. Such a run holds exactly one root where the signs at its ends differ, and none where
 //! they are the same. At an end of the stretch itself the limit counts; where it is exactly zero,
 //! the root is the arrival, and the run has no other. On what stays open nothing is proven, with
-//! two exceptions:
+//! three exceptions:
 //!
 //! - a stretch on which `f' = 0` coefficient by coefficient: `f` is constant, and one exact value
 //!   tells whether it is `v`; where waves cancel each other, several exact values tell;
 //! - an open cell at an arrival where `f − v` and `f'` both vanish exactly and `f''` has a sign on
-//!   all of the cell: `f − v` has that sign beside the arrival.
+//!   all of the cell: `f − v` has that sign beside the arrival;
+//! - an open cell in which `f − v` only touches zero, at a simple fraction.
 //!
 //! Between stretches the two limits tell of jumps. The roots of a [`square`](super::square) are those of what is squared.
 
@@ -43,7 +44,7 @@ pub enum Root {
         /// Whether from below to above.
         rises: bool,
     },
-    /// A root of a square, `f = 0`, without a change of sign.
+    /// A root without a change of sign: of a square, or of even order at a simple fraction.
     Double {
         /// When.
         time: Value,
@@ -131,6 +132,9 @@ impl Roots {
 
 /// The relative width in bits of an interval that stays undecided.
 const UNDECIDED_BITS: u64 = 80;
+
+/// The relative width in bits of an interval that may be about a root of even order.
+const TOUCH_BITS: u64 = 40;
 
 /// A search on its way.
 struct Finder<'s, 'a> {
@@ -390,7 +394,13 @@ impl Finder<'_, '_> {
                         (false, true) => self.touches(stretch, Limit::Left, cell)?,
                         _ => false,
                     };
-                    if !lone {
+                    let touched = match starts || stops {
+                        true => None,
+                        false => self.touch(stretch, cell)?,
+                    };
+                    if let Some(time) = touched {
+                        self.all.push(Root::Double { time: Value::Exact(time) });
+                    } else if !lone {
                         let crosses = first.zip(last).is_some_and(|(a, b)| differ([a, b]));
                         self.leave(stretch, (cell.from.clone(), cell.to.clone()), crosses)?;
                     }
@@ -409,6 +419,28 @@ impl Finder<'_, '_> {
         let sign = range.sign();
         Ok(sign.is_some_and(|sign| sign != Ordering::Equal)
             && search.slope_vanishes(stretch, side)?)
+    }
+
+    /// The only root in a cell, if it is a simple fraction `t₀` of even order k: exactly there `f − v`, `f'`, … `f^(k−1)`
+    /// are zero, and `f^(k)` keeps its sign on the cell, so that `f(t) − v = (t − t₀)^k/k! f^(k)(ξ)`. At an end of the
+    /// stretch limits count.
+    fn touch(&self, stretch: usize, cell: &Cell) -> Result<Option<Rational>, EvaluateError> {
+        let (search, target) = (self.search, self.target);
+        if &cell.to - &cell.from > &cell.to * power_of_half(TOUCH_BITS) {
+            return Ok(None);
+        }
+        let near = Isolated::on(cell, stretch, true);
+        let Some(time) = search.fraction_within(&near, target)? else { return Ok(None) };
+        let is_end =
+            |end| search.function.exact_time(stretch, end).is_some_and(|known| known == time);
+        if is_end(Limit::Right) || is_end(Limit::Left) {
+            return Ok(None);
+        }
+        let order = 1 + search.zeros_at(stretch, &time, 1);
+        let target = Target { order, ..target };
+        let range = search.range(stretch, target, (&cell.from, &cell.to), search.bits.get())?;
+        let has_sign = range.sign().is_some_and(Ordering::is_ne);
+        Ok((order.is_multiple_of(2) && has_sign).then_some(time))
     }
 
     /// Notes an interval on which nothing is proven, as one with that before it where they meet.

@@ -4,8 +4,9 @@
 //! where a ball cannot decide because the answer is zero.
 
 use crate::ball::{Attempt, Ball, Precisions};
+use crate::expression::Fraction;
 use crate::signal::error::EvaluateError;
-use crate::signal::signal::{At, Limit, Signal};
+use crate::signal::signal::{At, Effort, Limit, Signal, later, zeros_of};
 use std::cell::Cell;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
@@ -151,6 +152,16 @@ impl<'a> Search<'a> {
     ) -> Result<bool, EvaluateError> {
         let slope = self.function.enclose(stretch, 1, At::End(side), self.bits.get())?;
         Ok(slope.contains_zero() && self.function.flatness(stretch, side, 1)? > 0)
+    }
+
+    /// How many derivatives, from that of an order on, are known to be exactly zero at a time.
+    pub(crate) fn zeros_at(&self, stretch: usize, time: &Rational, order: usize) -> usize {
+        let later = later();
+        let at = &self.function.scaled_time(time) + &Fraction::symbol(&later);
+        let function = self.function.exact_at(stretch, &at, Effort::Much);
+        let zeros = function.map(|function| zeros_of(function, &later, &Fraction::zero(), order));
+        // Where exact arithmetic fails nothing is known.
+        zeros.and_then(Result::ok).unwrap_or(0)
     }
 
     /// Rational bounds of a stretch: its ends themselves where they are rational, else so little

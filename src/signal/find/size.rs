@@ -49,10 +49,13 @@ impl Search<'_> {
         let (known, negligible) = (Default::default(), negligible.clone());
         let mut bounding = Bounding { search: self, known, negligible, expansions: 0 };
         let mut moving = Vec::new();
-        for stretch in 0..self.count {
-            let has_one_value = self.function.is_instant(stretch) || self.is_constant(stretch)?;
-            bounding.note_ends(stretch, has_one_value)?;
-            if !has_one_value {
+        for stretch in counted(0..self.count, "of the stretches") {
+            let function = self.function;
+            // Where that is not told, it is bounded as any other.
+            if function.is_instant(stretch) || self.is_constant(stretch).unwrap_or(false) {
+                bounding.note_only_value(stretch)?;
+            } else {
+                bounding.note_limits(stretch)?;
                 moving.push(stretch);
             }
         }
@@ -78,20 +81,26 @@ impl Bounding<'_, '_> {
         }
     }
 
-    /// The limits at both ends of a stretch, or its one value.
-    fn note_ends(&mut self, stretch: usize, has_one_value: bool) -> Result<(), EvaluateError> {
-        let (search, zero) = (self.search, Rational::default());
+    fn limit(&self, stretch: usize, end: Limit) -> Result<Ball, EvaluateError> {
+        let zero = Rational::default();
         let target = Target { order: 0, level: &zero, limit_bits: self.bits() };
+        self.search.enclose(stretch, target, At::End(end), self.bits())
+    }
+
+    /// The only value of a stretch that is an instant, or constant.
+    fn note_only_value(&mut self, stretch: usize) -> Result<(), EvaluateError> {
+        let value = self.limit(stretch, Limit::Right)?;
+        let most = Rational::from(&value.magnitude());
+        if most > self.known[1] {
+            self.known[1] = most;
+        }
+        self.note(&value);
+        Ok(())
+    }
+
+    fn note_limits(&mut self, stretch: usize) -> Result<(), EvaluateError> {
         for end in [Limit::Right, Limit::Left] {
-            if end == Limit::Left && has_one_value {
-                continue;
-            }
-            let value = search.enclose(stretch, target, At::End(end), self.bits())?;
-            let [_, high] = &mut self.known;
-            let most = Rational::from(&value.magnitude());
-            if has_one_value && most > *high {
-                *high = most;
-            }
+            let value = self.limit(stretch, end)?;
             self.note(&value);
         }
         Ok(())

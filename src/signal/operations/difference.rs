@@ -9,7 +9,7 @@ use crate::expression::{Expression, Fraction};
 use crate::network::Network;
 use crate::scene::PI;
 use crate::signal::{
-    At, EchoCount, Effort, Enclosure, Instant, Known, Limit, Signal, Taylor, zeros_of,
+    At, EchoCount, Effort, Enclosure, Instant, Known, Limit, Signal, Taylor, later, zeros_of,
 };
 use std::ops::Range;
 use std::rc::Rc;
@@ -39,7 +39,8 @@ impl<'a> Difference<'a> {
         let symbols = Expression::from(number.clone()).symbols();
         symbols.iter().all(|symbol| {
             let is_clock = self.scales.iter().all(|scale| scale.clock == symbol);
-            is_clock || symbol.square().is_some() || symbol.name() == PI || shared.contains(&symbol)
+            let is_time = is_clock || *symbol == later();
+            is_time || symbol.square().is_some() || symbol.name() == PI || shared.contains(&symbol)
         })
     }
 
@@ -156,6 +157,10 @@ impl Rule for Difference<'_> {
     }
 
     fn exact_value(&self, places: &[usize], at: &Fraction) -> Outcome<Option<Rational>> {
+        // Where arrivals are left out, the second operand itself is not what is subtracted.
+        if self.arrivals.is_some() {
+            return Ok(None);
+        }
         let Some(theirs) = self.rescaled(at, [0, 1]) else { return Ok(None) };
         let own = self.operands[0].exact(places[0], At::Scaled(at))?;
         let other = self.operands[1].exact(places[1], At::Scaled(&theirs))?;

@@ -298,7 +298,8 @@ pub(crate) trait Rule {
     /// As [`Signal::exact_at`].
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression>;
 
-    /// The value in the user's unit at one exact time in the scale of the scene, where the operands know theirs.
+    /// The value in the user's unit at one exact time in the scale of the scene, or from that time on, where the operands
+    /// know theirs.
     fn exact_value(&self, _: &[usize], _: &Fraction) -> Outcome<Option<Rational>> {
         Ok(None)
     }
@@ -569,6 +570,8 @@ impl<R: Rule> Signal for Operation<'_, R> {
     }
 
     fn exact(&self, stretch: usize, at: At<'_>) -> Outcome<Option<Rational>> {
+        // Of single values operands tell those from the right.
+        let is_before = matches!(at, At::End(Limit::Left));
         let at = match at {
             At::Time(time) => self.scale.scaled_time(time),
             At::Scaled(time) => time.clone(),
@@ -584,6 +587,7 @@ impl<R: Rule> Signal for Operation<'_, R> {
         match self.told(self.rule.exact_at(places, &at, Effort::Much)) {
             Known::Rational(value) => Ok(Some(value)),
             Known::Irrational => Ok(None),
+            Known::Unknown if is_before => Ok(None),
             Known::Unknown => self.rule.exact_value(places, &at),
         }
     }

@@ -99,7 +99,7 @@ fn equal_extrema_meet_where_the_formula_says() {
 fn undecided_roots_end_with_code_3_and_a_report() {
     let file = anywhere().join("double.wave");
     let text = "recurrence \"Double\"\nperiod 2, local s, time t\nwave f\nequation f[n] = f[n-1]\n\
-                observe q = f[n] + (t - 1/3)^2\n";
+                observe q = f[n] + (t^2 - 1/2)^2\n";
     std::fs::write(file, text).unwrap();
     let (code, text, errors) = run(anywhere(), &words("find double.wave --zero q --from 0 --to 1"));
     assert_eq!(code, 3);
