@@ -1,6 +1,7 @@
 //! A scene whose bars of finite length are all rigid, or all springs with a share of their mass: no wave returns in it.
 
 use crate::answer::way::WayError;
+use crate::ball::{at_or_after, at_or_before, rational};
 use crate::model::{ModelError, NotRepresented};
 use crate::network::{Network, NetworkError, ScaledScene};
 use crate::planner::{self, Purpose, SignalError};
@@ -60,7 +61,9 @@ pub(super) fn reduced(
     let refused = |error| WayError::Reduced(model, Box::new(error));
     let network = network(scaled, observable, ideal).map_err(refused)?;
     let observed = &network.observables()[0];
-    let signal = planner::of_scene(&network, observed, window, Purpose::Polynomials);
+    // Times come as the nearest doubles, which may lie a little beyond the ends.
+    let [from, to] = [at_or_before(window[0]), at_or_after(window[1])].map(rational);
+    let signal = planner::of_scene(&network, observed, [&from, &to], Purpose::Polynomials);
     let signal = signal.map_err(|error| refused(error.into()))?;
     Ok(Compiled::new(&*signal, None)?.into_table())
 }

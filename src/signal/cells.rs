@@ -155,9 +155,9 @@ impl<'a> Window<'a> {
         Ok(doubles.filter(|(_, (first, last))| first <= last))
     }
 
-    /// About the largest absolute value at the beginning and the end of some of the stretches and between: in the middle,
-    /// and where stretches are few, ever nearer to the beginning. The largest one on the window is not smaller by more than
-    /// one part in 2^18.
+    /// About the largest absolute value, by samples: at both ends of some of the stretches, in the middle, and where stretches
+    /// are few, at times ever nearer to the beginning. The largest one on the window is at least that, but for one part in
+    /// 2^18.
     pub(crate) fn scale(&self) -> Result<Magnitude, EvaluateError> {
         /// How many stretches are looked at.
         const SAMPLES: usize = 40;

@@ -129,28 +129,46 @@ fn signals_enclose_the_values_of_scenes() {
 }
 
 /// A mass on an endless bar: `e^(−2t)`, one function at all times, however long the window is. Beyond a bar between two
-/// endless ones a single wave comes.
+/// endless ones a single wave comes. A load that begins and ends comes twice.
 #[test]
-fn without_returns_nothing_arrives() {
+fn without_returns_little_arrives() {
     let mass = "scene \"No return\"\nmass m { mass = 1, velocity = 1 }\nbar b { impedance = 2 }\n\
         line free - m - b - endless\nobserve v = velocity(m)";
     let passing = "scene \"Passing\"\nbar a { impedance = 2 }\nmass m { mass = 1, velocity = 1 }\n\
         bar c { impedance = 1, travel = 1 }\nbar b { impedance = 1 }\n\
         line endless - a - m - c - b - endless\nobserve v = velocity(b.left)";
-    for (text, arrivals, rate, since) in [(mass, 0, -2.0, 0.0), (passing, 1, -3.0, 1.0)] {
+    let late = "scene \"Late\"\nbar a { impedance = 1 }\nmass m { mass = 3 }\n\
+        load p { force = 6, from = 2, until = 3 }\nbar b { impedance = 2 }\n\
+        line endless - a - m - p - b - endless\nobserve v = velocity(m)";
+    let pushed = |t: f64| match t {
+        ..2.0 => 0.0,
+        ..3.0 => 2.0 - 2.0 * f64::exp(2.0 - t),
+        _ => (2.0 - 2.0 * f64::exp(-1.0)) * f64::exp(3.0 - t),
+    };
+    let cases: [(_, _, _, &dyn Fn(f64) -> f64); 3] = [
+        (mass, 0, 2.0, &|t| f64::exp(-2.0 * t)),
+        (passing, 1, 3.0, &|t| if t < 1.0 { 0.0 } else { f64::exp(-3.0 * (t - 1.0)) }),
+        (late, 2, 1.0, &pushed),
+    ];
+    for (text, arrivals, rate, expected) in cases {
         let problem = Problem::read("no-return.wave", text).unwrap();
         let network = problem.network().unwrap();
         let (wanted, from) = (&network.observables()[0], Rational::default());
         for to in [7, 1_000_000] {
             let to = Rational::from_integer(to.into());
             let signal = ClosedSignal::of_scene(network, wanted, [&from, &to]).unwrap();
-            assert_eq!(signal.count().unwrap(), 1 + arrivals);
-            let times = [2.0, 5.0, 7.0];
-            let found = problem.signal("v").unwrap().values_by(&times, Method::Compiled).unwrap();
-            for (time, value) in times.iter().zip(found.values) {
-                let expected = f64::exp(rate * (time - since));
-                assert!((value - expected).abs() < 1e-15, "{time}: {value} {expected}");
-            }
+            assert_eq!(signal.count().unwrap(), 1 + arrivals, "{text}");
         }
+        let (signal, times) = (problem.signal("v").unwrap(), [0.5, 2.0, 2.5, 3.0, 5.0, 7.0]);
+        let compiled = signal.values_by(&times, Method::Compiled).unwrap().values;
+        for (time, value) in times.into_iter().zip(compiled) {
+            let expected = expected(time);
+            assert!((value - expected).abs() < 2e-15, "{time}: {value} {expected}");
+            let digits = signal.at(time, 15).unwrap().to_f64();
+            assert!((digits - expected).abs() < 2e-15, "{time}: {digits} {expected}");
+        }
+        // Long after the last arrival all digits are told.
+        let [late, later] = [100, 101].map(|time| signal.at(time, 15).unwrap().to_f64());
+        assert!(((later / late).ln() + rate).abs() < 1e-12, "{text}: {late} {later}");
     }
 }

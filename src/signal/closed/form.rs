@@ -257,12 +257,9 @@ impl ClosedForm {
         at: &Fraction,
         limit: usize,
     ) -> Result<usize, EvaluateError> {
-        let since = at - &seen.delay;
-        match self.arrivals(seen.wave).map(last_of) {
-            Some(0) => Ok(0),
-            Some(last) => Ok(last.min(self.whole_periods(&since, usize::MAX)?)),
-            None => self.whole_periods(&since, limit),
-        }
+        let last = self.arrivals(seen.wave).map(last_of);
+        let limit = if last.is_some() { usize::MAX } else { limit };
+        up_to(last, || self.whole_periods(&(at - &seen.delay), limit))
     }
 
     /// As [`Recurrence::arrivals`], of one wave.
@@ -289,24 +286,17 @@ impl ClosedForm {
         Ok(periods)
     }
 
-    /// How many pieces follow the first one of a wave up to a time, or one more; on a lattice, how many echoes of a wave can have
-    /// arrived, of those that are worked out.
+    /// The number of the last piece that has begun at a time, or the next one; on a lattice, the largest number of echoes of
+    /// one wave, of those that are worked out.
     pub fn order(&self, at: &Rational) -> Result<usize, EvaluateError> {
-        match &self.lattice {
-            None => {
-                match self.all_arrivals().map(|all| all.iter().map(last_of).max().unwrap_or(0)) {
-                    Some(0) => Ok(0),
-                    last => {
-                        let periods = self.periods(at)?;
-                        Ok(last.map_or(periods, |last| last.min(periods)))
-                    }
-                }
-            }
-            Some(lattice) => Ok(match &self.kept {
-                Some(kept) => kept.demand.most_of_a_wave(),
-                None => lattice.arrivals.len(),
-            }),
-        }
+        let Some(lattice) = &self.lattice else {
+            let last = self.all_arrivals().and_then(|all| all.iter().map(last_of).max());
+            return up_to(last, || self.periods(at));
+        };
+        Ok(match &self.kept {
+            Some(kept) => kept.demand.most_of_a_wave(),
+            None => lattice.arrivals.len(),
+        })
     }
 
     /// What is solved with so many bits, or, where that has made room for others, with the least that are kept.
@@ -425,4 +415,16 @@ impl ClosedForm {
 
 fn last_of(arrivals: &BTreeSet<usize>) -> usize {
     arrivals.last().copied().unwrap_or(0)
+}
+
+/// How many periods there are, up to the last one that counts.
+fn up_to(
+    last: Option<usize>,
+    periods: impl FnOnce() -> Result<usize, EvaluateError>,
+) -> Result<usize, EvaluateError> {
+    match last {
+        Some(0) => Ok(0),
+        Some(last) => Ok(last.min(periods()?)),
+        None => periods(),
+    }
 }

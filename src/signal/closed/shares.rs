@@ -10,8 +10,9 @@
 //! l = ∫₀ᵀ |e^{−ax}| dx ≤ min(1/Re a, gT),    g = sup |e^{−ax}|, which is 1 where Re a ≥ 0
 //! ```
 //!
-//! The bracket is the norm of a return, for `(p−a)/(p+b)` it is `(a+b)/b`. Norms of masses and springs are mostly above 1;
-//! then bounds do not fall from echo to echo, and nothing is left out.
+//! Waves that others give are put in first: what they reflect may cancel. The bracket is the norm of a return, for
+//! `(p−a)/(p+b)` it is `(a+b)/b`. Norms of masses and springs are mostly above 1; unless dampers reflect little, bounds then
+//! do not fall from echo to echo, and nothing is left out.
 
 use super::echoes::Arriving;
 use crate::ball::{Ball, ComplexBall, Magnitude};

@@ -71,6 +71,17 @@ fn tolerances_are_honoured() {
     assert_eq!(compared, 30);
 }
 
+/// The double nearest to a tenth lies beyond it.
+#[test]
+fn models_reach_the_end_of_a_window() {
+    for method in ["third", "modes:10", "leapfrog:20", "steps:1e-9", "compiled"] {
+        let line = "eval mass-on-fixed-bar --set mu=1/100 --quantity velocity --to 1/10 --points 2";
+        let (values, _) = both(&format!("{line} --method {method}"));
+        let last = printed(values.lines().last().unwrap());
+        assert!((last - 0.543).abs() < 1e-3, "{method}: {last}");
+    }
+}
+
 /// A window that begins with an arrival has both limits there, by every method.
 #[test]
 fn left_limits_at_the_first_time() {
