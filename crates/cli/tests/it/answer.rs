@@ -75,7 +75,7 @@ fn tolerances_are_honoured() {
 #[test]
 fn models_reach_the_end_of_a_window() {
     for method in ["third", "modes:10", "leapfrog:20", "steps:1e-9", "compiled"] {
-        let line = "eval mass-on-fixed-bar --set mu=1/100 --quantity velocity --to 1/10 --points 2";
+        let line = "eval mass-on-fixed-bar --set mu=1/100 --quantity velocity --from 0 --to 1/10 --points 2";
         let (values, _) = both(&format!("{line} --method {method}"));
         let last = printed(values.lines().last().unwrap());
         assert!((last - 0.543).abs() < 1e-3, "{method}: {last}");
