@@ -113,7 +113,8 @@ def same_claims(one, other):
             return False
     if ("minus" in one) != ("minus" in other) or "minus" in one and not same_claims(one["minus"], other["minus"]):
         return False
-    if any(one.get(key) != other.get(key) and Fraction(one[key]) != Fraction(other[key]) for key in ("at", "from", "to")):
+    times = ("at", "from") if one.get("kind") == "events" else ("at", "from", "to")
+    if any(one.get(key) != other.get(key) and Fraction(one[key]) != Fraction(other[key]) for key in times):
         return False
     if one.get("goal") != other.get("goal"):
         return False
@@ -124,6 +125,11 @@ def same_claims(one, other):
     is_near = lambda a, b: abs(a[0] - b[0]) <= a[1] + b[1]
     if len(rows[0]) != len(rows[1]) or not all(map(is_near, *rows)):
         return False
+    if one.get("kind") == "events":  # all else is the line, which a checker follows itself: what it finds is true of that line
+        names = [[event[:2] for event in document["events"]] for document in (one, other)]
+        if names[0] != names[1]:
+            return False
+        one, other = ({"zeros": [event[2:] for event in document["events"]]} for document in (one, other))
     zeros = [[list(map(Fraction, pair)) for pair in document.get("zeros", [])] for document in (one, other)]
     overlap = lambda a, b: a[0] <= b[1] and b[0] <= a[1]
     return len(zeros[0]) == len(zeros[1]) and all(map(overlap, *zeros))
@@ -139,10 +145,12 @@ def main(count, files):
         if document == original:
             continue
         verdicts = [outcome(checker, document) for checker in CHECKERS]
-        if len({verdict is None for verdict in verdicts}) > 1:
+        # Events: how closely a motion is enclosed is a matter of the checker.
+        is_undecided = document.get("kind") == "events" and any(verdict in ("Wrong", "Undecided") for verdict in verdicts)
+        if len({verdict is None for verdict in verdicts}) > 1 and not (is_undecided and same_claims(document, original)):
             missed += 1
             print(f"judged differently in {original['title']} ({original['kind']}): {path} {verdicts}")
-        elif verdicts[0] is not None:
+        elif None not in verdicts:
             caught += 1
         elif same_claims(document, original):
             harmless += 1

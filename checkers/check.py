@@ -12,6 +12,7 @@ from fractions import Fraction
 
 from exact import LATEST, MINUS, ONE, PLACES, ROOTS, Wrong, accumulate, add, frozen, is_count, is_zero, key_of, less, need, number
 from exact import number_at, on_period, plus, power, put, rational, read, read_form, read_function, sign, sign_on, slope, times, whole
+from motion import check_events
 
 # From the drawing of a line to its laws.
 
@@ -530,7 +531,7 @@ def check(cert):
     ROOTS.update({symbol: read_square(square) for symbol, square in cert["roots"].items()})
     need(len(set(ROOTS.values())) == len(ROOTS) <= 16, "two roots of one number, or too many")
     kinds = {"pieces": check_pieces, "general": check_general, "value": check_value, "doubles": check_doubles}
-    kinds |= {"roots": check_roots, "extremum": check_extremum}
+    kinds |= {"roots": check_roots, "extremum": check_extremum, "events": check_events}
     need(type(cert["title"]) is str and cert["title"].encode(), "a title is missing")
     need(cert["kind"] in kinds, f"unknown kind {json.dumps(cert['kind'])}")
     need("minus" not in cert or "observed" in cert["minus"] and cert["kind"] not in ("pieces", "general"), "a second scene for nothing")

@@ -14,6 +14,8 @@ from fractions import Fraction
 try:
     import flint
     from flint import acb, acb_series, arb, fmpq, fmpq_mat, fmpq_mpoly_ctx
+
+    from motion_arb import Undecided, check_motion
 except ImportError:
     if __name__ != "__main__":
         raise
@@ -1056,9 +1058,12 @@ def check(cert):
     need(type(version) is int and version == 1, "a certificate of another version")
     need(isinstance(cert["title"], str) and cert["title"].encode(), "a title is missing")
     kinds = {"pieces": lambda *_: None, "general": check_general, "value": check_value, "doubles": check_doubles}
-    kinds |= {"roots": check_roots, "extremum": check_extremum}
+    kinds |= {"roots": check_roots, "extremum": check_extremum, "events": None}
     need(cert["kind"] in kinds, f"unknown kind {json.dumps(cert['kind'])}")
     need("minus" not in cert or "observed" in cert["minus"] and cert["kind"] not in ("pieces", "general"), "a second scene for nothing")
+    if cert["kind"] == "events":
+        [Ring.prime(text) for text in cert["roots"].values()]
+        return check_motion(cert)
     claim = Claim(cert, Ring(cert))
     claim.check()
     kinds[cert["kind"]](cert, claim)
@@ -1098,7 +1103,7 @@ def judge(name):
         return False, f"cannot be read: {error}"
     try:
         check(certificate)
-    except Wrong as error:
+    except (Wrong, Undecided) as error:
         return False, f"NOT proven: {error}"
     except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError, MemoryError) as error:
         return False, f"NOT proven: it is not laid out as it should be: {error!r}"

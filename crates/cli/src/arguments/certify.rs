@@ -5,7 +5,7 @@ use clap::{ArgGroup, Args};
 
 #[derive(Args)]
 #[command(group = ArgGroup::new("goal").args(["max", "min", "zero", "distance"]),
-          group = ArgGroup::new("window").args(["max", "min", "zero", "distance", "points"]), after_help = "Examples:\n  \
+          group = ArgGroup::new("window").args(["max", "min", "zero", "distance", "points", "events"]), after_help = "Examples:\n  \
     wavestep certify rigid-mass --through 8 -o rigid-mass.json\n  \
     wavestep certify rigid-mass --general -o general.json\n  \
     wavestep certify rigid-mass --set mu=1/4 --quantity velocity --at 33/10 --digits 30 -o value.json\n  \
@@ -13,7 +13,8 @@ use clap::{ArgGroup, Args};
     wavestep certify mass-on-fixed-bar --set mu=1/4 --max strain_fixed --to 6 -o largest.json\n  \
     wavestep certify rigid-mass --set mu=1 --quantity velocity --to 6 --points 100 --method compiled -o doubles.json\n  \
     wavestep certify mass-on-fixed-bar --set mu=1/10 --distance velocity --minus third --to 1 -o third.json\n  \
-    python3 checkers/check.py rigid-mass.json general.json value.json roots.json largest.json doubles.json third.json\n\n\
+    wavestep certify saint-venant --set mu=1 --events --to 10 -o events.json\n  \
+    python3 checkers/check.py rigid-mass.json general.json value.json roots.json largest.json doubles.json third.json events.json\n\n\
 A certificate holds what is claimed with all that a reader needs to verify it, without this program.")]
 pub struct Certify {
     #[command(flatten)]
@@ -24,6 +25,9 @@ pub struct Certify {
     /// Certify a formula for every n of all waves
     #[arg(long, conflicts_with_all = ["through", "at", "window", "digits"])]
     pub general: bool,
+    /// Certify when contacts open and close, and that nothing else happens to them
+    #[arg(long, conflicts_with_all = ["through", "general", "quantity", "goal", "minus"])]
+    pub events: bool,
     /// Certify the value of this wave or observable, at one time or in doubles at many
     #[arg(long, value_name = "NAME", conflicts_with = "goal")]
     pub quantity: Option<String>,

@@ -6,11 +6,22 @@ use wavestep::expression::Fraction;
 use wavestep::network::{ElementLaw, Layout, Link, Lumped, Network, Node, Role, Side};
 use wavestep::scene::{Drive, ElementIndex};
 
-/// The elements, the ends among them.
+/// The elements, the ends among them, with the waves that the laws are stated in.
 pub fn line(network: &Network, writer: &mut Writer) -> Json {
     let layout = &network.as_ref().layout;
     let drawing = Drawing { network, layout, writer, drawn: Vec::new() };
     drawing.whole()
+}
+
+/// The same with contacts that part what they stand between. No wave has a name.
+pub fn with_contacts(network: &Network, layout: &Layout, writer: &mut Writer) -> Json {
+    let drawing = Drawing { network, layout, writer, drawn: Vec::new() };
+    let mut line = drawing.whole();
+    let elements = line.as_array_mut().into_iter().flatten().filter_map(Json::as_object_mut);
+    for element in elements {
+        ["clock", "right", "left", "wave"].into_iter().for_each(|key| drop(element.remove(key)));
+    }
+    line
 }
 
 struct Drawing<'a> {
@@ -73,15 +84,19 @@ impl<'a> Drawing<'a> {
         for run in 0..node.runs() {
             self.motion(place, node, run);
             node.attached(run).for_each(|own| self.element(own));
-            if let Some(Link::Element(spring)) = node.links.get(run) {
-                self.element(&node.elements[*spring]);
+            match node.links.get(run) {
+                Some(Link::Element(spring)) => self.element(&node.elements[*spring]),
+                Some(Link::Contact(_)) => self.drawn.push(json!({ "is": "contact" })),
+                Some(Link::Local { .. }) | None => {}
             }
         }
     }
 
     /// What moves together beside no bar has a velocity of its own.
     fn motion(&mut self, place: usize, node: &Node<Fraction>, run: usize) {
-        let Some(wave) = self.wave(Role::Velocity(place, node.first_place(run))) else { return };
+        let is_whole = self.layout.contacts.is_empty();
+        let wave = self.wave(Role::Velocity(place, node.first_place(run)));
+        let Some(wave) = wave.filter(|_| is_whole) else { return };
         let at_start = node.attached(run).find_map(|own| match &own.law {
             ElementLaw::Mass { velocity, .. } if !self.network.is_disturbed(place) => {
                 Some(velocity.clone())

@@ -1,6 +1,7 @@
 //! `certify`: what is claimed, with all that it takes to verify it, for checkers that share nothing with this program.
 
 mod drawing;
+mod events;
 mod window;
 mod writer;
 
@@ -39,6 +40,10 @@ pub fn run(options: &Certify) -> Result<String, Failure> {
     input::digits(options.digits)?;
     let (problem, minus) = compared::scenes(&options.scene, options.minus.as_deref())?;
     let document = match (&options.quantity, &options.at, goal(options)) {
+        _ if options.events => {
+            let window = input::window(&problem, &options.from, options.to.as_deref())?;
+            events::certificate(&problem, &window, options.digits)?
+        }
         (Some(name), Some(at), _) => {
             let at = problem.time("--at", at.as_str())?;
             value(&problem, name.trim(), &at, options.digits)?

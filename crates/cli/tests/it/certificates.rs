@@ -57,6 +57,28 @@ const DOUBLES: [&str; 3] = [
     "pile --quantity toe_force --to 6 --points 30 --method compiled",
 ];
 
+/// What contacts do: bodies that part, touch without force, bounce; jumps and crossings.
+const EVENTS: [&str; 4] = [
+    "saint-venant --set mu=1 --events --to 5 --digits 9",
+    "bars-of-unequal-length --events --to 6",
+    "bars-that-part --set r=1/2 --events --to 3",
+    "cushion-with-release --set mu=1 --events --to 4 --digits 9",
+];
+
+/// The same with units, a load, a release that ends, several contacts; longer windows.
+const MORE_EVENTS: [&str; 10] = [
+    "saint-venant --set mu=1/10 --events --to 12 --digits 30",
+    "mass-on-free-bar --set m=2 --events --to 4",
+    "bars-of-equal-length --events --to 6",
+    "mass-that-bounces --events --to 6",
+    "hopkinson-with-release --events",
+    "hopkinson --events",
+    "pile --events --to 8",
+    "percussive-drill --events",
+    "stepped-striker --events",
+    "striker-on-long-bar --set r=2 --events",
+];
+
 /// Scenes with formulas for every n: sequences, Laguerre polynomials, sums over earlier periods.
 const GENERAL: [&str; 12] = [
     "bars-of-equal-length",
@@ -131,8 +153,8 @@ fn certificates(folder: &Path) -> Vec<String> {
     let pieces = certified().map(|scene| format!("{scene} --through 4"));
     let ratios = RATIOS.map(|ratio| format!("saint-venant --set mu={ratio} --through 6"));
     let general = GENERAL.map(|scene| format!("{scene} --general"));
-    let asked =
-        VALUES.into_iter().chain(WINDOWS).chain(DISTANCES).chain(DOUBLES).map(str::to_owned);
+    let asked = VALUES.into_iter().chain(WINDOWS).chain(DISTANCES).chain(DOUBLES).chain(EVENTS);
+    let asked = asked.map(str::to_owned);
     let lines = pieces.chain(ratios).chain(general).chain(asked).enumerate();
     let written = lines.map(|(i, line)| {
         let file = format!("{i}.json");
@@ -170,6 +192,45 @@ fn laws_of_all_elements_are_those_of_the_drawing() {
         let (scene, file) = (format!("{i}.wave"), format!("{i}.json"));
         std::fs::write(folder.join(&scene), format!("scene \"Line {i}\"\n{bars}{line}")).unwrap();
         certify(&folder, &format!("{scene} --through 3"), &file);
+        file
+    });
+    let files: Vec<String> = written.collect();
+    assert_proven(&folder, &files);
+}
+
+#[test]
+fn events_of_shipped_scenes_are_verified() {
+    let folder = folder("certificates-of-events");
+    let files = MORE_EVENTS.iter().enumerate().map(|(i, line)| {
+        certify(&folder, line, &format!("{i}.json"));
+        format!("{i}.json")
+    });
+    assert_proven(&folder, &files.collect::<Vec<_>>());
+}
+
+/// Contacts between all that can stand beside them: walls, supports, springs with and without dampers, loads that end,
+/// oscillate and decay, several contacts at one node, masses that touch.
+#[test]
+fn events_beside_all_elements_are_verified() {
+    let folder = folder("certificates-of-contacts");
+    let lines = [
+        "bar a { impedance = 1, travel = 1, velocity = 1 }\nspring s { stiffness = 2, damping = 1/3 }\n\
+         bar b { impedance = 2, travel = 3/2 }\nbar c { impedance = 1, travel = 2/5 }\n\
+         line free - a | s - b | c - free\n",
+        "mass m { mass = 1/2, velocity = 1 }\nspring s { stiffness = 3 }\nbar b { impedance = 1, travel = 1 }\n\
+         support u { stiffness = 2, damping = 1/2 }\nline free - m - s | b - u - free\n",
+        "load p { force = 2*exp(-t)*sin(3*t), until = 3 }\nmass m { mass = 1, velocity = 1/2 }\n\
+         bar b { impedance = 1, travel = 2 }\nline free - p - m | b - fixed\n",
+        "mass m { mass = 2, velocity = 1 }\nbar b { impedance = 1, travel = 1 }\nmass h { mass = 1 }\n\
+         bar c { impedance = 1, travel = 1 }\nline free - m | b - h | c - free\n",
+        "load p { force = (1 + t)*exp(-2*t) }\nbar a { impedance = 3, travel = 1 }\nbar b { impedance = sqrt(2), travel = 1/2 }\n\
+         mass m { mass = 1 }\nline free - p - a | b - m - free\n",
+    ];
+    let written = lines.iter().enumerate().map(|(i, line)| {
+        let (scene, file) = (format!("{i}.wave"), format!("{i}.json"));
+        let text = format!("scene \"Contacts {i}\"\n{line}contacts open\n");
+        std::fs::write(folder.join(&scene), text).unwrap();
+        certify(&folder, &format!("{scene} --events --to 7"), &file);
         file
     });
     let files: Vec<String> = written.collect();
@@ -245,7 +306,31 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let (roots, largest) = (ask(WINDOWS[0]), ask(WINDOWS[4]));
     let (rings, distance, doubles) = (ask(VALUES[6]), ask(DISTANCES[0]), ask(DOUBLES[0]));
     type Change = fn(&mut serde_json::Value);
-    let cases: [(&serde_json::Value, Change, &str); 65] = [
+    let (events, unequal) = (ask(EVENTS[0]), ask(EVENTS[1]));
+    let cases: [(&serde_json::Value, Change, &str); 80] = [
+        (&events, |own| drop(own["events"].as_array_mut().unwrap().pop()), "without a word"),
+        (&events, |own| drop(own["events"].as_array_mut().unwrap().remove(0)), "without a word"),
+        (&events, |own| own["events"][1][3] = "3".into(), "runs backwards"),
+        (
+            &events,
+            |own| own["events"][1] = json!([0, "opening", "3.06", "3.067"]),
+            "not changed yet",
+        ),
+        (
+            &events,
+            |own| own["events"][1] = json!([0, "opening", "3.068", "3.07"]),
+            "changed before",
+        ),
+        (&events, |own| own["events"][1][1] = "closing".into(), "something else"),
+        (&events, |own| own["events"].as_array_mut().unwrap().swap(1, 2), "without a word"),
+        (&events, |own| own["to"] = "3.1".into(), "2 events instead of 4"),
+        (&events, |own| own["line"][1]["velocity"] = of("1", "q"), "q has no value"),
+        (&events, |own| own["line"][2]["is"] = "free".into(), "two ends"),
+        (&events, |own| own["line"][3]["travel"] = json!([]), "without length"),
+        (&events, |own| own["step"] = "1/100000".into(), "too long"),
+        (&unequal, |own| own["events"][1][0] = 1.into(), "without a contact"),
+        (&unequal, |own| own["events"][1][1] = "opening".into(), "something else"),
+        (&unequal, |own| own["events"][2] = json!([0, "opening", "4", "4"]), "between 5.0 and 5.0"),
         (&pieces, |own| own["pieces"]["f"][2][0][1][0][0][0][0] = "7".into(), "period 2"),
         (&pieces, |own| own["continuity"][0]["start"] = json!([]), "continuity 0"),
         (&pieces, |own| own["continuity"] = json!([]), "leaves values open"),
@@ -448,6 +533,13 @@ fn what_has_no_certificate_is_told() {
         ),
         ("certify rates.wave", "a root that depends on other numbers"),
         ("certify rings.wave", "a root that depends on other numbers"),
+        ("certify incommensurate --events", "no common measure"),
+        ("certify saint-venant --events", "mu has no value"),
+        ("certify saint-venant --set mu=1 --events --to 1000000", "steps"),
+        ("certify saint-venant --set mu=1 --events --from 1 --to 2", "from the start"),
+        ("certify mass-on-fixed-bar --set mu=1 --events", "no contacts"),
+        ("certify local-contact --events", "local contacts"),
+        ("certify constant-force --events", "states equations"),
         ("certify incommensurate", "incommensurable"),
         ("certify hertz-striker", "local contact"),
         ("certify mass-on-fixed-bar --set mu=1 --quantity energy --at 1", "not linear"),

@@ -1,0 +1,727 @@
+"""The motion of a line whose contacts push and never pull, followed with proof, with nothing but the standard library.
+
+Time is cut into cells, on each of which every wave, velocity and force has as many derivatives as are wanted. There a
+function is a Taylor polynomial about the start of the cell, in whole steps: a list c of N + 1 numbers, the k-th derivative
+over k! at the start for k < N, and for k = N what encloses it on the whole cell. So f(x) = c_0 + c_1 x + ... + c_N x^N there,
+by Lagrange's remainder. Numbers are rational as long as their denominators are short, and enclosed after that.
+"""
+
+from fractions import Fraction
+from math import comb, isqrt
+
+from exact import (
+    MINUS,
+    ROOTS,
+    Ball,
+    Wrong,
+    accumulate,
+    coefficients,
+    is_zero,
+    need,
+    number,
+    put,
+    rational,
+    read,
+    read_function,
+    thawed,
+)
+
+MOST_CELLS, MOST_BITS, MOST_TERMS, MOST_RUNS = 8000, 4096, 400, 64
+EXACT = 1024  # bits of the longest denominator of a number that is exact
+PRECISION = {"bits": 256}
+
+
+class Number:
+    """A rational number, exact as long as its denominator is short; or what is enclosed: in whole units of 2^-bits a number, and
+    how many units it is off at most."""
+
+    __slots__ = ("exact", "mid", "off")
+
+    def __init__(self, exact, mid=0, off=0):
+        if exact is not None and exact.denominator.bit_length() > EXACT:
+            bits = PRECISION["bits"]
+            exact, mid, off = None, (exact.numerator << bits) // exact.denominator, 1
+        self.exact, self.mid, self.off = exact, mid, off
+
+    @staticmethod
+    def between(low, high):
+        """All between two rational numbers."""
+        if low == high:
+            return Number(low)
+        bits = PRECISION["bits"]
+        low, high = (low.numerator << bits) // low.denominator, -((-high.numerator << bits) // high.denominator)
+        return Number(None, (low + high) >> 1, (high - low + 2) >> 1)
+
+    def units(self):
+        if self.exact is None:
+            return self.mid, self.off
+        top, below = self.exact.numerator << PRECISION["bits"], self.exact.denominator
+        return top // below, int(top % below > 0)
+
+    def __add__(self, other):
+        if self.exact is not None and other.exact is not None:
+            return Number(self.exact + other.exact)
+        (a, i), (b, j) = self.units(), other.units()
+        return Number(None, a + b, i + j)
+
+    def __neg__(self):
+        return Number(-self.exact) if self.exact is not None else Number(None, -self.mid, self.off)
+
+    def __sub__(self, other):
+        return self + -other
+
+    def times(self, factor):
+        """Times a rational number."""
+        if self.exact is not None:
+            return Number(self.exact * factor)
+        top, below = factor.numerator, factor.denominator
+        if below == 1:
+            return Number(None, self.mid * top, self.off * abs(top)) if top else ZERO
+        return Number(None, self.mid * top // below, self.off * abs(top) // below + 2)
+
+    def __mul__(self, other):
+        if self.exact is not None:
+            return other.times(self.exact) if self.exact else ZERO
+        if other.exact is not None:
+            return self.times(other.exact) if other.exact else ZERO
+        off = (abs(self.mid) + self.off) * other.off + self.off * abs(other.mid)
+        return Number(None, self.mid * other.mid >> PRECISION["bits"], (off >> PRECISION["bits"]) + 2)
+
+    def __truediv__(self, other):
+        need(other.sign(), "a divisor may be zero")
+        if self.is_zero():
+            return ZERO
+        if other.exact is not None:
+            return self.times(1 / other.exact)
+        (a, i), (b, j) = self.units(), other.units()
+        mid = (a << PRECISION["bits"]) // b
+        return Number(None, mid, ((i << PRECISION["bits"]) + (abs(mid) + 1) * j) // (abs(b) - j) + 2)
+
+    def is_zero(self):
+        return self.exact is not None and not self.exact
+
+    def sign(self):
+        """1, -1, or 0 where it is exactly zero; None where it is not decided."""
+        if self.exact is not None:
+            return (self.exact > 0) - (self.exact < 0)
+        return None if abs(self.mid) <= self.off else 1 if self.mid > 0 else -1
+
+    def holds(self, other):
+        if self.exact is not None:
+            return self.exact == other.exact
+        (a, i), (b, j) = self.units(), other.units()
+        return abs(a - b) + j <= i
+
+    def ends(self):
+        if self.exact is not None:
+            return self.exact, self.exact
+        unit = 1 << PRECISION["bits"]
+        return Fraction(self.mid - self.off, unit), Fraction(self.mid + self.off, unit)
+
+
+ZERO, ONE = Number(Fraction(0)), Number(Fraction(1))
+
+
+def total(numbers):
+    result = ZERO
+    for own in numbers:
+        if not own.is_zero():
+            result = result + own
+    return result
+
+
+def at(series, x):
+    """The derivatives over k! at a place of the cell, or on a part of it."""
+    count, some = len(series), [j for j, own in enumerate(series) if not own.is_zero()]
+    if x.is_zero() or not some:
+        return list(series)
+    powers = [ONE]
+    for _ in range(some[-1]):
+        powers.append(powers[-1] * x)
+    part = lambda k: total((series[j] * powers[j - k]).times(comb(j, k)) for j in some if j >= k)
+    return [part(k) if k <= some[-1] else ZERO for k in range(count)]
+
+
+def value(series, x):
+    result = ZERO
+    for own in reversed(series):
+        result = result * x + own
+    return result
+
+
+def slope(series):
+    return [own.times(k) for k, own in enumerate(series)][1:] or [ZERO]
+
+
+def begins(series):
+    """The sign with which a function begins, 0 where it is zero on the whole cell; None where it is not decided."""
+    for own in series[:-1]:
+        if not own.is_zero():
+            return own.sign()
+    return 0 if series[-1].is_zero() else None
+
+
+def is_positive(series, low, high, depth=20):
+    """Whether a function that is not negative at the start of the cell is positive between two places of it; zeros with which
+    it begins there, and one at the end, do not count."""
+    if not low:
+        while len(series) > 1 and series[0].is_zero():
+            series = series[1:]
+    if value(series, Number.between(low, high)).sign() == 1:
+        return True
+    ends = [value(series, Number(end)).sign() for end in (low, high)]
+    if value(slope(series), Number.between(low, high)).sign() and ends[0] in (0, 1) and ends[1] in (0, 1):
+        return True
+    middle = (low + high) / 2
+    return depth > 0 and is_positive(series, low, middle, depth - 1) and is_positive(series, middle, high, depth - 1)
+
+
+class Load:
+    """A force that acts from one time to another, a sum of polynomials times exponentials."""
+
+    def __init__(self, element, cert):
+        self.course, self.time = read(element["course"]), cert["time"]
+        self.begin, self.end = (None if element[key] is None else Fraction(plain(element[key])) for key in ("from", "until"))
+        self.begin = self.begin or Fraction(0)
+        for symbol in (symbol for symbol, square in ROOTS.items() if square == -1):  # the conjugate is the same
+            other = put(self.course, symbol, {(): {((symbol, 1),): -1}})
+            need(is_zero(accumulate(other, self.course, MINUS)), "a load is not real")
+        need(self.begin >= 0 and (self.end is None or self.end > self.begin), "a load ends before it begins, or begins early")
+
+    def series(self, begin, step, terms):
+        """Its Taylor polynomial in whole steps about a time."""
+        low, high = begin.ends()
+        there = put(self.course, self.time, {(): {(): (low + high) / 2, ((self.time, 1),): step}})
+        sums = [ZERO] * (terms + 1)
+        for exponent, function in there.items():
+            factors = coefficients(function, self.time)
+            need(len(factors) <= terms, "a course has too high a power")
+            own = self.smooth(exponent, factors, terms) if exponent else list(map(exactly, factors)) + [ZERO] * terms
+            sums = [a + b for a, b in zip(sums, own)]
+        return at(sums, Number.between((low - high) / step, (high - low) / step))
+
+    def smooth(self, exponent, factors, terms):
+        """A polynomial times an exponential; of the highest derivative a bound for -1 <= x <= 2."""
+        bits = PRECISION["bits"]
+        start, rate, *others = coefficients(thawed(exponent), self.time) + [{}, {}]
+        need(not any(others), "an exponent is not linear in the time")
+        factors, x, powers = [Ball.of(part, bits) for part in factors], Ball.of(rate, bits), [Ball.of(start, bits).exp()]
+        need(x.size() >> bits < 64, "a step is too long for a load")
+        for k in range(terms):
+            powers.append((powers[-1] * x).over(k + 1))
+        real = lambda own: Number(None, own.real, own.off)
+        sums = [total(real(factors[i] * powers[k - i]) for i in range(min(k + 1, len(factors)))) for k in range(terms)]
+        growth = (Ball(bits, 2 * x.size()).exp()).size()  # of the exponential, from the start on
+        bound = Fraction(0)
+        for i in range(len(factors)):
+            lifted = sum(comb(j, i) * 2 ** (j - i) * factors[j].size() for j in range(i, len(factors)))
+            bound += Fraction(lifted * powers[terms - i].size() * growth, 1 << 3 * bits)
+        return sums + [Number.between(-bound, bound)]
+
+
+def exactly(parts):
+    need(not any(parts.keys() - {()}), "a root where a rational number is due")
+    return Number(parts.get((), Fraction(0)))
+
+
+def plain(rows):
+    """A rational number."""
+    parts = number(read_function(rows))
+    need(not any(parts.keys() - {()}), "a root where a rational number is due")
+    return Fraction(parts.get((), 0))
+
+
+class Line:
+    """Runs, which move as one, between bars, springs and contacts."""
+
+    def __init__(self, cert):
+        self.constants = {name: Number.between(*sorted(map(rational, pair))) for name, pair in cert["numbers"].items()}
+        elements = cert["line"]
+        need(type(cert["time"]) is str, "the time has no name")
+        is_end = [element["is"] in ("free", "fixed", "endless") for element in elements]
+        need(len(elements) > 2 and is_end == [True] + [False] * (len(elements) - 2) + [True], "a line has two ends")
+        self.links, runs = [], [[]]
+        for element in elements:
+            if element["is"] in ("bar", "spring", "contact"):
+                self.links.append(self.link(element))
+                runs.append([])
+            else:
+                runs[-1].append(element)
+        need(len(runs) <= MOST_RUNS, "too long a line")
+        self.count = len(runs)
+        known = {"free", "fixed", "endless", "mass", "support", "force", "motion"}
+        need(all(element["is"] in known for run in runs for element in run), "an element without a law here")
+        of = lambda run, kind: [element for element in run if element["is"] == kind]
+        self.fixed = [bool(of(run, "fixed")) for run in runs]
+        self.masses = [total(self.number(own["mass"]) for own in of(run, "mass")) for run in runs]
+        momenta = [total(self.number(own["mass"]) * self.number(own["velocity"]) for own in of(run, "mass")) for run in runs]
+        self.starts = [p / m if m.sign() else ZERO for p, m in zip(momenta, self.masses)]
+        self.supports = [
+            (r, *(self.number(own[key]) for key in ("stiffness", "damping")))
+            for r, run in enumerate(runs)
+            for own in of(run, "support")
+        ]
+        self.loads = [(r, Load(own, cert)) for r, run in enumerate(runs) for own in of(run, "force")]
+        self.endless = [bool(of(run, "endless")) for run in runs]
+        need(all(len(run) == 1 for run, is_endless in zip(runs, self.endless) if is_endless), "an endless line ends with a bar")
+        for i, link in enumerate(self.links):
+            has_end = link["is"] == "bar" and (self.endless[i] or self.endless[i + 1])
+            need(has_end == (link["is"] == "bar" and link["travel"] is None), "a bar lacks an end, or has one too many")
+            need(link["is"] == "bar" or not self.endless[i] and not self.endless[i + 1], "an endless line ends with a bar")
+        positive = [own for own in self.masses if not own.is_zero()] + [
+            link["impedance"] for link in self.links if link["is"] == "bar"
+        ]
+        numbers = [own for _, *pair in self.supports for own in pair]
+        numbers += [link[key] for link in self.links if link["is"] == "spring" for key in ("stiffness", "damping")]
+        need(
+            all(own.sign() == 1 for own in positive) and all(own.sign() in (0, 1) for own in numbers),
+            "a number is not positive",
+        )
+        self.contacts = [i for i, link in enumerate(self.links) if link["is"] == "contact"]
+
+    def number(self, rows):
+        """A polynomial in the constants over such ones."""
+        sums = []
+        for below, top in read_function(rows).items():
+            divisor = ONE
+            for factor, power in below:
+                for _ in range(power):
+                    divisor = divisor * self.polynomial(dict(factor))
+            sums.append(self.polynomial(top) / divisor)
+        return total(sums)
+
+    def polynomial(self, top):
+        sums = []
+        for monomial, c in top.items():
+            product = Number(Fraction(c))
+            for symbol, power in monomial:
+                if symbol not in self.constants:
+                    need(ROOTS.get(symbol, -1) > 0, f"{symbol} has no value")
+                    low = isqrt(int(ROOTS[symbol]) << 2 * PRECISION["bits"])
+                    self.constants[symbol] = Number(None, low, 1)
+                for _ in range(power):
+                    product = product * self.constants[symbol]
+            sums.append(product)
+        return total(sums)
+
+    def link(self, element):
+        if element["is"] == "bar":
+            travel = None if element["travel"] is None else plain(element["travel"])
+            need(travel is None or travel > 0, "a bar without length")
+            own = {key: self.number(element[key]) for key in ("impedance", "velocity", "force")}
+            return {"is": "bar", "travel": travel, **own}
+        if element["is"] == "spring":
+            return {"is": "spring", **{key: self.number(element[key]) for key in ("stiffness", "damping")}}
+        return {"is": "contact"}
+
+
+class System:
+    """The laws of a line while some of its contacts are closed."""
+
+    def __init__(self, line, closed):
+        self.line, links = line, line.links
+        rigid = lambda i: links[i]["is"] == "contact" and i in closed
+        # An undamped spring has no force, and keeps its length, where one of its ends is loose.
+        self.loose = {
+            i
+            for i, link in enumerate(links)
+            if link["is"] == "spring" and link["damping"].is_zero() and self.is_loose(i, rigid)
+        }
+        self.group = [0]
+        for i in range(len(links)):
+            self.group.append(self.group[-1] + (not (rigid(i) or i in self.loose)))
+        self.count = self.group[-1] + 1
+        self.members = [[r for r in range(line.count) if self.group[r] == g] for g in range(self.count)]
+        self.fixed = [any(line.fixed[r] for r in own) for own in self.members]
+        self.mass = [total(line.masses[r] for r in own) for own in self.members]
+        self.moved = [not fixed and mass.sign() == 1 for fixed, mass in zip(self.fixed, self.mass)]
+        self.endless = [any(line.endless[r] for r in own) for own in self.members]
+        self.free = [g for g in range(self.count) if not self.fixed[g] and not self.moved[g] and not self.endless[g]]
+        self.mover = [next((r for r in own if line.masses[r].sign()), own[0]) for own in self.members]
+        self.inverse = self.inverted()
+
+    def is_loose(self, i, rigid):
+        """Whether on one side a spring meets nothing but what is open."""
+        line = self.line
+        loaded = lambda r: line.fixed[r] or line.masses[r].sign() or any(own[0] == r for own in line.supports + line.loads)
+        for way, r in ((-1, i), (1, i + 1)):
+            while not loaded(r):
+                beyond = r - 1 if way < 0 else r
+                if not 0 <= beyond < len(line.links) or line.links[beyond]["is"] == "contact" and not rigid(beyond):
+                    return True
+                if line.links[beyond]["is"] != "contact":
+                    break
+                r += way
+        return False
+
+    def forces(self, v, alpha, u, incoming, loads, order):
+        """Of one order of the series: what each run gets from its bars, springs, supports and loads, but for what depends on
+        velocities that are not known yet."""
+        line, one = self.line, [ZERO] * self.line.count
+        speed = lambda r: v.get(self.group[r], ZERO)
+        for i, link in enumerate(line.links):
+            if link["is"] == "bar":
+                base = lambda key: link[key] if order == 0 else ZERO
+                if not line.endless[i + 1]:  # compression at the right end, X + Z (2 f - v + V)
+                    f = incoming[i, "right"]
+                    one[i + 1] = one[i + 1] + base("force") + link["impedance"] * (f + f - speed(i + 1) + base("velocity"))
+                if not line.endless[i]:  # at the left end, X + Z (v - V - 2 g)
+                    g = incoming[i, "left"]
+                    one[i] = one[i] - base("force") - link["impedance"] * (speed(i) - base("velocity") - g - g)
+            elif link["is"] == "spring" and i not in self.loose:
+                force = link["stiffness"] * alpha[i] + link["damping"] * (speed(i) - speed(i + 1))
+                one[i], one[i + 1] = one[i] - force, one[i + 1] + force
+        for j, (r, stiffness, damping) in enumerate(line.supports):
+            one[r] = one[r] - stiffness * u[j] - damping * speed(r)
+        for (r, _), load in zip(line.loads, loads):
+            one[r] = one[r] + load
+        return one
+
+    def inverted(self):
+        """The inverse of the matrix of velocities that follow from the balance of forces alone."""
+        size, line = len(self.free), self.line
+        still = {(i, way): ZERO for i in range(len(line.links)) for way in ("left", "right")}
+        alpha, u, loads = {i: ZERO for i in range(len(line.links))}, [ZERO] * len(line.supports), [ZERO] * len(line.loads)
+        columns = []
+        for g in self.free:
+            v = {g: ONE}
+            one = self.forces(v, alpha, u, still, loads, 1)
+            columns.append([total(one[r] for r in self.members[own]) for own in self.free])
+        rows = [[columns[c][r] for c in range(size)] + [ONE if c == r else ZERO for c in range(size)] for r in range(size)]
+        for c in range(size):
+            pivot = next((r for r in range(c, size) if rows[r][c].sign()), None)
+            need(pivot is not None, "the forces leave a velocity open")
+            rows[c], rows[pivot] = rows[pivot], rows[c]
+            rows[c] = [own / rows[c][c] if i != c else ONE for i, own in enumerate(rows[c])]
+            for r in range(size):
+                share = rows[r][c]
+                if r != c and not share.is_zero():
+                    rows[r] = [a - share * b for a, b in zip(rows[r], rows[c])]
+        return [row[size:] for row in rows]
+
+    def solve(self, start, incoming, loads, step, orders):
+        """All orders of velocities, compressions, displacements, gaps and forces, from those of order 0."""
+        line, groups = self.line, range(self.count)
+        now = {key: start[key] for key in ("alpha", "u", "gap")}
+        now["v"] = {g: start["v"][self.mover[g]] if self.moved[g] else ZERO for g in groups if g not in self.free}
+        series = {**{key: [own] for key, own in now.items()}, "forces": []}
+        for k in range(orders):
+            v, alpha, u = (series[key][k] for key in ("v", "alpha", "u"))
+            arriving = {key: own[k] for key, own in incoming.items()}, [own[k] for own in loads]
+            forces = self.forces(v, alpha, u, *arriving, k)
+            open_ = [total(forces[r] for r in self.members[g]) for g in self.free]
+            v |= {g: -total(a * b for a, b in zip(row, open_)) for g, row in zip(self.free, self.inverse)}
+            forces = self.forces(v, alpha, u, *arriving, k)
+            pushed = {g: total(forces[r] for r in self.members[g]) / self.mass[g] for g in groups if self.moved[g]}
+            later = lambda rate: rate.times(step / (k + 1))
+            run = lambda r: v[self.group[r]]
+            series["v"].append({g: later(pushed[g]) if self.moved[g] else ZERO for g in groups if g not in self.free})
+            series["alpha"].append({i: ZERO if i in self.loose else later(run(i) - run(i + 1)) for i in alpha})
+            series["u"].append({n: later(run(r)) for n, (r, _, _) in enumerate(line.supports)})
+            series["gap"].append({i: later(run(i + 1) - run(i)) for i in line.contacts})
+            # Less what masses keep.
+            keeps = lambda r: line.masses[r] * pushed[self.group[r]] if self.group[r] in pushed else ZERO
+            series["forces"].append([force - keeps(r) for r, force in enumerate(forces)])
+        return series
+
+    def contact_force(self, i, forces):
+        """The force in a closed contact: what one side of it gets, and does not keep; exactly, where a side tells it so, else by
+        a side without mass, if there is one."""
+        own, line = self.members[self.group[i]], self.line
+        sides = [(1, [r for r in own if r <= i]), (-1, [r for r in own if r > i])]
+        sides = [(way, side) for way, side in sides if not any(line.fixed[r] for r in side)]
+        need(sides, "a contact between walls")
+        sides.sort(key=lambda own: any(line.masses[r].sign() for r in own[1]))
+        told = [total(forces[r] for r in side).times(way) for way, side in sides]
+        return next((force for force in told if force.is_zero()), told[0])
+
+
+class Motion:
+    """What is known so far. Times are pairs of the number of an event, 0 for the start, and an exact time after it."""
+
+    def __init__(self, cert):
+        self.line, self.claims, self.to = Line(cert), read_claims(cert), rational(cert["to"])
+        self.step, self.terms = rational(cert["step"]), cert["terms"]
+        need(self.to > 0 and self.step > 0 and self.to / self.step < MOST_CELLS, "the window is empty, or too long")
+        line = self.line
+        need(all(0 <= contact < len(line.contacts) for contact, *_ in self.claims), "an event without a contact")
+        self.instants, self.now, self.marks, self.waves, self.events = [ZERO], (0, Fraction(0)), [], [], []
+        self.open = {i: {"rests": False, "idle": None, "pressed": False} for i in line.contacts}
+        self.closed = set(line.contacts)
+        springs = [i for i, link in enumerate(line.links) if link["is"] == "spring"]
+        self.state = {
+            "v": list(line.starts),
+            "alpha": {i: ZERO for i in springs},
+            "u": dict.fromkeys(range(len(line.supports)), ZERO),
+            "gap": {i: ZERO for i in line.contacts},
+        }
+        self.system = System(line, self.closed)
+        for own, fixed in zip(self.system.members, self.system.fixed):
+            speeds = [line.starts[r] for r in own if line.masses[r].sign()] + [ZERO] * fixed
+            need(all((speed - speeds[0]).is_zero() for speed in speeds), "rigid bodies meet at the start")
+        self.late = {link["travel"]: -1 for link in line.links if link["is"] == "bar" and link["travel"] is not None}
+
+    def instant(self, time):
+        return self.instants[time[0]] + Number(time[1])
+
+    def later(self, a, b):
+        """The sign of a less b."""
+        if a[0] == b[0]:
+            return (a[1] > b[1]) - (a[1] < b[1])
+        sign = (self.instant(a) - self.instant(b)).sign()
+        need(sign, "the order of two times is not decided")
+        return sign
+
+    def since(self, a, b):
+        """How long after b a time a is."""
+        return Number(a[1] - b[1]) if a[0] == b[0] else self.instant(a) - self.instant(b)
+
+    def incoming(self):
+        """The waves that reach the ends of bars from now on, and when the next one begins to."""
+        found, nothing, ends = {}, [ZERO] * (self.terms + 1), [(0, self.to)]
+        for travel in self.late:
+            while (
+                self.late[travel] + 1 < len(self.marks)
+                and self.later(moved(self.marks[self.late[travel] + 1], travel), self.now) <= 0
+            ):
+                self.late[travel] += 1
+            if self.late[travel] + 1 < len(self.marks):
+                ends.append(moved(self.marks[self.late[travel] + 1], travel))
+            else:
+                ends.append(moved(self.now, travel))
+        for i, link in enumerate(self.line.links):
+            if link["is"] == "bar":
+                first = self.late.get(link["travel"], -1)
+                for way in ("left", "right"):
+                    found[i, way] = nothing
+                    if first >= 0:
+                        after = self.since(self.now, moved(self.marks[first], link["travel"]))
+                        found[i, way] = at(self.waves[first][i, way], after.times(1 / self.step))
+        return found, ends
+
+    def loads(self):
+        """What acts from now on, and when that changes."""
+        found, ends = [], []
+        for _, load in self.line.loads:
+            times = [(0, own) for own in (load.begin, load.end) if own is not None]
+            ends += [own for own in times if self.later(own, self.now) > 0]
+            acts = self.later((0, load.begin), self.now) <= 0 and (load.end is None or self.later((0, load.end), self.now) > 0)
+            found.append(load.series(self.instant(self.now), self.step, self.terms) if acts else [ZERO] * (self.terms + 1))
+        return found, ends
+
+    def earliest(self, times):
+        best = None
+        for time in times:
+            if self.later(time, self.now) > 0 and (best is None or self.later(time, best) < 0):
+                best = time
+        return best
+
+    def settle(self, waves, loads):
+        """The contacts that are closed from now on: a closed one does not pull, and a gap is not negative."""
+        for _ in range(4 * len(self.line.contacts) + 1):
+            solved = self.system.solve(self.state, waves, loads, self.step, self.terms)
+            changes = []
+            for i in self.line.contacts:
+                sign = begins(self.kept(i, solved) + [ZERO])
+                need(sign is not None, "whether a contact changes is not decided")
+                changes += [i] if sign < 0 else []
+            if not changes:
+                return solved
+            self.change(changes, False)
+        raise Wrong("the contacts do not settle")
+
+    def change(self, changes, by_itself):
+        """Opens and closes contacts now. Where one opens by itself, or where both sides have inertia, the velocities on both
+        sides are equal at first, unless the end of a spring comes loose."""
+        before = self.system
+        for i in changes:
+            closes, own, idle = i not in self.closed, self.open[i], self.open[i]["idle"]
+            if not closes and idle is not None and idle != self.now:
+                self.events.append(("release", i, idle))
+            self.events.append(("closing" if closes else "opening", i, self.now))
+            self.closed ^= {i}
+            own["idle"], own["pressed"], self.state["gap"][i] = None, False, ZERO
+            if closes:
+                sides = [self.system.group[r] for r in (i, i + 1)]
+                stiff = [self.system.moved[g] or self.system.fixed[g] for g in sides]
+                need(not all(stiff) or own["rests"] or self.equal(sides), "rigid bodies meet")
+        self.system = System(self.line, self.closed)
+        loosened = self.system.loose - before.loose
+        for i in loosened:
+            need(self.state["alpha"][i].sign() in (0, None), "a spring comes loose while it is compressed")
+            self.state["alpha"][i] = ZERO
+        for g, own in enumerate(self.system.members):
+            for r in own:
+                self.state["v"][r] = ZERO if self.system.fixed[g] else self.state["v"][self.system.mover[g]]
+        for own in self.open.values():
+            own["rests"] = False  # velocities may jump
+        for i in changes:
+            inert = all(self.system.moved[self.system.group[r]] for r in (i, i + 1))
+            self.open[i]["rests"] = i not in self.closed and not loosened and (inert or by_itself)
+
+    def equal(self, sides):
+        a, b = (self.state["v"][self.system.mover[g]] if self.system.moved[g] else ZERO for g in sides)
+        return (a - b).is_zero()
+
+    def kept(self, i, solved):
+        """What is not negative while a contact stays as it is: its force, or its gap."""
+        if i in self.closed:
+            return [self.system.contact_force(i, one) for one in solved["forces"]]
+        series = [one[i] for one in solved["gap"]]
+        if self.open[i]["rests"] and len(series) > 1:
+            series[1] = ZERO
+        return series[: len(solved["forces"])]
+
+    def enclosed(self, waves, loads, reach):
+        """All series of order N + 1 on a part of a step from now on, or None where it is too long."""
+        span = Number.between(Fraction(0), reach)
+        waves, loads = {key: at(own, span) for key, own in waves.items()}, [at(own, span) for own in loads]
+        start, box, system = self.state, self.state, self.system
+        widened = lambda own: own if own.is_zero() else Number(None, own.units()[0], own.units()[1] * 5 // 4 + 1)
+        for _ in range(40):
+            rates = {key: own[1] for key, own in system.solve(box, waves, loads, self.step, 1).items() if key != "forces"}
+            speeds = [rates["v"].get(system.group[r], ZERO) for r in range(self.line.count)]
+            grown = {key: {n: own + span * rates[key][n] for n, own in start[key].items()} for key in ("alpha", "u")}
+            grown |= {"v": [own + span * rate for own, rate in zip(start["v"], speeds)], "gap": start["gap"]}
+            values = lambda state: [*state["v"], *state["alpha"].values(), *state["u"].values()]
+            if all(old.holds(new) for old, new in zip(values(box), values(grown))):
+                return system.solve(grown, waves, loads, self.step, self.terms + 1)
+            box = {key: {n: widened(own) for n, own in grown[key].items()} for key in ("alpha", "u", "gap")}
+            box["v"] = [widened(own) for own in grown["v"]]
+        return None
+
+    def advance(self):
+        """One cell: what arrives, which contacts are closed, how far all is known, whether a contact changes, what leaves."""
+        line, system, N = self.line, self.system, self.terms
+        waves, ends = self.incoming()
+        loads, more = self.loads()
+        exact = [(0, low) for _, _, low, high in self.claims if low == high]
+        end = self.earliest(ends + more + exact)
+        solved = self.settle(waves, loads)
+        end, last = self.cell(waves, loads, end)
+        system = self.system
+        guards = {i: self.kept(i, solved) + [self.kept(i, last)[N]] for i in line.contacts}
+        self.watch(guards)
+        due = self.due(end)
+        place = self.crossing(due, guards) if due else self.since(end, self.now).times(1 / self.step)
+        for i, own in guards.items():
+            until = due[1] if due and due[0] == i else place.ends()[1]
+            is_kept = all(c.is_zero() for c in own) or is_positive(own, Fraction(0), until)
+            need(is_kept, "a contact changes without a word")
+        series = lambda kind, n: [solved[kind][k].get(n, ZERO) for k in range(N)] + [last[kind][N].get(n, ZERO)]
+        leaving = {}
+        for i, link in enumerate(line.links):
+            if link["is"] == "bar" and link["travel"] is not None:
+                for way, other, r in (("right", "left", i), ("left", "right", i + 1)):
+                    at_rest = [link["velocity"]] + [ZERO] * N
+                    speed = series("v", system.group[r])
+                    leaving[i, way] = [c - v - w for c, v, w in zip(speed, at_rest, waves[i, other])]
+        self.marks.append(self.now)
+        self.waves.append(leaving)
+        need(len(self.marks) < MOST_CELLS, "too many cells")
+        self.state = {
+            "v": [value(series("v", system.group[r]), place) for r in range(line.count)],
+            "alpha": {i: value(series("alpha", i), place) for i in self.state["alpha"]},
+            "u": {n: value(series("u", n), place) for n in self.state["u"]},
+            "gap": {i: ZERO if i in self.closed else value(guards[i], place) for i in line.contacts},
+        }
+        for own in self.open.values():
+            own["rests"] = False
+        if due:
+            self.instants.append(self.instant(self.now) + place.times(self.step))
+            self.now = (len(self.instants) - 1, Fraction(0))
+            self.change([due[0]], True)
+        else:
+            self.now = end
+
+    def cell(self, waves, loads, end):
+        """The end of a cell that is short enough, and what encloses the last orders there."""
+        reach = self.since(end, self.now).ends()[1] / self.step
+        if reach > 1:
+            end, reach = moved(self.now, self.step), Fraction(1)
+        for halvings in range(1, 40):
+            last = self.enclosed(waves, loads, reach)
+            if last:
+                return end, last
+            reach = min(reach / 2, Fraction(1, 2**halvings))
+            end = moved(self.now, self.step * reach)
+        raise Wrong("a cell is too long")
+
+    def watch(self, guards):
+        """Contacts that push from the start on close then; since when one that has pushed has no force."""
+        for i in sorted(self.closed):
+            own, is_silent = self.open[i], all(c.is_zero() for c in guards[i])
+            if not is_silent and self.now == (0, 0):
+                self.events.append(("closing", i, self.now))
+            own["pressed"] |= not is_silent
+            own["idle"] = (own["idle"] or self.now) if is_silent and own["pressed"] else None
+
+    def due(self, end):
+        """The contact that changes by itself on this cell first, as is claimed, and the interval, in steps from now."""
+        best, (_, late), now = None, self.instant(self.now).ends(), self.instant(self.now)
+        for i in self.line.contacts:
+            told = sum(1 for kind, contact, _ in self.events if contact == i and kind != "release")
+            claims = [claim[2:] for claim in self.claims if self.line.contacts[claim[0]] == i and claim[1] != "release"][told:]
+            if claims and claims[0][0] < claims[0][1] <= self.instant(end).ends()[0]:
+                low, high = ((time - edge) / self.step for time, edge in zip(claims[0], (late, now.ends()[0])))
+                if high > 0 and (best is None or low < best[1]):
+                    best = (i, max(low, Fraction(0)), high)
+        return best
+
+    def crossing(self, due, guards):
+        """When a force or a gap comes to zero: once, since it falls there."""
+        i, low, high = due
+        series, falls = guards[i], slope(guards[i])
+        need(value(series, Number(low)).sign() == 1, "a contact has changed before")
+        need(value(series, Number(high)).sign() == -1, "a contact has not changed yet")
+        for _ in range(10):
+            rate = value(falls, Number.between(low, high))
+            need(rate.sign() == -1, "a contact may change twice")
+            middle = (low + high) / 2
+            near = (Number(middle) - value(series, Number(middle)) / rate).ends()
+            low, high = max(low, near[0]), min(high, near[1])
+            need(low <= high, "a contact does not change here")
+            found = Number.between(low, high)
+            low, high = found.ends()
+        return found
+
+    def follow(self):
+        while self.now != (0, self.to):
+            self.advance()
+        for i in sorted(self.closed):
+            if self.open[i]["idle"] is not None:
+                self.events.append(("release", i, self.open[i]["idle"]))
+
+
+def moved(time, by):
+    return time[0], time[1] + by
+
+
+def read_claims(cert):
+    claims = []
+    for contact, kind, low, high in cert["events"]:
+        need(kind in ("closing", "opening", "release") and type(contact) is int, "an unknown event")
+        low, high = rational(low), rational(high)
+        need(0 <= low <= high, "an interval runs backwards, or begins too early")
+        claims.append((contact, kind, low, high))
+    return claims
+
+
+def check_events(cert):
+    """The contacts of the line close, open and lose their force in this order, and no other ones do before the end."""
+    for key, most in (("bits", MOST_BITS), ("terms", MOST_TERMS)):
+        need(type(cert[key]) is int and 4 <= cert[key] <= most, f"{key} are too few, or too many")
+    PRECISION["bits"] = cert["bits"]
+    motion = Motion(cert)
+    motion.follow()
+    need(len(motion.claims) == len(motion.events), f"{len(motion.events)} events instead of {len(motion.claims)}")
+    found = {i: [own for own in motion.events if own[1] == i] for i in motion.line.contacts}
+    times = []
+    for contact, kind, low, high in motion.claims:
+        event, *found[motion.line.contacts[contact]] = found[motion.line.contacts[contact]] or [(None, None, None)]
+        need(event[0] == kind, f"a contact does something else than {kind}")
+        first, last = motion.instant(event[2]).ends()
+        need(low <= first and last <= high, f"the {kind} is between {float(first)} and {float(last)}")
+        times.append(event[2])
+    for a, b in zip(times, times[1:]):
+        need(motion.since(b, a).sign() != -1, "the order of events is another one")

@@ -1,0 +1,747 @@
+"""The motion of a line whose contacts push and never pull, over Arb: a second opinion, which shares nothing with motion.py.
+
+The laws of all runs, elements and contacts are one linear system, whose inverse gives velocities, accelerations and forces at
+once. A motion is bounded on a step by its start and by what arrives, in the largest norm; so are all its derivatives, and with
+them Lagrange's remainder of its Taylor polynomial. Numbers are rational while they are short, and balls of Arb after that.
+"""
+
+import math
+import re
+from fractions import Fraction
+
+import flint
+from flint import arb, fmpq
+
+
+class Undecided(Exception):
+    """What is claimed does not follow, as far as is known."""
+
+
+def require(condition, told):
+    if not condition:
+        raise Undecided(told)
+
+
+def fraction(text):
+    require(type(text) is str and len(text) <= 20000, "a number is no text, or too long")
+    require(re.fullmatch(r"-?[0-9]+(/[0-9]+|(\.[0-9]+)?(e-?[0-9]{1,4})?)", text), f"{text[:40]} is no number")
+    value = Fraction(text)
+    return fmpq(value.numerator, value.denominator)
+
+
+NIL = fmpq(0)
+LONGEST = 1024  # bits of a denominator
+
+
+def short(x):
+    """A rational number with a long denominator as a ball."""
+    return arb(x) if isinstance(x, fmpq) and int(x.q).bit_length() > LONGEST else x
+
+
+def is_nil(x):
+    return x == 0 if isinstance(x, fmpq) else bool(x.is_zero())
+
+
+def sign(x):
+    """1, 0 or -1; None where it is not known."""
+    if isinstance(x, fmpq):
+        return (x > 0) - (x < 0)
+    return 1 if x > 0 else -1 if x < 0 else 0 if x.is_zero() else None
+
+
+def size(x):
+    return arb(abs(x)).upper() if isinstance(x, fmpq) else abs(x).upper()
+
+
+def span(low, high):
+    """All numbers between two, which may be balls themselves."""
+    low, high = arb(low), arb(high)
+    return low if (high - low).is_zero() else low.union(high)
+
+
+def product(a, b):
+    return NIL if is_nil(a) or is_nil(b) else short(a * b)
+
+
+def dot(row, column):
+    result = NIL
+    for a, b in zip(row, column):
+        if not is_nil(a) and not is_nil(b):
+            result = result + a * b
+    return short(result)
+
+
+# Functions on a step: Taylor coefficients, the last one enclosed for the whole step.
+
+
+def moved(series, x):
+    """The coefficients about another place, or about all places of an interval."""
+    if is_nil(x) or all(map(is_nil, series)):
+        return series
+    result = list(series)
+    for start in range(len(series) - 1):  # Horner's scheme, again and again
+        for i in range(len(series) - 2, start - 1, -1):
+            result[i] = short(result[i] + product(result[i + 1], x))
+    return result
+
+
+def horner(series, x):
+    result = NIL
+    for c in reversed(series):
+        result = short(product(result, x) + c)
+    return result
+
+
+def derivative(series):
+    return [c * k for k, c in enumerate(series) if k] or [NIL]
+
+
+def stays_positive(series, begin, end, depth=24):
+    """Whether it is positive strictly between two places; what it begins with at 0 may be zeros."""
+    if begin == 0:
+        first = next((k for k, c in enumerate(series) if not is_nil(c)), len(series) - 1)
+        series = series[first:]
+    if sign(horner(series, span(begin, end))) == 1:
+        return True
+    if sign(horner(derivative(series), span(begin, end))) in (1, -1):
+        if all(sign(horner(series, at)) in (0, 1) for at in (begin, end)):
+            return True
+    half = (begin + end) / 2
+    return depth > 0 and stays_positive(series, begin, half, depth - 1) and stays_positive(series, half, end, depth - 1)
+
+
+class Parts:
+    """The line as it is drawn, in numbers."""
+
+    def __init__(self, cert):
+        self.roots = {name: fraction(text) for name, text in cert["roots"].items()}
+        self.numbers = {name: span(*map(fraction, ends)) for name, ends in cert["numbers"].items()}
+        self.time, line = cert["time"], cert["line"]
+        ends = {"free", "fixed", "endless"}
+        require(len(line) >= 3 and all((own["is"] in ends) == (i in (0, len(line) - 1)) for i, own in enumerate(line)), "ends")
+        self.links, self.mass, self.momentum, self.fixed, self.endless = [], [NIL], [NIL], [False], [False]
+        self.supports, self.loads = [], []
+        for own in line:
+            run = len(self.mass) - 1
+            if own["is"] in ("bar", "spring", "contact"):
+                keys = {"bar": ("impedance", "velocity", "force"), "spring": ("stiffness", "damping"), "contact": ()}[own["is"]]
+                link = {"is": own["is"], **{key: self.number(own[key]) for key in keys}}
+                if own["is"] == "bar":
+                    link["travel"] = None if own["travel"] is None else self.exact(own["travel"])
+                    require(sign(link["impedance"]) == 1, "an impedance is not positive")
+                self.links.append(link)
+                for values, new in ((self.mass, NIL), (self.momentum, NIL), (self.fixed, False), (self.endless, False)):
+                    values.append(new)
+            elif own["is"] == "mass":
+                mass = self.number(own["mass"])
+                require(sign(mass) == 1, "a mass is not positive")
+                self.mass[run] = short(self.mass[run] + mass)
+                self.momentum[run] = short(self.momentum[run] + product(mass, self.number(own["velocity"])))
+            elif own["is"] == "support":
+                self.supports.append((run, self.number(own["stiffness"]), self.number(own["damping"])))
+            elif own["is"] == "force":
+                self.loads.append((run, self.load(own)))
+            elif own["is"] in ("fixed", "endless"):
+                (self.fixed if own["is"] == "fixed" else self.endless)[run] = True
+            else:
+                require(own["is"] == "free", "an element whose law is not known here")
+        require(len(self.mass) <= 64, "a line is too long")
+        for i, link in enumerate(self.links):
+            far = self.endless[i] or self.endless[i + 1]
+            require(not far or link["is"] == "bar" and link["travel"] is None, "an endless end without an endless bar")
+            require(link["is"] != "bar" or far == (link["travel"] is None), "a bar has no length")
+            require(link["is"] != "bar" or far or link["travel"] > 0, "a bar has no length")
+            require(
+                link["is"] != "spring" or all(sign(link[key]) in (0, 1) for key in ("stiffness", "damping")), "a spring pulls"
+            )
+        for run, far in enumerate(self.endless):
+            alone = is_nil(self.mass[run]) and all(run != own[0] for own in self.supports + self.loads)
+            require(not far or alone, "something stands at an endless end")
+        require(all(sign(c) in (0, 1) for _, *pair in self.supports for c in pair), "a support pulls")
+        self.contacts = [i for i, link in enumerate(self.links) if link["is"] == "contact"]
+
+    def polynomial(self, terms):
+        total = NIL
+        for c, powers in terms:
+            term = fraction(c)
+            for name, power in powers.items():
+                require(type(power) is int and 0 < power <= 10**4, "a power is no positive integer")
+                if name in self.numbers:
+                    base = self.numbers[name]
+                else:
+                    require(name in self.roots and self.roots[name] > 0, f"{name} has no value")
+                    base = arb(self.roots[name]).sqrt()
+                term = product(term, base**power)
+            total = short(total + term)
+        return total
+
+    def number(self, rows):
+        total = NIL
+        for top, factors in rows:
+            below = fmpq(1)
+            for factor, power in factors:
+                require(type(power) is int and 0 < power <= 10**4, "a power is no positive integer")
+                below = product(below, self.polynomial(factor) ** power)
+            require(sign(below) in (1, -1), "a divisor may be zero")
+            total = short(total + self.polynomial(top) / below)
+        return total
+
+    def exact(self, rows):
+        value = self.number(rows)
+        require(isinstance(value, fmpq), "a time is not rational")
+        return value
+
+    def load(self, own):
+        begin, end = (None if own[key] is None else self.exact(own[key]) for key in ("from", "until"))
+        begin = begin if begin is not None else NIL
+        require(begin >= 0 and (end is None or end > begin), "a load ends before it begins")
+        return {"course": own["course"], "from": begin, "until": end}
+
+    def complex(self, rows):
+        """A rational function of time: its powers, in complex numbers."""
+        powers = {}
+        for top, factors in rows:
+            require(all(self.time not in names for factor, _ in factors for _, names in factor), "a divisor holds the time")
+            below = flint.acb(1)
+            for factor, power in factors:
+                below *= self.complex([[factor, []]]).get(0, flint.acb(0)) ** power
+            require(not below.contains(0), "a divisor may be zero")
+            for c, names in top:
+                term, power = flint.acb(fraction(c)), 0
+                for name, exponent in names.items():
+                    require(type(exponent) is int and 0 < exponent <= 10**4, "a power is no positive integer")
+                    if name == self.time:
+                        power = exponent
+                    else:
+                        require(name in self.roots, f"{name} has no value")
+                        term *= flint.acb(self.roots[name]).sqrt() ** exponent
+                powers[power] = powers.get(power, flint.acb(0)) + term / below
+        return powers
+
+    def is_polynomial(self, course):
+        """The coefficients of a course that is a polynomial with rational numbers."""
+        coefficients = {}
+        for exponent, function in course:
+            if exponent or any(factors for _, factors in function):
+                return None
+            for top, _ in function:
+                for c, names in top:
+                    if names.keys() - {self.time}:
+                        return None
+                    coefficients[names.get(self.time, 0)] = coefficients.get(names.get(self.time, 0), NIL) + fraction(c)
+        return coefficients
+
+    def pushes(self, load, begin, step, order):
+        """The Taylor coefficients of a load in whole steps from a time on."""
+        known = self.is_polynomial(load["course"])
+        if known is not None:
+            require(all(power <= order for power in known), "a load has too high a power")
+            series = [known.get(k, NIL) for k in range(order + 1)]
+            return [short(c * step**k) for k, c in enumerate(moved(series, begin))]
+
+        def at(time):
+            total = flint.acb_series([0], prec=order + 1)
+            t = flint.acb_series([time, step], prec=order + 1)
+            for exponent, function in load["course"]:
+                linear, powers = self.complex(exponent), self.complex(function)
+                require(all(power <= 1 for power in linear), "an exponent is not linear in the time")
+                x = (
+                    flint.acb_series([linear.get(0, 0)], prec=order + 1)
+                    + flint.acb_series([linear.get(1, 0)], prec=order + 1) * t
+                )
+                value = flint.acb_series([0], prec=order + 1)
+                for power in range(max(powers, default=0), -1, -1):
+                    value = value * t + flint.acb_series([powers.get(power, 0)], prec=order + 1)
+                total = total + value * x.exp()
+            require(all(total[k].imag.contains(0) for k in range(order + 1)), "a load is not real")
+            return [total[k].real for k in range(order + 1)]
+
+        flint.ctx.cap = order + 1
+        return at(arb(begin))[:order] + [at(span(arb(begin), arb(begin) + arb(step)))[order]]
+
+
+class Laws:
+    """All laws while some contacts are closed: what is known, velocities of masses, compressions and displacements, and what
+    arrives give the velocities of all runs, the accelerations of masses and the forces that hold runs together."""
+
+    def __init__(self, parts, closed):
+        self.parts, runs = parts, range(len(parts.mass))
+        self.heavy = [sign(parts.mass[r]) == 1 for r in runs]
+        self.held = [i for i, link in enumerate(parts.links) if link["is"] == "contact" and i in closed]
+        self.loose = [
+            i for i, link in enumerate(parts.links) if link["is"] == "spring" and is_nil(link["damping"]) and self.hangs(i)
+        ]
+        self.held = sorted(self.held + self.loose)
+        self.springs = [i for i, link in enumerate(parts.links) if link["is"] == "spring" and i not in self.loose]
+        self.still = [parts.fixed[r] or parts.endless[r] for r in runs]
+        self.moving = [r for r in runs if not self.still[r]]
+        unknown = [("a" if self.heavy[r] else "v", r) for r in self.moving] + [("X", i) for i in self.held]
+        self.place = {key: n for n, key in enumerate(unknown)}
+        rows = [self.balance(r) for r in self.moving] + [self.joint(i) for i in self.held]
+        self.inverse = inverse(rows)
+
+    def hangs(self, i):
+        """Whether one end of a spring touches nothing that pushes it."""
+        parts, links = self.parts, self.parts.links
+        for r, step in ((i, -1), (i + 1, 1)):
+            while True:
+                held = parts.fixed[r] or self.heavy[r] or any(r == own[0] for own in parts.supports + parts.loads)
+                beyond = r - 1 if step < 0 else r
+                if held or 0 <= beyond < len(links) and links[beyond]["is"] != "contact":
+                    break
+                if not 0 <= beyond < len(links) or beyond not in self.held:
+                    return True
+                r += step
+        return False
+
+    def balance(self, r):
+        """The coefficients of what is not known in the forces on a run less its inertia."""
+        parts, row = self.parts, [NIL] * len(self.place)
+
+        def resists(run, amount):
+            if ("v", run) in self.place:
+                row[self.place["v", run]] = short(row[self.place["v", run]] + amount)
+
+        if self.heavy[r]:
+            row[self.place["a", r]] = -parts.mass[r]
+        for i in (r - 1, r):
+            if not 0 <= i < len(parts.links):
+                continue
+            link, other = parts.links[i], i if i == r - 1 else r + 1
+            if link["is"] == "bar":
+                resists(r, -link["impedance"])
+            elif i in self.held:
+                row[self.place["X", i]] = fmpq(1 if i == r - 1 else -1)
+            elif link["is"] == "spring":
+                resists(r, -link["damping"])
+                resists(other, link["damping"])
+        for run, _, damping in parts.supports:
+            if run == r:
+                resists(r, -damping)
+        return row
+
+    def joint(self, i):
+        """Equal velocities, or accelerations where both are those of masses."""
+        row = [NIL] * len(self.place)
+        kind = "a" if all(self.heavy[r] or self.parts.fixed[r] for r in (i, i + 1)) else "v"
+        for r, amount in ((i, fmpq(1)), (i + 1, fmpq(-1))):
+            if (kind, r) in self.place:
+                row[self.place[kind, r]] = amount
+        return row
+
+    def known(self, state, waves, loads, base):
+        """Minus what is known in each equation."""
+        parts, forces = self.parts, [NIL] * len(self.parts.mass)
+        v = lambda r: state["v", r] if ("v", r) in state else NIL
+
+        def push(r, amount):
+            forces[r] = short(forces[r] + amount)
+
+        for i, link in enumerate(parts.links):
+            if link["is"] == "bar":
+                # X + Z (2 f - v + V) at the right end, X + Z (v - V - 2 g) at the left one.
+                if not parts.endless[i + 1]:
+                    push(
+                        i + 1,
+                        base * link["force"]
+                        + product(link["impedance"], 2 * waves[i, "f"] - v(i + 1) + base * link["velocity"]),
+                    )
+                if not parts.endless[i]:
+                    push(
+                        i,
+                        -base * link["force"] - product(link["impedance"], v(i) - base * link["velocity"] - 2 * waves[i, "g"]),
+                    )
+            elif i in self.springs:
+                force = product(link["stiffness"], state["alpha", i]) + product(link["damping"], v(i) - v(i + 1))
+                push(i, -force)
+                push(i + 1, force)
+        for n, (r, stiffness, damping) in enumerate(parts.supports):
+            push(r, -product(stiffness, state["u", n]) - product(damping, v(r)))
+        for (r, _), amount in zip(parts.loads, loads):
+            push(r, amount)
+        return [-forces[r] for r in self.moving] + [NIL if self.rigid(i) else v(i + 1) - v(i) for i in self.held]
+
+    def rigid(self, i):
+        return all(self.heavy[r] or self.parts.fixed[r] for r in (i, i + 1))
+
+    def solved(self, state, waves, loads, base):
+        column = self.known(state, waves, loads, base)
+        return [dot(row, column) for row in self.inverse]
+
+    def velocity(self, state, solution, r):
+        if ("v", r) in self.place:
+            return solution[self.place["v", r]]
+        return state["v", r] if ("v", r) in state else NIL
+
+    def rates(self, state, solution):
+        """The derivatives of what is known."""
+        found = {}
+        for kind, n in state:
+            if kind == "v":
+                found[kind, n] = solution[self.place["a", n]]
+            elif kind == "alpha":
+                run = (self.velocity(state, solution, r) for r in (n, n + 1))
+                left, right = run
+                found[kind, n] = left - right if n not in self.loose else NIL
+            else:
+                found[kind, n] = self.velocity(state, solution, self.parts.supports[n][0])
+        return found
+
+
+def inverse(rows):
+    """By elimination: exact where all numbers are."""
+    count = len(rows)
+    rows = [list(row) + [fmpq(int(i == j)) for j in range(count)] for i, row in enumerate(rows)]
+    for column in range(count):
+        usable = [r for r in range(column, count) if sign(rows[r][column]) in (1, -1)]
+        require(usable, "the laws leave something open")
+        pivot = max(usable, key=lambda r: float(size(rows[r][column])))
+        rows[column], rows[pivot] = rows[pivot], rows[column]
+        by = rows[column][column]
+        rows[column] = [short(c / by) for c in rows[column]]
+        rows[column][column] = fmpq(1)
+        for r in range(count):
+            share = rows[r][column]
+            if r != column and not is_nil(share):
+                rows[r] = [short(a - product(share, b)) for a, b in zip(rows[r], rows[column])]
+                rows[r][column] = NIL
+    return [row[count:] for row in rows]
+
+
+class Story:
+    """What has happened so far. A time is (n, s): s after the n-th instant that is not exact, the 0-th is the start."""
+
+    def __init__(self, cert):
+        self.parts = parts = Parts(cert)
+        self.order, self.step, self.end = cert["terms"], fraction(cert["step"]), fraction(cert["to"])
+        require(self.step > 0 and self.end > 0 and self.end / self.step <= 8000, "a window without steps, or with too many")
+        self.told = []
+        for contact, kind, low, high in cert["events"]:
+            require(type(contact) is int and 0 <= contact < len(parts.contacts), "an event without a contact")
+            self.told.append((parts.contacts[contact], kind, fraction(low), fraction(high)))
+            require(0 <= self.told[-1][2] <= self.told[-1][3], "an interval runs backwards")
+        self.origins, self.now = [arb(0)], (0, NIL)
+        self.begins, self.past, self.happened = [], [], []
+        self.closed, self.idle, self.flush, self.pressed = set(parts.contacts), {}, set(), set()
+        self.state = {("v", r): parts.momentum[r] / m for r, m in enumerate(parts.mass) if sign(m) == 1}
+        self.state |= {("alpha", i): NIL for i, link in enumerate(parts.links) if link["is"] == "spring"}
+        self.state |= {("u", n): NIL for n in range(len(parts.supports))}
+        self.gaps = {i: NIL for i in parts.contacts}
+        self.laws = Laws(parts, self.closed)
+        for i in parts.contacts:  # what is rigid on both sides of a contact moves as one already
+            if self.laws.rigid(i):
+                known = [NIL if parts.fixed[r] else self.state["v", r] for r in (i, i + 1)]
+                require(is_nil(known[0] - known[1]), "two rigid bodies meet at the start")
+
+    def when(self, time):
+        return self.origins[time[0]] + time[1]
+
+    def between(self, a, b):
+        """How long a time is after another one."""
+        return a[1] - b[1] if a[0] == b[0] else self.when(a) - self.when(b)
+
+    def is_later(self, a, b):
+        order = sign(self.between(a, b))
+        require(order is not None, "it is not decided which of two times is the later one")
+        return order == 1
+
+    def next_break(self):
+        times = [(0, self.end)] + [(0, low) for _, _, low, high in self.told if low == high]
+        for link in self.parts.links:
+            if link["is"] == "bar" and link["travel"] is not None:
+                times += [(n, s + link["travel"]) for n, s in self.begins[-self.count(link["travel"]) :] + [self.now]]
+        times += [(0, load[key]) for _, load in self.parts.loads for key in ("from", "until") if load[key] is not None]
+        first = None
+        for time in times:
+            if self.is_later(time, self.now) and (first is None or self.is_later(first, time)):
+                first = time
+        return first
+
+    def count(self, travel):
+        """How many cells have begun within a travel time, and one more."""
+        count = 1
+        while count < len(self.begins) and not self.is_later(
+            self.now, (self.begins[-count][0], self.begins[-count][1] + travel)
+        ):
+            count += 1
+        return count + 1
+
+    def arriving(self):
+        silence, found = [NIL] * (self.order + 1), {}
+        for i, link in enumerate(self.parts.links):
+            if link["is"] != "bar":
+                continue
+            found[i, "f"] = found[i, "g"] = silence
+            if link["travel"] is None:
+                continue
+            for n in range(len(self.begins) - 1, -1, -1):
+                begin = (self.begins[n][0], self.begins[n][1] + link["travel"])
+                if not self.is_later(begin, self.now):
+                    later = short(self.between(self.now, begin) / self.step)
+                    found[i, "f"], found[i, "g"] = (moved(self.past[n][i, way], later) for way in "fg")
+                    break
+        return found
+
+    def acting(self):
+        found = []
+        for _, load in self.parts.loads:
+            is_on = not self.is_later((0, load["from"]), self.now) and (
+                load["until"] is None or self.is_later((0, load["until"]), self.now)
+            )
+            time = self.now[1] if self.now[0] == 0 else self.when(self.now)
+            found.append(self.parts.pushes(load, time, self.step, self.order) if is_on else [NIL] * (self.order + 1))
+        return found
+
+    def coefficients(self, state, waves, loads, count, base=fmpq(1)):
+        """Taylor coefficients of all that is known, and of the solutions: as many as are wanted. The base is what stands with
+        the velocities and forces of bars at the start."""
+        states, solutions = [state], []
+        for k in range(count):
+            solution = self.laws.solved(
+                states[k], {key: own[k] for key, own in waves.items()}, [own[k] for own in loads], NIL if k else base
+            )
+            solutions.append(solution)
+            scale = self.step / (k + 1)
+            states.append({key: short(rate * scale) for key, rate in self.laws.rates(states[k], solution).items()})
+        return states, solutions
+
+    def guard(self, i, states, solutions):
+        """What must not be negative: the force of a closed contact, the gap of an open one."""
+        if i in self.closed:
+            return [own[self.laws.place["X", i]] for own in solutions]
+        speeds = [self.laws.velocity(s, z, i + 1) - self.laws.velocity(s, z, i) for s, z in zip(states, solutions)]
+        series = [self.gaps[i]] + [short(c * self.step / (k + 1)) for k, c in enumerate(speeds)]
+        if i in self.flush:
+            series[1] = NIL
+        return series[: len(solutions)]
+
+    def last(self, i, wide, solutions):
+        """The last coefficient of the same on the whole cell."""
+        if i in self.closed:
+            return solutions[self.order][self.laws.place["X", i]]
+        k = self.order - 1
+        right, left = (self.laws.velocity(wide[k], solutions[k], r) for r in (i + 1, i))
+        return short((right - left) * self.step / self.order)
+
+    def start_of(self, series):
+        first = next((c for c in series if not is_nil(c)), NIL)
+        order = sign(first)
+        require(order is not None, "it is not decided whether a contact changes")
+        return order
+
+    def settled(self, waves, loads):
+        for _ in range(4 * len(self.gaps) + 1):
+            states, solutions = self.coefficients(self.state, waves, loads, self.order)
+            wrong = [i for i in self.gaps if self.start_of(self.guard(i, states, solutions)) < 0]
+            if not wrong:
+                return states, solutions
+            self.switch(wrong, False)
+        raise Undecided("contacts open and close without end")
+
+    def switch(self, contacts, smoothly):
+        """Opens and closes contacts at this instant."""
+        loose, speeds, heavy = set(self.laws.loose), dict(self.state), self.laws.heavy
+        for i in contacts:
+            if i in self.closed:
+                since = self.idle.pop(i, None)
+                if since is not None and since != self.now:
+                    self.happened.append((i, "release", since))
+                self.happened.append((i, "opening", self.now))
+            else:
+                known = [speeds[("v", r)] if heavy[r] else NIL for r in (i, i + 1)]
+                is_rigid = all(heavy[r] or self.parts.fixed[r] for r in (i, i + 1))
+                require(not is_rigid or i in self.flush or is_nil(known[0] - known[1]), "two rigid bodies meet")
+                self.happened.append((i, "closing", self.now))
+            self.closed ^= {i}
+            self.pressed.discard(i)
+            self.gaps[i] = NIL
+        self.laws = Laws(self.parts, self.closed)
+        freed = set(self.laws.loose) - loose
+        for i in freed:
+            require(sign(self.state["alpha", i]) in (0, None), "a compressed spring comes loose")
+            self.state["alpha", i] = NIL
+        self.flush = set()
+        for i in contacts:
+            both = heavy[i] and heavy[i + 1]
+            if i not in self.closed and not freed and (both or smoothly):
+                self.flush.add(i)
+
+    def largest(self, start, waves, loads, share):
+        """Bounds of y' on a share of a step, where y'' = A y' + b': |y'| <= (|y'(0)| + h |b'|) / (1 - h |A|)."""
+        nothing, silent = {key: NIL for key in start}, [NIL] * len(loads)
+        norms = {key: arb(0) for key in start}
+        for unit in start:
+            state = {**nothing, unit: fmpq(1)}
+            for key, rate in self.laws.rates(state, self.laws.solved(state, {key: NIL for key in waves}, silent, NIL)).items():
+                norms[key] += size(rate)
+        driven = self.laws.rates(
+            nothing, self.laws.solved(nothing, {key: own[0] for key, own in waves.items()}, [own[0] for own in loads], NIL)
+        )
+        # Each place between two bars by itself: nothing else acts there at once.
+        bounds, length = {}, float(share * self.step)
+        most = (
+            lambda place, values: max(float(size(own)) for key, own in values.items() if self.place_of(*key) == place)
+            * 1.000001
+        )
+        for place in {self.place_of(*key) for key in start}:
+            norm, forcing, first = (most(place, values) for values in (norms, driven, start))
+            require(math.isfinite(norm + forcing + first), "a motion without bounds")
+            if length * norm >= 0.75:
+                return None
+            bounds[place] = (first + length * forcing) / (1 - length * norm) * 1.000001
+        return {
+            key: arb(0, bounds[self.place_of(*key)] * float(self.step) * 1.000001) if bounds[self.place_of(*key)] else NIL
+            for key in start
+        }
+
+    def place_of(self, kind, n):
+        """Which place between two bars something known belongs to."""
+        run = self.parts.supports[n][0] if kind == "u" else n
+        return sum(link["is"] == "bar" for link in self.parts.links[:run])
+
+    def enclosed(self, states, waves, loads, share):
+        """What is known and solved, of the two last orders on a share of a step; None where it is too long. All orders but the
+        first are those of the derivatives, which vanish where nothing changes."""
+        place = span(0, share)
+        over, under = {key: derivative(moved(own, place)) for key, own in waves.items()}, [
+            derivative(moved(own, place)) for own in loads
+        ]
+        start = {key: rate for key, rate in states[1].items()}
+        box = self.largest(
+            {key: rate / self.step for key, rate in start.items()},
+            {key: [c / self.step for c in own] for key, own in over.items()},
+            [[c / self.step for c in own] for own in under],
+            share,
+        )
+        if box is None:
+            return None
+        rates, solutions = self.coefficients(box, over, under, self.order, NIL)
+        up = lambda rows, k: {key: c / k for key, c in rows[k - 1].items()}
+        wide = {k: up(rates, k) for k in (self.order - 1, self.order)}
+        return wide, {k: [c / k for c in solutions[k - 1]] for k in (self.order - 1, self.order)}
+
+    def cell(self):
+        end = self.next_break()
+        waves, loads = self.arriving(), self.acting()
+        states, solutions = self.settled(waves, loads)
+        share = short(self.between(end, self.now) / self.step)
+        if sign(share - 1) != -1:
+            end, share = (self.now[0], self.now[1] + self.step), fmpq(1)
+        high = fmpq(1)
+        while sign(share - high / 2) == -1:
+            high = high / 2
+        for _ in range(40):
+            last = self.enclosed(states, waves, loads, high)
+            if last is not None:
+                break
+            high = high / 2
+            end, share = (self.now[0], self.now[1] + self.step * high), high
+        require(last is not None, "a step is too long")
+        wide, all_ = last
+        guards = {i: self.guard(i, states, solutions) + [self.last(i, wide, all_)] for i in self.gaps}
+        for i in sorted(self.closed):
+            if not all(map(is_nil, guards[i])):
+                if self.now == (0, 0):
+                    self.happened.append((i, "closing", self.now))
+                self.idle.pop(i, None)
+                self.pressed.add(i)
+            elif i in self.pressed:
+                self.idle.setdefault(i, self.now)
+        change = self.change_before(end)
+        if change is not None:
+            place = self.root(guards[change[0]], *change[1:])
+        else:
+            place = share
+        for i, own in guards.items():
+            until = change[1] if change is not None and change[0] == i else place
+            until = until if isinstance(until, fmpq) else rational_above(until)
+            require(all(map(is_nil, own)) or stays_positive(own, NIL, until), "a contact changes, and it is not said")
+        leaving = {}
+        for i, link in enumerate(self.parts.links):
+            if link["is"] == "bar" and link["travel"] is not None:
+                for way, other, r in (("f", "g", i), ("g", "f", i + 1)):
+                    speed = [self.laws.velocity(s, z, r) for s, z in zip(states, solutions)] + [
+                        self.laws.velocity(wide[self.order], all_[self.order], r)
+                    ]
+                    speed[0] = speed[0] - link["velocity"]
+                    leaving[i, way] = [short(a - b) for a, b in zip(speed, waves[i, other])]
+        self.begins.append(self.now)
+        self.past.append(leaving)
+        require(len(self.begins) <= 8000, "there are too many steps")
+        self.state = {
+            key: horner([s[key] for s in states[: self.order]] + [wide[self.order][key]], place) for key in self.state
+        }
+        self.gaps = {i: NIL if i in self.closed else horner(guards[i], place) for i in self.gaps}
+        self.flush = set()
+        if change is None:
+            self.now = end
+            return
+        self.origins.append(self.when(self.now) + place * self.step)
+        self.now = (len(self.origins) - 1, NIL)
+        self.switch([change[0]], True)
+
+    def change_before(self, end):
+        """The contact of which it is claimed that it changes by itself first on this cell, and when, in steps from now."""
+        found = None
+        for i in self.gaps:
+            done = sum(1 for own in self.happened if own[0] == i and own[1] != "release")
+            claims = [own for own in self.told if own[0] == i and own[1] != "release"][done:]
+            if not claims or claims[0][2] == claims[0][3] or not arb(claims[0][3]) <= self.when(end).lower():
+                continue
+            low, high = ((arb(time) - self.when(self.now)) / self.step for time in claims[0][2:])
+            low, high = rational_below(low), rational_above(high)
+            if high > 0 and (found is None or low < found[1]):
+                found = (i, max(low, NIL), high)
+        return found
+
+    def root(self, series, low, high):
+        """The only zero of what falls between two places."""
+        require(
+            sign(horner(series, low)) == 1 and sign(horner(series, high)) == -1, "a contact does not change when it is said"
+        )
+        falls, place = derivative(series), span(low, high)
+        require(sign(horner(falls, place)) == -1, "a contact may change more than once")
+        for _ in range(12):
+            middle = arb(place.mid())
+            newton = middle - horner(series, middle) / horner(falls, place)
+            require(newton.overlaps(place), "a contact does not change when it is said")
+            place = newton.intersection(place)
+        return place
+
+    def run(self):
+        while self.now != (0, self.end):
+            self.cell()
+        self.happened += [(i, "release", since) for i, since in sorted(self.idle.items())]
+
+
+def rational_above(ball):
+    mantissa, exponent = arb(ball.upper()).mid().man_exp()
+    return fmpq(int(mantissa)) * fmpq(2) ** int(exponent) + fmpq(1, 1 << flint.ctx.prec)
+
+
+def rational_below(ball):
+    return -rational_above(-ball)
+
+
+def check_motion(cert):
+    bits, terms = cert["bits"], cert["terms"]
+    require(all(type(own) is int for own in (bits, terms)) and 4 <= bits <= 4096 and 4 <= terms <= 400, "bits or terms")
+    flint.ctx.prec = bits + 32
+    story = Story(cert)
+    story.run()
+    require(len(story.told) == len(story.happened), "there are more or fewer events")
+    times = []
+    for contact, kind, low, high in story.told:
+        own = next((n for n, event in enumerate(story.happened) if event[0] == contact), None)
+        require(own is not None and story.happened[own][1] == kind, f"there is no {kind} then")
+        _, _, time = story.happened.pop(own)
+        exact = time[1] if time[0] == 0 else story.when(time)
+        require(
+            not exact < low
+            and not exact > high
+            and (isinstance(exact, fmpq) or arb(low) <= exact.lower() and exact.upper() <= arb(high)),
+            "an event is at another time",
+        )
+        times.append(time)
+    for earlier, later in zip(times, times[1:]):
+        require(sign(story.between(later, earlier)) != -1, "events are told in another order")

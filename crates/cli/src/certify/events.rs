@@ -1,0 +1,252 @@
+//! Certificates of what contacts do: a checker follows the line itself, so that all it is told is the line, and when which
+//! contact changes.
+
+use super::drawing;
+use super::writer::Writer;
+use crate::failure::Failure;
+use crate::progress;
+use num_rational::BigRational;
+use num_traits::ToPrimitive as _;
+use serde_json::{Map, Value as Json, json};
+use std::collections::BTreeSet;
+use wavestep::ball::{Ball, Bound, Decimal, Number};
+use wavestep::enclosure::Numbers;
+use wavestep::expression::{Expression, Fraction};
+use wavestep::history::{Event, EventKind};
+use wavestep::network::{Contacts, ElementLaw, Layout, Network, Node};
+use wavestep::problem::Problem;
+use wavestep::signal::EvaluateError;
+use wavestep_polynomial::Symbol;
+
+/// Bits and digits beyond those asked for, so that what is known of one event suffices for the next.
+const SPARE_BITS: f64 = 64.0;
+const SPARE_DIGITS: usize = 6;
+
+/// The most steps of a checker in a window.
+const MOST_STEPS: f64 = 2000.0;
+
+/// Closings, openings and releases before the end of a window.
+pub fn certificate(
+    problem: &Problem,
+    [from, to]: &[BigRational; 2],
+    digits: usize,
+) -> Result<Map<String, Json>, Failure> {
+    if *from != BigRational::default() {
+        let message = "events are certified from the start on";
+        return Err(Failure::usage(message, "leave --from out"));
+    }
+    let network = problem.network()?;
+    if network.local_contact().is_some() {
+        return Err(refused("beside local contacts"));
+    }
+    if let Some(symbol) = problem.symbols().first() {
+        let remedy = format!("give a number for it, as in --set {symbol}=1/4");
+        return Err(Failure::usage(format!("the symbol {symbol} has no value"), remedy));
+    }
+    let layout = Layout::of(network.scene(), network.model(), Contacts::Links);
+    if layout.contacts.is_empty() {
+        return Err(Failure::usage("the line has no contacts", "write | where bodies touch"));
+    }
+    let line = Line { network, layout: &layout, numbers: Numbers::new(&network.model().constants) };
+    let waiting = progress::spinner("following contacts");
+    let history = problem.history(Some(to), digits + SPARE_DIGITS)?;
+    drop(waiting);
+    if let Some(assumed) = history.assumptions.first() {
+        let message = format!("events of this scene rest on an assumption: {assumed}");
+        return Err(Failure::usage(message, "end the window before that time"));
+    }
+    let mut writer = Writer::default();
+    let drawn = drawing::with_contacts(network, &layout, &mut writer);
+    let precision = line.precision(to, digits)?;
+    let [low, high] = line.in_steps(to, precision.bits)?;
+    let end =
+        if low == high { low } else { Decimal::bound(&low, digits, Bound::Lower).to_rational() };
+    let mut events = Vec::new();
+    for event in &history.events {
+        events.extend(line.told(event, &end, digits, precision.bits)?);
+    }
+    let mut document = Map::new();
+    let mut insert = |key: &str, value: Json| document.insert(key.into(), value);
+    insert("kind", json!("events"));
+    insert("title", json!(problem.title()));
+    insert("constants", json!(problem.constants(None)?));
+    insert("time", json!(network.scene().time.name()));
+    insert("line", drawn);
+    insert("numbers", line.told_numbers(&writer.others, precision.bits));
+    insert("roots", writer.told_roots());
+    insert("to", json!(end.to_string()));
+    insert("events", json!(events));
+    insert("step", json!(precision.step.to_string()));
+    insert("terms", json!(precision.terms));
+    insert("bits", json!(precision.bits));
+    Ok(document)
+}
+
+fn refused(reason: &str) -> Failure {
+    let message = format!("there are no certificates of events {reason}");
+    Failure::usage(message, "see them with `wavestep events`")
+}
+
+/// How a checker follows a line: steps that are short beside the decays of the line, the terms of Taylor polynomials on these,
+/// and the bits of their coefficients.
+struct Precision {
+    step: BigRational,
+    terms: u32,
+    bits: u64,
+}
+
+struct Line<'a> {
+    network: &'a Network,
+    layout: &'a Layout,
+    numbers: Numbers,
+}
+
+impl Line<'_> {
+    fn precision(&self, to: &BigRational, digits: usize) -> Result<Precision, Failure> {
+        let [to, _] = self.in_steps(to, 64)?;
+        let to = to.to_f64().unwrap_or(f64::INFINITY);
+        let mut shortest = to;
+        for travel in self.travels() {
+            let Some(travel) = travel.as_constant() else {
+                return Err(refused("where travel times have no common measure"));
+            };
+            shortest = shortest.min(travel.to_f64().unwrap_or(0.0));
+        }
+        let mut rate = self.layout.nodes.iter().map(|node| self.rate(node)).fold(0.0, f64::max);
+        for load in self.network.model().loads.values() {
+            self.refuse_constants(&load.course)?;
+            let exponents = load.course.terms().map(|(exponent, _)| exponent);
+            let size =
+                |own: &Fraction| own.numerator().terms().map(|(_, c)| about(&c)).sum::<f64>();
+            rate = exponents.map(size).fold(rate, f64::max);
+        }
+        // A power of two, at most the time of the fastest decay.
+        let exponent = shortest.min(1.0 / rate).log2().floor();
+        let step = exponent.exp2();
+        if !(to / step < MOST_STEPS && exponent.abs() < 64.0) {
+            let message = format!("a checker would need {:.0} steps or more", to / step);
+            return Err(Failure::usage(message, "end the window earlier, with --to"));
+        }
+        let two = BigRational::from_integer(2.into());
+        let step = two.pow(exponent as i32);
+        // What is off at first may grow as fast as the fastest motion; n!/2^n is beyond the last bit.
+        let bits = SPARE_BITS + 4.0 * digits as f64 + 1.5 * rate * to;
+        let (mut terms, mut factorial) = (4_u32, 0.0);
+        while factorial < bits {
+            terms += 1;
+            factorial += f64::from(terms).log2() - 1.0;
+        }
+        Ok(Precision { step, terms, bits: bits as u64 })
+    }
+
+    fn travels(&self) -> impl Iterator<Item = &Fraction> {
+        self.network.model().bars.values().filter_map(|bar| bar.travel.as_ref())
+    }
+
+    /// About how fast anything at a node changes: impedances and dampers over the least mass, stiffness over what damps it,
+    /// and the fastest oscillation.
+    fn rate(&self, node: &Node<Fraction>) -> f64 {
+        let size = |value: &Fraction| {
+            let ball = self.numbers.enclose(value, 64).unwrap_or_else(|_| Ball::zero());
+            ball.midpoint().to_double()
+        };
+        let (mut damping, mut stiffness, mut mass) = (0.0, 0.0, f64::INFINITY);
+        let mut damps: f64 = f64::INFINITY;
+        for impedance in node.impedance.iter().map(size).filter(|own| *own > 0.0) {
+            (damping, damps) = (damping + impedance, damps.min(impedance));
+        }
+        for element in &node.elements {
+            if let ElementLaw::Mass { mass: own, .. } = &element.law {
+                mass = mass.min(size(own));
+            }
+            if let Some([own, damper]) = element.law.resistance() {
+                let damper = size(damper);
+                stiffness += size(own);
+                damping += damper;
+                damps = if damper > 0.0 { damps.min(damper) } else { damps };
+            }
+        }
+        damping / mass + (stiffness / mass).sqrt() + stiffness / damps
+    }
+
+    /// Loads hold rational numbers and roots only.
+    fn refuse_constants(&self, course: &Expression) -> Result<(), Failure> {
+        let time = &self.network.scene().time;
+        let is_other = |own: &Symbol| own != time && own.square().is_none();
+        match course.symbols().into_iter().find(is_other) {
+            Some(symbol) => Err(refused(&format!("under loads that hold the number {symbol}"))),
+            None => Ok(()),
+        }
+    }
+
+    /// A time in the units of the line, between two numbers.
+    fn in_steps(&self, time: &BigRational, bits: u64) -> Result<[BigRational; 2], Failure> {
+        self.scaled(&Number::of_rational(time.clone(), bits), bits)
+    }
+
+    fn scaled(&self, time: &Number, bits: u64) -> Result<[BigRational; 2], Failure> {
+        let unit = &self.network.model().scale.time;
+        let unit = match unit.exact().and_then(|unit| unit.as_constant()) {
+            Some(unit) => Number::Exact(unit),
+            None => {
+                let unit = self.numbers.enclose_root(unit, bits);
+                Number::Enclosed(unit.map_err(EvaluateError::from)?)
+            }
+        };
+        let scaled = time.multiply(&unit.reciprocal(bits).map_err(EvaluateError::from)?, bits);
+        Ok(wavestep::Value::of(&scaled, 1).bounds())
+    }
+
+    /// `[contact, kind, low, high]`, with times in the units of the line, of what happens before the end.
+    fn told(
+        &self,
+        event: &Event,
+        end: &BigRational,
+        digits: usize,
+        bits: u64,
+    ) -> Result<Option<Json>, Failure> {
+        let time = match event.time.exact() {
+            Some(time) => Number::Exact(time.clone()),
+            None => Number::Enclosed(event.time.ball(bits)),
+        };
+        let [low, high] = self.scaled(&time, bits)?;
+        if high >= *end {
+            return Ok(None);
+        }
+        let [low, high] = match low == high {
+            true => [low.to_string(), high.to_string()],
+            // Room for what a checker finds.
+            false => {
+                let ten = BigRational::from_integer(10.into());
+                let room = &high / ten.pow(i32::try_from(digits).expect("digits are limited"));
+                decimals(&(low - &room), &(high + room), digits + 1)
+            }
+        };
+        let kind = match event.kind {
+            EventKind::Impact | EventKind::Closing => "closing",
+            EventKind::Opening => "opening",
+            EventKind::Release => "release",
+        };
+        Ok(Some(json!([event.contact, kind, low, high])))
+    }
+
+    /// `{symbol: [low, high], …}`.
+    fn told_numbers(&self, symbols: &BTreeSet<Symbol>, bits: u64) -> Json {
+        let numbers = symbols.iter().filter_map(|symbol| {
+            let (low, high) = self.numbers.value(symbol, bits)?.endpoints();
+            let [low, high] = [&low, &high].map(BigRational::from);
+            Some((symbol.to_string(), json!(decimals(&low, &high, bits as usize / 3))))
+        });
+        Json::Object(numbers.collect())
+    }
+}
+
+fn about(value: &BigRational) -> f64 {
+    value.to_f64().unwrap_or(f64::INFINITY).abs()
+}
+
+/// Decimals around an interval.
+fn decimals(low: &BigRational, high: &BigRational, digits: usize) -> [String; 2] {
+    let end = |value, bound| Decimal::bound(value, digits, bound).to_string();
+    [end(low, Bound::Lower), end(high, Bound::Upper)]
+}
