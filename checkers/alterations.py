@@ -23,6 +23,9 @@ except ImportError:
     CHECKERS = [check]
 
 
+MOTIONS = ("events", "reading")
+
+
 def places(node, path=()):
     """All places of a document."""
     yield path
@@ -113,19 +116,19 @@ def same_claims(one, other):
             return False
     if ("minus" in one) != ("minus" in other) or "minus" in one and not same_claims(one["minus"], other["minus"]):
         return False
-    times = ("at", "from") if one.get("kind") == "events" else ("at", "from", "to")
+    times = () if one.get("kind") in MOTIONS else ("at", "from", "to")
     if any(one.get(key) != other.get(key) and Fraction(one[key]) != Fraction(other[key]) for key in times):
         return False
     if one.get("goal") != other.get("goal"):
         return False
-    values = [check.decimal(document) for document in (one, other) if "value" in document]
+    values = [exact.decimal(document) for document in (one, other) if "value" in document]
     if values and abs(values[0][0] - values[1][0]) > values[0][1] + values[1][1]:
         return False
     rows = [[list(map(Fraction, row)) for row in document.get("values", [])] for document in (one, other)]
     is_near = lambda a, b: abs(a[0] - b[0]) <= a[1] + b[1]
     if len(rows[0]) != len(rows[1]) or not all(map(is_near, *rows)):
         return False
-    if one.get("kind") == "events":  # all else is the line, which a checker follows itself: what it finds is true of that line
+    if one.get("kind") in MOTIONS:  # all else is the line, which a checker follows itself: what it finds is true of that line
         names = [[event[:2] for event in document["events"]] for document in (one, other)]
         if names[0] != names[1]:
             return False
@@ -145,8 +148,8 @@ def main(count, files):
         if document == original:
             continue
         verdicts = [outcome(checker, document) for checker in CHECKERS]
-        # Events: how closely a motion is enclosed is a matter of the checker.
-        is_undecided = document.get("kind") == "events" and any(verdict in ("Wrong", "Undecided") for verdict in verdicts)
+        # Motions: how closely a motion is enclosed is a matter of the checker.
+        is_undecided = document.get("kind") in MOTIONS and "Undecided" in verdicts
         if len({verdict is None for verdict in verdicts}) > 1 and not (is_undecided and same_claims(document, original)):
             missed += 1
             print(f"judged differently in {original['title']} ({original['kind']}): {path} {verdicts}")

@@ -10,9 +10,9 @@ import re
 import sys
 from fractions import Fraction
 
-from exact import LATEST, MINUS, ONE, PLACES, ROOTS, Wrong, accumulate, add, frozen, is_count, is_zero, key_of, less, need, number
+from exact import LATEST, MINUS, ONE, ROOTS, Wrong, accumulate, add, decimal, frozen, is_count, is_zero, key_of, less, need, number
 from exact import number_at, on_period, plus, power, put, rational, read, read_form, read_function, sign, sign_on, slope, times, whole
-from motion import check_events
+from motion import check_events, check_reading
 
 # From the drawing of a line to its laws.
 
@@ -444,14 +444,6 @@ def cells(cert, scenes, level):
     need(time == rational(cert["to"]), "the intervals end early or late")
 
 
-def decimal(cert):
-    """A decimal, and half a unit of its last place."""
-    need(type(cert["last_place"]) is int and abs(cert["last_place"]) <= PLACES, "a place is no number, or too large")
-    value, unit = rational(cert["value"]), Fraction(10) ** cert["last_place"]
-    need((value / unit).denominator == 1, "the decimal has more digits than it says")
-    return value, unit / 2
-
-
 def check_value(cert):
     """The decimal is the value, correctly rounded."""
     time, (claim, slack) = rational(cert["at"]), decimal(cert)
@@ -531,7 +523,7 @@ def check(cert):
     ROOTS.update({symbol: read_square(square) for symbol, square in cert["roots"].items()})
     need(len(set(ROOTS.values())) == len(ROOTS) <= 16, "two roots of one number, or too many")
     kinds = {"pieces": check_pieces, "general": check_general, "value": check_value, "doubles": check_doubles}
-    kinds |= {"roots": check_roots, "extremum": check_extremum, "events": check_events}
+    kinds |= {"roots": check_roots, "extremum": check_extremum, "events": check_events, "reading": check_reading}
     need(type(cert["title"]) is str and cert["title"].encode(), "a title is missing")
     need(cert["kind"] in kinds, f"unknown kind {json.dumps(cert['kind'])}")
     need("minus" not in cert or "observed" in cert["minus"] and cert["kind"] not in ("pieces", "general"), "a second scene for nothing")

@@ -15,7 +15,8 @@ try:
     import flint
     from flint import acb, acb_series, arb, fmpq, fmpq_mat, fmpq_mpoly_ctx
 
-    from motion_arb import Undecided, check_motion
+    from motion_arb import check_motion, check_reading
+    from series_arb import Unproven
 except ImportError:
     if __name__ != "__main__":
         raise
@@ -1058,12 +1059,14 @@ def check(cert):
     need(type(version) is int and version == 1, "a certificate of another version")
     need(isinstance(cert["title"], str) and cert["title"].encode(), "a title is missing")
     kinds = {"pieces": lambda *_: None, "general": check_general, "value": check_value, "doubles": check_doubles}
-    kinds |= {"roots": check_roots, "extremum": check_extremum, "events": None}
+    kinds |= {"roots": check_roots, "extremum": check_extremum, "events": check_motion, "reading": check_reading}
     need(cert["kind"] in kinds, f"unknown kind {json.dumps(cert['kind'])}")
     need("minus" not in cert or "observed" in cert["minus"] and cert["kind"] not in ("pieces", "general"), "a second scene for nothing")
-    if cert["kind"] == "events":
-        [Ring.prime(text) for text in cert["roots"].values()]
-        return check_motion(cert)
+    if cert["kind"] in ("events", "reading"):
+        squares = [Ring.prime(text) for text in cert["roots"].values()]
+        need(len(set(squares)) == len(squares) <= 16, "two roots of one number, or too many")
+        kinds[cert["kind"]](cert)
+        return
     claim = Claim(cert, Ring(cert))
     claim.check()
     kinds[cert["kind"]](cert, claim)
@@ -1103,7 +1106,7 @@ def judge(name):
         return False, f"cannot be read: {error}"
     try:
         check(certificate)
-    except (Wrong, Undecided) as error:
+    except (Wrong, Unproven) as error:
         return False, f"NOT proven: {error}"
     except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError, MemoryError) as error:
         return False, f"NOT proven: it is not laid out as it should be: {error!r}"

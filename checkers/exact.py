@@ -20,9 +20,18 @@ class Wrong(Exception):
     """What a certificate claims does not follow."""
 
 
+class Undecided(Wrong):
+    """Enclosures do not tell whether it follows."""
+
+
 def need(claim, told):
     if not claim:
         raise Wrong(told)
+
+
+def decided(claim, told):
+    if not claim:
+        raise Undecided(told)
 
 
 def product(a, b):
@@ -139,6 +148,14 @@ def rational(text):
     return Fraction(text)
 
 
+def decimal(cert):
+    """A decimal, and half a unit of its last place."""
+    need(type(cert["last_place"]) is int and abs(cert["last_place"]) <= PLACES, "a place is no number, or too large")
+    value, unit = rational(cert["value"]), Fraction(10) ** cert["last_place"]
+    need((value / unit).denominator == 1, "the decimal has more digits than it says")
+    return value, unit / 2
+
+
 def is_count(power, most=HIGHEST):
     return type(power) is int and 0 <= power <= most
 
@@ -164,6 +181,7 @@ def reduced(polynomial):
 
 
 def read_function(rows):
+    need(type(rows) is list, "a function is no list")
     function = {}
     for top, below in rows:
         key = ()

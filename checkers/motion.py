@@ -1,179 +1,37 @@
-"""The motion of a line whose contacts push and never pull, followed with proof, with nothing but the standard library.
+"""The motion of a line with contacts that push and never pull, with proof, in nothing but the standard library.
 
-Time is cut into cells, on each of which every wave, velocity and force has as many derivatives as are wanted. There a
-function is a Taylor polynomial about the start of the cell, in whole steps: a list c of N + 1 numbers, the k-th derivative
-over k! at the start for k < N, and for k = N what encloses it on the whole cell. So f(x) = c_0 + c_1 x + ... + c_N x^N there,
-by Lagrange's remainder. Numbers are rational as long as their denominators are short, and enclosed after that.
+Time is cut into cells, on each of which every wave, velocity and force is a Taylor polynomial with a bounded remainder; series.py
+adds and multiplies these.
 """
 
 from fractions import Fraction
 from math import comb, isqrt
 
-from exact import (
-    MINUS,
-    ROOTS,
-    Ball,
-    Wrong,
-    accumulate,
-    coefficients,
-    is_zero,
-    need,
-    number,
-    put,
-    rational,
-    read,
-    read_function,
-    thawed,
-)
+from exact import MINUS, ROOTS, Ball, Undecided, Wrong, accumulate, coefficients, decided, decimal, is_zero, need, number, put
+from exact import rational, read, read_function, thawed
+from series import ONE, PRECISION, ZERO, Number, begins, interval, is_positive, shifted, slope, total, value
 
+KEYS = {kind: {"is"} for kind in ("free", "fixed", "endless", "contact")}
+KEYS |= {kind: {"is", "name", "stiffness", "damping"} for kind in ("spring", "support")}
+KEYS["bar"] = {"is", "name", "travel", "impedance", "velocity", "force"}
+KEYS |= {"mass": {"is", "name", "mass", "velocity"}, "force": {"is", "name", "course", "from", "until"}}
+CLAIMS = {
+    "wavestep_certificate",
+    "kind",
+    "title",
+    "constants",
+    "time",
+    "line",
+    "numbers",
+    "roots",
+    "to",
+    "events",
+    "step",
+    "terms",
+    "bits",
+}
+READS = CLAIMS | {"quantity", "observed", "unit", "at", "value", "last_place"}
 MOST_CELLS, MOST_BITS, MOST_TERMS, MOST_RUNS = 8000, 4096, 400, 64
-EXACT = 1024  # bits of the longest denominator of a number that is exact
-PRECISION = {"bits": 256}
-
-
-class Number:
-    """A rational number, exact as long as its denominator is short; or what is enclosed: in whole units of 2^-bits a number, and
-    how many units it is off at most."""
-
-    __slots__ = ("exact", "mid", "off")
-
-    def __init__(self, exact, mid=0, off=0):
-        if exact is not None and exact.denominator.bit_length() > EXACT:
-            bits = PRECISION["bits"]
-            exact, mid, off = None, (exact.numerator << bits) // exact.denominator, 1
-        self.exact, self.mid, self.off = exact, mid, off
-
-    @staticmethod
-    def between(low, high):
-        """All between two rational numbers."""
-        if low == high:
-            return Number(low)
-        bits = PRECISION["bits"]
-        low, high = (low.numerator << bits) // low.denominator, -((-high.numerator << bits) // high.denominator)
-        return Number(None, (low + high) >> 1, (high - low + 2) >> 1)
-
-    def units(self):
-        if self.exact is None:
-            return self.mid, self.off
-        top, below = self.exact.numerator << PRECISION["bits"], self.exact.denominator
-        return top // below, int(top % below > 0)
-
-    def __add__(self, other):
-        if self.exact is not None and other.exact is not None:
-            return Number(self.exact + other.exact)
-        (a, i), (b, j) = self.units(), other.units()
-        return Number(None, a + b, i + j)
-
-    def __neg__(self):
-        return Number(-self.exact) if self.exact is not None else Number(None, -self.mid, self.off)
-
-    def __sub__(self, other):
-        return self + -other
-
-    def times(self, factor):
-        """Times a rational number."""
-        if self.exact is not None:
-            return Number(self.exact * factor)
-        top, below = factor.numerator, factor.denominator
-        if below == 1:
-            return Number(None, self.mid * top, self.off * abs(top)) if top else ZERO
-        return Number(None, self.mid * top // below, self.off * abs(top) // below + 2)
-
-    def __mul__(self, other):
-        if self.exact is not None:
-            return other.times(self.exact) if self.exact else ZERO
-        if other.exact is not None:
-            return self.times(other.exact) if other.exact else ZERO
-        off = (abs(self.mid) + self.off) * other.off + self.off * abs(other.mid)
-        return Number(None, self.mid * other.mid >> PRECISION["bits"], (off >> PRECISION["bits"]) + 2)
-
-    def __truediv__(self, other):
-        need(other.sign(), "a divisor may be zero")
-        if self.is_zero():
-            return ZERO
-        if other.exact is not None:
-            return self.times(1 / other.exact)
-        (a, i), (b, j) = self.units(), other.units()
-        mid = (a << PRECISION["bits"]) // b
-        return Number(None, mid, ((i << PRECISION["bits"]) + (abs(mid) + 1) * j) // (abs(b) - j) + 2)
-
-    def is_zero(self):
-        return self.exact is not None and not self.exact
-
-    def sign(self):
-        """1, -1, or 0 where it is exactly zero; None where it is not decided."""
-        if self.exact is not None:
-            return (self.exact > 0) - (self.exact < 0)
-        return None if abs(self.mid) <= self.off else 1 if self.mid > 0 else -1
-
-    def holds(self, other):
-        if self.exact is not None:
-            return self.exact == other.exact
-        (a, i), (b, j) = self.units(), other.units()
-        return abs(a - b) + j <= i
-
-    def ends(self):
-        if self.exact is not None:
-            return self.exact, self.exact
-        unit = 1 << PRECISION["bits"]
-        return Fraction(self.mid - self.off, unit), Fraction(self.mid + self.off, unit)
-
-
-ZERO, ONE = Number(Fraction(0)), Number(Fraction(1))
-
-
-def total(numbers):
-    result = ZERO
-    for own in numbers:
-        if not own.is_zero():
-            result = result + own
-    return result
-
-
-def at(series, x):
-    """The derivatives over k! at a place of the cell, or on a part of it."""
-    count, some = len(series), [j for j, own in enumerate(series) if not own.is_zero()]
-    if x.is_zero() or not some:
-        return list(series)
-    powers = [ONE]
-    for _ in range(some[-1]):
-        powers.append(powers[-1] * x)
-    part = lambda k: total((series[j] * powers[j - k]).times(comb(j, k)) for j in some if j >= k)
-    return [part(k) if k <= some[-1] else ZERO for k in range(count)]
-
-
-def value(series, x):
-    result = ZERO
-    for own in reversed(series):
-        result = result * x + own
-    return result
-
-
-def slope(series):
-    return [own.times(k) for k, own in enumerate(series)][1:] or [ZERO]
-
-
-def begins(series):
-    """The sign with which a function begins, 0 where it is zero on the whole cell; None where it is not decided."""
-    for own in series[:-1]:
-        if not own.is_zero():
-            return own.sign()
-    return 0 if series[-1].is_zero() else None
-
-
-def is_positive(series, low, high, depth=20):
-    """Whether a function that is not negative at the start of the cell is positive between two places of it; zeros with which
-    it begins there, and one at the end, do not count."""
-    if not low:
-        while len(series) > 1 and series[0].is_zero():
-            series = series[1:]
-    if value(series, Number.between(low, high)).sign() == 1:
-        return True
-    ends = [value(series, Number(end)).sign() for end in (low, high)]
-    if value(slope(series), Number.between(low, high)).sign() and ends[0] in (0, 1) and ends[1] in (0, 1):
-        return True
-    middle = (low + high) / 2
-    return depth > 0 and is_positive(series, low, middle, depth - 1) and is_positive(series, middle, high, depth - 1)
 
 
 class Load:
@@ -191,14 +49,15 @@ class Load:
     def series(self, begin, step, terms):
         """Its Taylor polynomial in whole steps about a time."""
         low, high = begin.ends()
+        need(high - low <= step, "a time is not known well enough")
         there = put(self.course, self.time, {(): {(): (low + high) / 2, ((self.time, 1),): step}})
         sums = [ZERO] * (terms + 1)
         for exponent, function in there.items():
             factors = coefficients(function, self.time)
             need(len(factors) <= terms, "a course has too high a power")
-            own = self.smooth(exponent, factors, terms) if exponent else list(map(exactly, factors)) + [ZERO] * terms
+            own = self.smooth(exponent, factors, terms) if exponent else list(map(plain_or_root, factors)) + [ZERO] * terms
             sums = [a + b for a, b in zip(sums, own)]
-        return at(sums, Number.between((low - high) / step, (high - low) / step))
+        return shifted(sums, Number.between((low - high) / step, (high - low) / step))
 
     def smooth(self, exponent, factors, terms):
         """A polynomial times an exponential; of the highest derivative a bound for -1 <= x <= 2."""
@@ -219,9 +78,11 @@ class Load:
         return sums + [Number.between(-bound, bound)]
 
 
-def exactly(parts):
-    need(not any(parts.keys() - {()}), "a root where a rational number is due")
-    return Number(parts.get((), Fraction(0)))
+def plain_or_root(parts):
+    if not parts.keys() - {()}:
+        return Number(parts.get((), Fraction(0)))
+    ball = Ball.of(parts, PRECISION["bits"])
+    return Number(None, ball.real, ball.off)
 
 
 def plain(rows):
@@ -235,13 +96,25 @@ class Line:
     """Runs, which move as one, between bars, springs and contacts."""
 
     def __init__(self, cert):
-        self.constants = {name: Number.between(*sorted(map(rational, pair))) for name, pair in cert["numbers"].items()}
+        self.constants = {name: interval(pair) for name, pair in cert["numbers"].items()}
+        need(not self.constants.keys() & (ROOTS.keys() | {cert["time"]}), "a name stands for two numbers")
+        need(cert["time"] not in ROOTS, "a name stands for two numbers")
         elements = cert["line"]
+        need(
+            all(element.keys() == KEYS.get(element["is"]) for element in elements),
+            "an element lacks something, or has too much",
+        )
         need(type(cert["time"]) is str, "the time has no name")
         is_end = [element["is"] in ("free", "fixed", "endless") for element in elements]
         need(len(elements) > 2 and is_end == [True] + [False] * (len(elements) - 2) + [True], "a line has two ends")
-        self.links, runs = [], [[]]
+        self.links, runs, self.places, supports = [], [[]], {}, 0
         for element in elements:
+            if "name" in element:
+                need(type(element["name"]) is str and element["name"] not in self.places, "a name stands twice")
+                kind = element["is"]
+                place = len(self.links) if kind in ("bar", "spring") else supports if kind == "support" else len(runs) - 1
+                self.places[element["name"]] = kind, place
+                supports += kind == "support"
             if element["is"] in ("bar", "spring", "contact"):
                 self.links.append(self.link(element))
                 runs.append([])
@@ -249,7 +122,7 @@ class Line:
                 runs[-1].append(element)
         need(len(runs) <= MOST_RUNS, "too long a line")
         self.count = len(runs)
-        known = {"free", "fixed", "endless", "mass", "support", "force", "motion"}
+        known = {"free", "fixed", "endless", "mass", "support", "force"}
         need(all(element["is"] in known for run in runs for element in run), "an element without a law here")
         of = lambda run, kind: [element for element in run if element["is"] == kind]
         self.fixed = [bool(of(run, "fixed")) for run in runs]
@@ -268,9 +141,8 @@ class Line:
             has_end = link["is"] == "bar" and (self.endless[i] or self.endless[i + 1])
             need(has_end == (link["is"] == "bar" and link["travel"] is None), "a bar lacks an end, or has one too many")
             need(link["is"] == "bar" or not self.endless[i] and not self.endless[i + 1], "an endless line ends with a bar")
-        positive = [own for own in self.masses if not own.is_zero()] + [
-            link["impedance"] for link in self.links if link["is"] == "bar"
-        ]
+        positive = [self.number(own["mass"]) for run in runs for own in of(run, "mass")]
+        positive += [link["impedance"] for link in self.links if link["is"] == "bar"]
         numbers = [own for _, *pair in self.supports for own in pair]
         numbers += [link[key] for link in self.links if link["is"] == "spring" for key in ("stiffness", "damping")]
         need(
@@ -341,7 +213,7 @@ class System:
         self.inverse = self.inverted()
 
     def is_loose(self, i, rigid):
-        """Whether on one side a spring meets nothing but what is open."""
+        """Whether one end of a spring touches open contacts only."""
         line = self.line
         loaded = lambda r: line.fixed[r] or line.masses[r].sign() or any(own[0] == r for own in line.supports + line.loads)
         for way, r in ((-1, i), (1, i + 1)):
@@ -355,8 +227,8 @@ class System:
         return False
 
     def forces(self, v, alpha, u, incoming, loads, order):
-        """Of one order of the series: what each run gets from its bars, springs, supports and loads, but for what depends on
-        velocities that are not known yet."""
+        """The forces on each run, of one order of the series, by bars, springs, supports and loads; velocities that are not
+        known yet count as zero."""
         line, one = self.line, [ZERO] * self.line.count
         speed = lambda r: v.get(self.group[r], ZERO)
         for i, link in enumerate(line.links):
@@ -390,7 +262,7 @@ class System:
         rows = [[columns[c][r] for c in range(size)] + [ONE if c == r else ZERO for c in range(size)] for r in range(size)]
         for c in range(size):
             pivot = next((r for r in range(c, size) if rows[r][c].sign()), None)
-            need(pivot is not None, "the forces leave a velocity open")
+            decided(pivot is not None, "the forces do not determine a velocity")
             rows[c], rows[pivot] = rows[pivot], rows[c]
             rows[c] = [own / rows[c][c] if i != c else ONE for i, own in enumerate(rows[c])]
             for r in range(size):
@@ -419,14 +291,14 @@ class System:
             series["alpha"].append({i: ZERO if i in self.loose else later(run(i) - run(i + 1)) for i in alpha})
             series["u"].append({n: later(run(r)) for n, (r, _, _) in enumerate(line.supports)})
             series["gap"].append({i: later(run(i + 1) - run(i)) for i in line.contacts})
-            # Less what masses keep.
+            # Less inertia.
             keeps = lambda r: line.masses[r] * pushed[self.group[r]] if self.group[r] in pushed else ZERO
             series["forces"].append([force - keeps(r) for r, force in enumerate(forces)])
         return series
 
     def contact_force(self, i, forces):
-        """The force in a closed contact: what one side of it gets, and does not keep; exactly, where a side tells it so, else by
-        a side without mass, if there is one."""
+        """The force in a closed contact, by the balance of either side: of one that gives exactly zero, else of one without mass,
+        if there is any."""
         own, line = self.members[self.group[i]], self.line
         sides = [(1, [r for r in own if r <= i]), (-1, [r for r in own if r > i])]
         sides = [(way, side) for way, side in sides if not any(line.fixed[r] for r in side)]
@@ -437,7 +309,7 @@ class System:
 
 
 class Motion:
-    """What is known so far. Times are pairs of the number of an event, 0 for the start, and an exact time after it."""
+    """The motion as far as it is followed. A time is the number of an event, 0 for the start, and an exact time after it."""
 
     def __init__(self, cert):
         self.line, self.claims, self.to = Line(cert), read_claims(cert), rational(cert["to"])
@@ -445,7 +317,7 @@ class Motion:
         need(self.to > 0 and self.step > 0 and self.to / self.step < MOST_CELLS, "the window is empty, or too long")
         line = self.line
         need(all(0 <= contact < len(line.contacts) for contact, *_ in self.claims), "an event without a contact")
-        self.instants, self.now, self.marks, self.waves, self.events = [ZERO], (0, Fraction(0)), [], [], []
+        self.instants, self.now, self.marks, self.past, self.events = [ZERO], (0, Fraction(0)), [], [], []
         self.open = {i: {"rests": False, "idle": None, "pressed": False} for i in line.contacts}
         self.closed = set(line.contacts)
         springs = [i for i, link in enumerate(line.links) if link["is"] == "spring"]
@@ -458,7 +330,7 @@ class Motion:
         self.system = System(line, self.closed)
         for own, fixed in zip(self.system.members, self.system.fixed):
             speeds = [line.starts[r] for r in own if line.masses[r].sign()] + [ZERO] * fixed
-            need(all((speed - speeds[0]).is_zero() for speed in speeds), "rigid bodies meet at the start")
+            need(all((speed - speeds[0]).is_zero() for speed in speeds[1:]), "rigid bodies meet at the start")
         self.late = {link["travel"]: -1 for link in line.links if link["is"] == "bar" and link["travel"] is not None}
 
     def instant(self, time):
@@ -469,7 +341,7 @@ class Motion:
         if a[0] == b[0]:
             return (a[1] > b[1]) - (a[1] < b[1])
         sign = (self.instant(a) - self.instant(b)).sign()
-        need(sign, "the order of two times is not decided")
+        decided(sign, "the order of two times is not decided")
         return sign
 
     def since(self, a, b):
@@ -496,7 +368,7 @@ class Motion:
                     found[i, way] = nothing
                     if first >= 0:
                         after = self.since(self.now, moved(self.marks[first], link["travel"]))
-                        found[i, way] = at(self.waves[first][i, way], after.times(1 / self.step))
+                        found[i, way] = shifted(self.past[first][way, i], after.times(1 / self.step))
         return found, ends
 
     def loads(self):
@@ -518,22 +390,30 @@ class Motion:
 
     def settle(self, waves, loads):
         """The contacts that are closed from now on: a closed one does not pull, and a gap is not negative."""
+        before, told = {i: (i in self.closed, self.open[i]["idle"], self.open[i]["pressed"]) for i in self.open}, len(
+            self.events
+        )
         for _ in range(4 * len(self.line.contacts) + 1):
             solved = self.system.solve(self.state, waves, loads, self.step, self.terms)
             changes = []
             for i in self.line.contacts:
                 sign = begins(self.kept(i, solved) + [ZERO])
-                need(sign is not None, "whether a contact changes is not decided")
+                decided(sign is not None, "whether a contact changes is not decided")
                 changes += [i] if sign < 0 else []
             if not changes:
+                # What opens and closes at one instant has done neither.
+                twice = {i for i in self.open if before[i][0] == (i in self.closed)}
+                self.events[told:] = [event for event in self.events[told:] if event[1] not in twice]
+                for i in twice:
+                    _, self.open[i]["idle"], self.open[i]["pressed"] = before[i]
                 return solved
             self.change(changes, False)
-        raise Wrong("the contacts do not settle")
+        raise Undecided("the contacts do not settle")
 
     def change(self, changes, by_itself):
         """Opens and closes contacts now. Where one opens by itself, or where both sides have inertia, the velocities on both
         sides are equal at first, unless the end of a spring comes loose."""
-        before = self.system
+        before, was_flush = self.system, {i: own["rests"] for i, own in self.open.items()}
         for i in changes:
             closes, own, idle = i not in self.closed, self.open[i], self.open[i]["idle"]
             if not closes and idle is not None and idle != self.now:
@@ -541,15 +421,13 @@ class Motion:
             self.events.append(("closing" if closes else "opening", i, self.now))
             self.closed ^= {i}
             own["idle"], own["pressed"], self.state["gap"][i] = None, False, ZERO
-            if closes:
-                sides = [self.system.group[r] for r in (i, i + 1)]
-                stiff = [self.system.moved[g] or self.system.fixed[g] for g in sides]
-                need(not all(stiff) or own["rests"] or self.equal(sides), "rigid bodies meet")
         self.system = System(self.line, self.closed)
         loosened = self.system.loose - before.loose
         for i in loosened:
             need(self.state["alpha"][i].sign() in (0, None), "a spring comes loose while it is compressed")
             self.state["alpha"][i] = ZERO
+        for i in self.closed & set(changes):
+            need(was_flush[i] or not self.is_rigid_impact(i), "rigid bodies meet")
         for g, own in enumerate(self.system.members):
             for r in own:
                 self.state["v"][r] = ZERO if self.system.fixed[g] else self.state["v"][self.system.mover[g]]
@@ -559,9 +437,15 @@ class Motion:
             inert = all(self.system.moved[self.system.group[r]] for r in (i, i + 1))
             self.open[i]["rests"] = i not in self.closed and not loosened and (inert or by_itself)
 
-    def equal(self, sides):
-        a, b = (self.state["v"][self.system.mover[g]] if self.system.moved[g] else ZERO for g in sides)
-        return (a - b).is_zero()
+    def is_rigid_impact(self, i):
+        """Whether masses or walls on both sides of a contact, with nothing elastic between, have different velocities."""
+        line, own = self.line, self.system.members[self.system.group[i]]
+        sides = [[r for r in own if r <= i], [r for r in own if r > i]]
+        speeds = [
+            [ZERO if line.fixed[r] else self.state["v"][r] for r in side if line.fixed[r] or line.masses[r].sign()]
+            for side in sides
+        ]
+        return all(speeds) and not (speeds[0][0] - speeds[1][0]).is_zero()
 
     def kept(self, i, solved):
         """What is not negative while a contact stays as it is: its force, or its gap."""
@@ -575,7 +459,7 @@ class Motion:
     def enclosed(self, waves, loads, reach):
         """All series of order N + 1 on a part of a step from now on, or None where it is too long."""
         span = Number.between(Fraction(0), reach)
-        waves, loads = {key: at(own, span) for key, own in waves.items()}, [at(own, span) for own in loads]
+        waves, loads = {key: shifted(own, span) for key, own in waves.items()}, [shifted(own, span) for own in loads]
         start, box, system = self.state, self.state, self.system
         widened = lambda own: own if own.is_zero() else Number(None, own.units()[0], own.units()[1] * 5 // 4 + 1)
         for _ in range(40):
@@ -607,22 +491,24 @@ class Motion:
         for i, own in guards.items():
             until = due[1] if due and due[0] == i else place.ends()[1]
             is_kept = all(c.is_zero() for c in own) or is_positive(own, Fraction(0), until)
-            need(is_kept, "a contact changes without a word")
+            decided(is_kept, "a contact may change, but no event is claimed")
         series = lambda kind, n: [solved[kind][k].get(n, ZERO) for k in range(N)] + [last[kind][N].get(n, ZERO)]
-        leaving = {}
+        cell = {("v", r): series("v", system.group[r]) for r in range(line.count)}
+        cell |= {("alpha", i): series("alpha", i) for i in self.state["alpha"]}
+        cell |= {("u", n): series("u", n) for n in self.state["u"]}
         for i, link in enumerate(line.links):
-            if link["is"] == "bar" and link["travel"] is not None:
+            if link["is"] == "bar":
                 for way, other, r in (("right", "left", i), ("left", "right", i + 1)):
                     at_rest = [link["velocity"]] + [ZERO] * N
-                    speed = series("v", system.group[r])
-                    leaving[i, way] = [c - v - w for c, v, w in zip(speed, at_rest, waves[i, other])]
+                    leaves = [c - v - w for c, v, w in zip(cell["v", r], at_rest, waves[i, other])]
+                    cell[way, i] = [ZERO] * (N + 1) if line.endless[r] else leaves
         self.marks.append(self.now)
-        self.waves.append(leaving)
+        self.past.append(cell)
         need(len(self.marks) < MOST_CELLS, "too many cells")
         self.state = {
-            "v": [value(series("v", system.group[r]), place) for r in range(line.count)],
-            "alpha": {i: value(series("alpha", i), place) for i in self.state["alpha"]},
-            "u": {n: value(series("u", n), place) for n in self.state["u"]},
+            "v": [value(cell["v", r], place) for r in range(line.count)],
+            "alpha": {i: value(cell["alpha", i], place) for i in self.state["alpha"]},
+            "u": {n: value(cell["u", n], place) for n in self.state["u"]},
             "gap": {i: ZERO if i in self.closed else value(guards[i], place) for i in line.contacts},
         }
         for own in self.open.values():
@@ -645,13 +531,13 @@ class Motion:
                 return end, last
             reach = min(reach / 2, Fraction(1, 2**halvings))
             end = moved(self.now, self.step * reach)
-        raise Wrong("a cell is too long")
+        raise Undecided("a cell is too long")
 
     def watch(self, guards):
-        """Contacts that push from the start on close then; since when one that has pushed has no force."""
+        """Notes impacts at the start, and since when contacts that have pushed have no force."""
         for i in sorted(self.closed):
             own, is_silent = self.open[i], all(c.is_zero() for c in guards[i])
-            if not is_silent and self.now == (0, 0):
+            if not is_silent and self.now == (0, 0) and all(event[1] != i for event in self.events):
                 self.events.append(("closing", i, self.now))
             own["pressed"] |= not is_silent
             own["idle"] = (own["idle"] or self.now) if is_silent and own["pressed"] else None
@@ -664,7 +550,7 @@ class Motion:
             claims = [claim[2:] for claim in self.claims if self.line.contacts[claim[0]] == i and claim[1] != "release"][told:]
             if claims and claims[0][0] < claims[0][1] <= self.instant(end).ends()[0]:
                 low, high = ((time - edge) / self.step for time, edge in zip(claims[0], (late, now.ends()[0])))
-                if high > 0 and (best is None or low < best[1]):
+                if 0 < high <= self.since(end, self.now).ends()[1] / self.step and (best is None or low < best[1]):
                     best = (i, max(low, Fraction(0)), high)
         return best
 
@@ -676,7 +562,7 @@ class Motion:
         need(value(series, Number(high)).sign() == -1, "a contact has not changed yet")
         for _ in range(10):
             rate = value(falls, Number.between(low, high))
-            need(rate.sign() == -1, "a contact may change twice")
+            decided(rate.sign() == -1, "a contact may change twice")
             middle = (low + high) / 2
             near = (Number(middle) - value(series, Number(middle)) / rate).ends()
             low, high = max(low, near[0]), min(high, near[1])
@@ -692,6 +578,69 @@ class Motion:
             if self.open[i]["idle"] is not None:
                 self.events.append(("release", i, self.open[i]["idle"]))
 
+    def cell_at(self, time):
+        """The number of the cell that holds a time, and how far in it the time is, in steps."""
+        for n in range(len(self.marks) - 1, -1, -1):
+            after = time - self.instant(self.marks[n])
+            decided(after.sign() is not None, "it is not decided on which side of an arrival a time is")
+            if after.sign() >= 0:
+                return n, after.times(1 / self.step)
+        raise Wrong("a time before the start")
+
+    def known(self, key, time, is_sum=False):
+        """A function, or its integral from the start on, at a time; nothing was before the start."""
+        decided(time.sign() is not None, "it is not decided whether a wave has arrived")
+        if time.sign() == -1:
+            return ZERO
+        n, x = self.cell_at(time)
+        if not is_sum:
+            return value(self.past[n][key], x)
+        sums = [self.integral(m, key, self.since(self.marks[m + 1], self.marks[m]).times(1 / self.step)) for m in range(n)]
+        return total(sums) + self.integral(n, key, x)
+
+    def integral(self, n, key, x):
+        return value([ZERO] + [c.times(self.step / (k + 1)) for k, c in enumerate(self.past[n][key])], x)
+
+    def seen(self, rows, time):
+        """A sum of coefficients times what is read of elements."""
+        line, sums = self.line, []
+        for coefficient, what, name, *of in rows:
+            need(name in line.places, f"there is no {name}")
+            kind, n = line.places[name]
+            need((kind, what) in READINGS and len(of) == READINGS[kind, what], f"{what} of {name} cannot be read")
+            link = line.links[n] if kind in ("bar", "spring") else {}
+            if kind == "bar":
+                is_sum = what == "displacement"
+                right, left = (
+                    ZERO if own is None else self.known(key, time - line.number(own), is_sum)
+                    for key, own in zip((("right", n), ("left", n)), of)
+                )
+                at_rest = link["force"] if what == "force" else link["velocity"] * (time if is_sum else ONE)
+                read = link["impedance"] * (right - left) if what == "force" else right + left
+                sums.append(line.number(coefficient) * (at_rest + read))
+                continue
+            if what in ("velocity", "displacement"):
+                need(kind != "spring" or of[0] in ("left", "right"), "a side is missing")
+                run = n + (of[0] == "right") if kind == "spring" else line.supports[n][0] if kind == "support" else n
+                read = self.known(("v", run), time, what == "displacement")
+            else:
+                key = ("alpha", n) if kind == "spring" else ("u", n)
+                read = self.known(key, time)
+                if what == "force":
+                    stiffness, damping = (link["stiffness"], link["damping"]) if link else line.supports[n][1:]
+                    runs = (n, n + 1) if link else (line.supports[n][0],)
+                    speeds = [self.known(("v", r), time) for r in runs]
+                    read = stiffness * read + damping * (speeds[0] - speeds[1] if link else speeds[0])
+            sums.append(line.number(coefficient) * read)
+        return total(sums)
+
+
+# What can be read of elements, and how much more has to be said: delays of both waves, a side.
+READINGS = {("bar", what): 2 for what in ("velocity", "displacement", "force")}
+READINGS |= {("spring", what): 1 for what in ("velocity", "displacement")}
+READINGS |= {(kind, what): 0 for kind in ("mass", "support", "force") for what in ("velocity", "displacement")}
+READINGS |= {(kind, what): 0 for kind in ("spring", "support") for what in ("compression", "force")}
+
 
 def moved(time, by):
     return time[0], time[1] + by
@@ -703,12 +652,15 @@ def read_claims(cert):
         need(kind in ("closing", "opening", "release") and type(contact) is int, "an unknown event")
         low, high = rational(low), rational(high)
         need(0 <= low <= high, "an interval runs backwards, or begins too early")
+        before = [end for other, _, _, end in claims if other == contact]
+        need(not before or before[-1] <= low, "two events of a contact are in one interval")
         claims.append((contact, kind, low, high))
     return claims
 
 
 def check_events(cert):
     """The contacts of the line close, open and lose their force in this order, and no other ones do before the end."""
+    need(cert.keys() == (CLAIMS if cert["kind"] == "events" else READS), "a claim lacks something, or has too much")
     for key, most in (("bits", MOST_BITS), ("terms", MOST_TERMS)):
         need(type(cert[key]) is int and 4 <= cert[key] <= most, f"{key} are too few, or too many")
     PRECISION["bits"] = cert["bits"]
@@ -724,4 +676,14 @@ def check_events(cert):
         need(low <= first and last <= high, f"the {kind} is between {float(first)} and {float(last)}")
         times.append(event[2])
     for a, b in zip(times, times[1:]):
-        need(motion.since(b, a).sign() != -1, "the order of events is another one")
+        decided(motion.since(b, a).sign() in (0, 1), "events are not in the order of time")
+    return motion
+
+
+def check_reading(cert):
+    """What is read at a time is the decimal, correctly rounded, for all times and units of the two intervals."""
+    motion, (claim, slack) = check_events(cert), decimal(cert)
+    time, unit = interval(cert["at"]), interval(cert["unit"])
+    low, high = (motion.seen(cert["observed"], time) * unit).ends()
+    need(time.ends()[0] >= 0 and time.ends()[1] < motion.to, "the time is outside the window")
+    need(claim - slack <= low and high <= claim + slack, f"the value is between {float(low)} and {float(high)}")

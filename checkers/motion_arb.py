@@ -5,124 +5,65 @@ once. A motion is bounded on a step by its start and by what arrives, in the lar
 them Lagrange's remainder of its Taylor polynomial. Numbers are rational while they are short, and balls of Arb after that.
 """
 
-import math
-import re
+import json
 from fractions import Fraction
 
 import flint
 from flint import arb, fmpq
 
+from series_arb import (
+    NIL,
+    Undecided,
+    decide,
+    derivative,
+    dot,
+    fraction,
+    horner,
+    interval,
+    is_nil,
+    moved,
+    product,
+    require,
+    short,
+    sign,
+    size,
+    span,
+    stays_positive,
+)
 
-class Undecided(Exception):
-    """What is claimed does not follow, as far as is known."""
-
-
-def require(condition, told):
-    if not condition:
-        raise Undecided(told)
-
-
-def fraction(text):
-    require(type(text) is str and len(text) <= 20000, "a number is no text, or too long")
-    require(re.fullmatch(r"-?[0-9]+(/[0-9]+|(\.[0-9]+)?(e-?[0-9]{1,4})?)", text), f"{text[:40]} is no number")
-    value = Fraction(text)
-    return fmpq(value.numerator, value.denominator)
-
-
-NIL = fmpq(0)
-LONGEST = 1024  # bits of a denominator
-
-
-def short(x):
-    """A rational number with a long denominator as a ball."""
-    return arb(x) if isinstance(x, fmpq) and int(x.q).bit_length() > LONGEST else x
-
-
-def is_nil(x):
-    return x == 0 if isinstance(x, fmpq) else bool(x.is_zero())
-
-
-def sign(x):
-    """1, 0 or -1; None where it is not known."""
-    if isinstance(x, fmpq):
-        return (x > 0) - (x < 0)
-    return 1 if x > 0 else -1 if x < 0 else 0 if x.is_zero() else None
-
-
-def size(x):
-    return arb(abs(x)).upper() if isinstance(x, fmpq) else abs(x).upper()
-
-
-def span(low, high):
-    """All numbers between two, which may be balls themselves."""
-    low, high = arb(low), arb(high)
-    return low if (high - low).is_zero() else low.union(high)
-
-
-def product(a, b):
-    return NIL if is_nil(a) or is_nil(b) else short(a * b)
-
-
-def dot(row, column):
-    result = NIL
-    for a, b in zip(row, column):
-        if not is_nil(a) and not is_nil(b):
-            result = result + a * b
-    return short(result)
-
-
-# Functions on a step: Taylor coefficients, the last one enclosed for the whole step.
-
-
-def moved(series, x):
-    """The coefficients about another place, or about all places of an interval."""
-    if is_nil(x) or all(map(is_nil, series)):
-        return series
-    result = list(series)
-    for start in range(len(series) - 1):  # Horner's scheme, again and again
-        for i in range(len(series) - 2, start - 1, -1):
-            result[i] = short(result[i] + product(result[i + 1], x))
-    return result
-
-
-def horner(series, x):
-    result = NIL
-    for c in reversed(series):
-        result = short(product(result, x) + c)
-    return result
-
-
-def derivative(series):
-    return [c * k for k, c in enumerate(series) if k] or [NIL]
-
-
-def stays_positive(series, begin, end, depth=24):
-    """Whether it is positive strictly between two places; what it begins with at 0 may be zeros."""
-    if begin == 0:
-        first = next((k for k, c in enumerate(series) if not is_nil(c)), len(series) - 1)
-        series = series[first:]
-    if sign(horner(series, span(begin, end))) == 1:
-        return True
-    if sign(horner(derivative(series), span(begin, end))) in (1, -1):
-        if all(sign(horner(series, at)) in (0, 1) for at in (begin, end)):
-            return True
-    half = (begin + end) / 2
-    return depth > 0 and stays_positive(series, begin, half, depth - 1) and stays_positive(series, half, end, depth - 1)
+ELEMENTS = {
+    **dict.fromkeys(("free", "fixed", "endless", "contact"), {"is"}),
+    **dict.fromkeys(("spring", "support"), {"is", "name", "stiffness", "damping"}),
+    "bar": {"is", "name", "impedance", "travel", "velocity", "force"},
+    "mass": {"is", "name", "mass", "velocity"},
+    "force": {"is", "name", "course", "from", "until"},
+}
 
 
 class Parts:
-    """The line as it is drawn, in numbers."""
+    """The elements of the line in numbers."""
 
     def __init__(self, cert):
         self.roots = {name: fraction(text) for name, text in cert["roots"].items()}
-        self.numbers = {name: span(*map(fraction, ends)) for name, ends in cert["numbers"].items()}
+        self.numbers = {name: interval(ends) for name, ends in cert["numbers"].items()}
+        require(not self.numbers.keys() & (self.roots.keys() | {cert["time"]}), "a name stands for two numbers")
         self.time, line = cert["time"], cert["line"]
+        require(type(self.time) is str and self.time not in self.roots, "the time has no name of its own")
+        require(all(set(own) == ELEMENTS[own["is"]] for own in line), "an element has other keys")
         ends = {"free", "fixed", "endless"}
-        require(len(line) >= 3 and all((own["is"] in ends) == (i in (0, len(line) - 1)) for i, own in enumerate(line)), "ends")
+        require(
+            len(line) >= 3 and all((own["is"] in ends) == (i in (0, len(line) - 1)) for i, own in enumerate(line)),
+            "a line has two ends",
+        )
         self.links, self.mass, self.momentum, self.fixed, self.endless = [], [NIL], [NIL], [False], [False]
         self.supports, self.loads = [], []
+        self.named = {}
         for own in line:
             run = len(self.mass) - 1
+            if "name" in own:
+                require(type(own["name"]) is str and own["name"] not in self.named, "two elements have one name")
+                places = {"bar": len(self.links), "spring": len(self.links), "support": len(self.supports)}
+                self.named[own["name"]] = own["is"], places.get(own["is"], run)
             if own["is"] in ("bar", "spring", "contact"):
                 keys = {"bar": ("impedance", "velocity", "force"), "spring": ("stiffness", "damping"), "contact": ()}[own["is"]]
                 link = {"is": own["is"], **{key: self.number(own[key]) for key in keys}}
@@ -152,12 +93,13 @@ class Parts:
             require(link["is"] != "bar" or far == (link["travel"] is None), "a bar has no length")
             require(link["is"] != "bar" or far or link["travel"] > 0, "a bar has no length")
             require(
-                link["is"] != "spring" or all(sign(link[key]) in (0, 1) for key in ("stiffness", "damping")), "a spring pulls"
+                link["is"] != "spring" or all(sign(link[key]) in (0, 1) for key in ("stiffness", "damping")),
+                "stiffness or damping may be negative",
             )
         for run, far in enumerate(self.endless):
             alone = is_nil(self.mass[run]) and all(run != own[0] for own in self.supports + self.loads)
             require(not far or alone, "something stands at an endless end")
-        require(all(sign(c) in (0, 1) for _, *pair in self.supports for c in pair), "a support pulls")
+        require(all(sign(c) in (0, 1) for _, *pair in self.supports for c in pair), "stiffness or damping may be negative")
         self.contacts = [i for i, link in enumerate(self.links) if link["is"] == "contact"]
 
     def polynomial(self, terms):
@@ -176,13 +118,14 @@ class Parts:
         return total
 
     def number(self, rows):
+        require(type(rows) is list, "a number is no list")
         total = NIL
         for top, factors in rows:
             below = fmpq(1)
             for factor, power in factors:
                 require(type(power) is int and 0 < power <= 10**4, "a power is no positive integer")
                 below = product(below, self.polynomial(factor) ** power)
-            require(sign(below) in (1, -1), "a divisor may be zero")
+            decide(sign(below) in (1, -1), "a divisor may be zero")
             total = short(total + self.polynomial(top) / below)
         return total
 
@@ -195,7 +138,22 @@ class Parts:
         begin, end = (None if own[key] is None else self.exact(own[key]) for key in ("from", "until"))
         begin = begin if begin is not None else NIL
         require(begin >= 0 and (end is None or end > begin), "a load ends before it begins")
+        require(self.plain(own["course"]) == self.plain(self.conjugate(own["course"])), "a load is not real")
         return {"course": own["course"], "from": begin, "until": end}
+
+    def conjugate(self, rows):
+        """The same with -i in place of i."""
+        imaginary = {name for name, square in self.roots.items() if square == -1}
+        if isinstance(rows, list) and len(rows) == 2 and isinstance(rows[0], str) and isinstance(rows[1], dict):
+            is_odd = sum(power for name, power in rows[1].items() if name in imaginary) % 2
+            return [str(-Fraction(rows[0])) if is_odd else rows[0], rows[1]]
+        return [self.conjugate(row) for row in rows] if isinstance(rows, list) else rows
+
+    def plain(self, rows):
+        """The same with numbers written in one way, and terms in one order."""
+        if isinstance(rows, list) and len(rows) == 2 and isinstance(rows[0], str) and isinstance(rows[1], dict):
+            return json.dumps([str(Fraction(rows[0])), sorted(rows[1].items())])
+        return json.dumps(sorted(self.plain(row) for row in rows) if isinstance(rows, list) else rows)
 
     def complex(self, rows):
         """A rational function of time: its powers, in complex numbers."""
@@ -205,7 +163,7 @@ class Parts:
             below = flint.acb(1)
             for factor, power in factors:
                 below *= self.complex([[factor, []]]).get(0, flint.acb(0)) ** power
-            require(not below.contains(0), "a divisor may be zero")
+            decide(not below.contains(0), "a divisor may be zero")
             for c, names in top:
                 term, power = flint.acb(fraction(c)), 0
                 for name, exponent in names.items():
@@ -228,7 +186,9 @@ class Parts:
                 for c, names in top:
                     if names.keys() - {self.time}:
                         return None
-                    coefficients[names.get(self.time, 0)] = coefficients.get(names.get(self.time, 0), NIL) + fraction(c)
+                    power = names.get(self.time, 0)
+                    require(type(power) is int and 0 <= power <= 10**4, "a power is no positive integer")
+                    coefficients[power] = coefficients.get(power, NIL) + fraction(c)
         return coefficients
 
     def pushes(self, load, begin, step, order):
@@ -253,7 +213,6 @@ class Parts:
                 for power in range(max(powers, default=0), -1, -1):
                     value = value * t + flint.acb_series([powers.get(power, 0)], prec=order + 1)
                 total = total + value * x.exp()
-            require(all(total[k].imag.contains(0) for k in range(order + 1)), "a load is not real")
             return [total[k].real for k in range(order + 1)]
 
         flint.ctx.cap = order + 1
@@ -266,7 +225,7 @@ class Laws:
 
     def __init__(self, parts, closed):
         self.parts, runs = parts, range(len(parts.mass))
-        self.heavy = [sign(parts.mass[r]) == 1 for r in runs]
+        self.heavy = [sign(parts.mass[r]) == 1 and not parts.fixed[r] for r in runs]
         self.held = [i for i, link in enumerate(parts.links) if link["is"] == "contact" and i in closed]
         self.loose = [
             i for i, link in enumerate(parts.links) if link["is"] == "spring" and is_nil(link["damping"]) and self.hangs(i)
@@ -394,7 +353,7 @@ def inverse(rows):
     rows = [list(row) + [fmpq(int(i == j)) for j in range(count)] for i, row in enumerate(rows)]
     for column in range(count):
         usable = [r for r in range(column, count) if sign(rows[r][column]) in (1, -1)]
-        require(usable, "the laws leave something open")
+        decide(usable, "the laws do not determine a velocity")
         pivot = max(usable, key=lambda r: float(size(rows[r][column])))
         rows[column], rows[pivot] = rows[pivot], rows[column]
         by = rows[column][column]
@@ -414,16 +373,19 @@ class Story:
     def __init__(self, cert):
         self.parts = parts = Parts(cert)
         self.order, self.step, self.end = cert["terms"], fraction(cert["step"]), fraction(cert["to"])
-        require(self.step > 0 and self.end > 0 and self.end / self.step <= 8000, "a window without steps, or with too many")
+        require(self.step > 0 and self.end > 0 and self.end / self.step < 8000, "a window without steps, or with too many")
         self.told = []
         for contact, kind, low, high in cert["events"]:
             require(type(contact) is int and 0 <= contact < len(parts.contacts), "an event without a contact")
             self.told.append((parts.contacts[contact], kind, fraction(low), fraction(high)))
             require(0 <= self.told[-1][2] <= self.told[-1][3], "an interval runs backwards")
+            before = [own[3] for own in self.told[:-1] if own[0] == self.told[-1][0]]
+            require(not before or before[-1] <= self.told[-1][2], "two events of a contact are in one interval")
         self.origins, self.now = [arb(0)], (0, NIL)
         self.begins, self.past, self.happened = [], [], []
         self.closed, self.idle, self.flush, self.pressed = set(parts.contacts), {}, set(), set()
-        self.state = {("v", r): parts.momentum[r] / m for r, m in enumerate(parts.mass) if sign(m) == 1}
+        heavy = [r for r, m in enumerate(parts.mass) if sign(m) == 1 and not parts.fixed[r]]
+        self.state = {("v", r): short(parts.momentum[r] / parts.mass[r]) for r in heavy}
         self.state |= {("alpha", i): NIL for i, link in enumerate(parts.links) if link["is"] == "spring"}
         self.state |= {("u", n): NIL for n in range(len(parts.supports))}
         self.gaps = {i: NIL for i in parts.contacts}
@@ -442,7 +404,7 @@ class Story:
 
     def is_later(self, a, b):
         order = sign(self.between(a, b))
-        require(order is not None, "it is not decided which of two times is the later one")
+        decide(order is not None, "it is not decided which of two times is the later one")
         return order == 1
 
     def next_break(self):
@@ -478,7 +440,7 @@ class Story:
                 begin = (self.begins[n][0], self.begins[n][1] + link["travel"])
                 if not self.is_later(begin, self.now):
                     later = short(self.between(self.now, begin) / self.step)
-                    found[i, "f"], found[i, "g"] = (moved(self.past[n][i, way], later) for way in "fg")
+                    found[i, "f"], found[i, "g"] = (moved(self.past[n][way, i], later) for way in "fg")
                     break
         return found
 
@@ -516,7 +478,7 @@ class Story:
         return series[: len(solutions)]
 
     def last(self, i, wide, solutions):
-        """The last coefficient of the same on the whole cell."""
+        """The same, enclosed for the whole cell: its last coefficient."""
         if i in self.closed:
             return solutions[self.order][self.laws.place["X", i]]
         k = self.order - 1
@@ -526,14 +488,20 @@ class Story:
     def start_of(self, series):
         first = next((c for c in series if not is_nil(c)), NIL)
         order = sign(first)
-        require(order is not None, "it is not decided whether a contact changes")
+        decide(order is not None, "it is not decided whether a contact changes")
         return order
 
     def settled(self, waves, loads):
+        before, count = (set(self.closed), dict(self.idle), set(self.pressed)), len(self.happened)
         for _ in range(4 * len(self.gaps) + 1):
             states, solutions = self.coefficients(self.state, waves, loads, self.order)
             wrong = [i for i in self.gaps if self.start_of(self.guard(i, states, solutions)) < 0]
             if not wrong:
+                for i in self.gaps.keys() - (before[0] ^ self.closed):  # nothing has become of it
+                    self.happened[count:] = [event for event in self.happened[count:] if event[0] != i]
+                    if i in before[1]:
+                        self.idle[i] = before[1][i]
+                    self.pressed |= before[2] & {i}
                 return states, solutions
             self.switch(wrong, False)
         raise Undecided("contacts open and close without end")
@@ -577,22 +545,17 @@ class Story:
         driven = self.laws.rates(
             nothing, self.laws.solved(nothing, {key: own[0] for key, own in waves.items()}, [own[0] for own in loads], NIL)
         )
-        # Each place between two bars by itself: nothing else acts there at once.
-        bounds, length = {}, float(share * self.step)
-        most = (
-            lambda place, values: max(float(size(own)) for key, own in values.items() if self.place_of(*key) == place)
-            * 1.000001
-        )
+        # Bars decouple what stands between them.
+        boxes, length = {}, arb(share) * arb(self.step)
+        largest = lambda place, values: max(size(own) for key, own in values.items() if self.place_of(*key) == place)
         for place in {self.place_of(*key) for key in start}:
-            norm, forcing, first = (most(place, values) for values in (norms, driven, start))
-            require(math.isfinite(norm + forcing + first), "a motion without bounds")
-            if length * norm >= 0.75:
+            norm, forcing, first = (largest(place, values) for values in (norms, driven, start))
+            require((norm + forcing + first).is_finite(), "a motion without bounds")
+            if not length * norm < 0.75:
                 return None
-            bounds[place] = (first + length * forcing) / (1 - length * norm) * 1.000001
-        return {
-            key: arb(0, bounds[self.place_of(*key)] * float(self.step) * 1.000001) if bounds[self.place_of(*key)] else NIL
-            for key in start
-        }
+            bound = ((first + length * forcing) / (1 - length * norm) * arb(self.step)).upper()
+            boxes[place] = NIL if first.is_zero() and forcing.is_zero() else arb(0, bound)
+        return {key: boxes[self.place_of(*key)] for key in start}
 
     def place_of(self, kind, n):
         """Which place between two bars something known belongs to."""
@@ -636,12 +599,12 @@ class Story:
                 break
             high = high / 2
             end, share = (self.now[0], self.now[1] + self.step * high), high
-        require(last is not None, "a step is too long")
+        decide(last is not None, "a step is too long")
         wide, all_ = last
         guards = {i: self.guard(i, states, solutions) + [self.last(i, wide, all_)] for i in self.gaps}
         for i in sorted(self.closed):
             if not all(map(is_nil, guards[i])):
-                if self.now == (0, 0):
+                if self.now == (0, 0) and all(own[0] != i for own in self.happened):
                     self.happened.append((i, "closing", self.now))
                 self.idle.pop(i, None)
                 self.pressed.add(i)
@@ -649,28 +612,28 @@ class Story:
                 self.idle.setdefault(i, self.now)
         change = self.change_before(end)
         if change is not None:
+            decide(sign(share - change[2]) in (0, 1), "it is not decided whether an event is in a step")
             place = self.root(guards[change[0]], *change[1:])
         else:
             place = share
         for i, own in guards.items():
             until = change[1] if change is not None and change[0] == i else place
             until = until if isinstance(until, fmpq) else rational_above(until)
-            require(all(map(is_nil, own)) or stays_positive(own, NIL, until), "a contact changes, and it is not said")
-        leaving = {}
+            decide(all(map(is_nil, own)) or stays_positive(own, NIL, until), "a contact may change, but no event is claimed")
+        motion = {key: [s[key] for s in states[: self.order]] + [wide[self.order][key]] for key in self.state}
+        for r in range(len(self.parts.mass)):
+            speed = [self.laws.velocity(s, z, r) for s, z in zip(states, solutions)]
+            motion["speed", r] = speed + [self.laws.velocity(wide[self.order], all_[self.order], r)]
         for i, link in enumerate(self.parts.links):
-            if link["is"] == "bar" and link["travel"] is not None:
+            if link["is"] == "bar":
                 for way, other, r in (("f", "g", i), ("g", "f", i + 1)):
-                    speed = [self.laws.velocity(s, z, r) for s, z in zip(states, solutions)] + [
-                        self.laws.velocity(wide[self.order], all_[self.order], r)
-                    ]
-                    speed[0] = speed[0] - link["velocity"]
-                    leaving[i, way] = [short(a - b) for a, b in zip(speed, waves[i, other])]
+                    waves_out = [short(a - b) for a, b in zip(motion["speed", r], waves[i, other])]
+                    waves_out[0] = waves_out[0] - link["velocity"]
+                    motion[way, i] = [NIL] * (self.order + 1) if self.parts.endless[r] else waves_out
         self.begins.append(self.now)
-        self.past.append(leaving)
-        require(len(self.begins) <= 8000, "there are too many steps")
-        self.state = {
-            key: horner([s[key] for s in states[: self.order]] + [wide[self.order][key]], place) for key in self.state
-        }
+        self.past.append(motion)
+        require(len(self.begins) < 8000, "there are too many steps")
+        self.state = {key: horner(motion[key], place) for key in self.state}
         self.gaps = {i: NIL if i in self.closed else horner(guards[i], place) for i in self.gaps}
         self.flush = set()
         if change is None:
@@ -700,13 +663,62 @@ class Story:
             sign(horner(series, low)) == 1 and sign(horner(series, high)) == -1, "a contact does not change when it is said"
         )
         falls, place = derivative(series), span(low, high)
-        require(sign(horner(falls, place)) == -1, "a contact may change more than once")
+        decide(sign(horner(falls, place)) == -1, "a contact may change more than once")
         for _ in range(12):
             middle = arb(place.mid())
             newton = middle - horner(series, middle) / horner(falls, place)
             require(newton.overlaps(place), "a contact does not change when it is said")
             place = newton.intersection(place)
         return place
+
+    def reading(self, key, time, over=False):
+        """What something is at a time, or its integral from the start on."""
+        order = sign(time)
+        decide(order is not None, "it is not decided what is there")
+        if order == -1:
+            return NIL
+        sum_ = NIL
+        for n, begin in enumerate(self.begins):
+            after = self.begins[n + 1] if n + 1 < len(self.begins) else self.now
+            passed, left = (time - own[1] if own[0] == 0 else time - self.when(own) for own in (begin, after))
+            decide(sign(left) is not None, "it is not decided in which step a time is")
+            is_here, series = sign(left) == -1, self.past[n][key]
+            if over:
+                place = passed if is_here else self.between(after, begin)
+                grown = [NIL] + [c / (k + 1) for k, c in enumerate(series)]
+                sum_ = sum_ + horner(grown, short(place / self.step)) * self.step
+            if is_here:
+                return sum_ if over else horner(series, short(passed / self.step))
+        raise Undecided("a time after the end")
+
+    def observed(self, rows, time):
+        """The sum of what is read of elements by their names."""
+        parts, result = self.parts, NIL
+        for factor, what, name, *of in rows:
+            kind, n = parts.named[name]
+            if kind == "bar":
+                require(what in ("velocity", "force", "displacement") and len(of) == 2, "a bar is read in another way")
+                link, over = parts.links[n], what == "displacement"
+                both = zip("fg", of)
+                f, g = (NIL if own is None else self.reading((way, n), time - parts.number(own), over) for way, own in both)
+                read = link["velocity"] * (time if over else 1) + f + g
+                if what == "force":
+                    read = link["force"] + link["impedance"] * (f - g)
+            elif what in ("velocity", "displacement"):
+                require(of in (["left"], ["right"]) if kind == "spring" else not of, "a spring has two sides, others have none")
+                run = n + (of == ["right"]) if kind == "spring" else parts.supports[n][0] if kind == "support" else n
+                read = self.reading(("speed", run), time, what == "displacement")
+            else:
+                require(what in ("compression", "force") and kind in ("spring", "support") and not of, "this cannot be read")
+                read = self.reading(("alpha" if kind == "spring" else "u", n), time)
+                if what == "force":
+                    run, stiffness, damping = (
+                        (n, parts.links[n]["stiffness"], parts.links[n]["damping"]) if kind == "spring" else parts.supports[n]
+                    )
+                    beyond = self.reading(("speed", n + 1), time) if kind == "spring" else NIL
+                    read = stiffness * read + damping * (self.reading(("speed", run), time) - beyond)
+            result = result + parts.number(factor) * read
+        return result
 
     def run(self):
         while self.now != (0, self.end):
@@ -724,6 +736,9 @@ def rational_below(ball):
 
 
 def check_motion(cert):
+    names = "wavestep_certificate kind title constants time line numbers roots to events step terms bits"
+    names += " quantity observed unit at value last_place" if cert["kind"] == "reading" else ""
+    require(set(cert) == set(names.split()), "a certificate has other keys")
     bits, terms = cert["bits"], cert["terms"]
     require(all(type(own) is int for own in (bits, terms)) and 4 <= bits <= 4096 and 4 <= terms <= 400, "bits or terms")
     flint.ctx.prec = bits + 32
@@ -744,4 +759,18 @@ def check_motion(cert):
         )
         times.append(time)
     for earlier, later in zip(times, times[1:]):
-        require(sign(story.between(later, earlier)) != -1, "events are told in another order")
+        decide(sign(story.between(later, earlier)) in (0, 1), "events are not in the order of time")
+    return story
+
+
+def check_reading(cert):
+    """The decimal is what is read, correctly rounded, whatever the time and the unit are within their intervals."""
+    story = check_motion(cert)
+    place = cert["last_place"]
+    require(type(place) is int and abs(place) <= 20000, "a place is no number, or too large")
+    value, unit = fraction(cert["value"]), fmpq(10) ** place
+    require(int((value / unit).q) == 1, "the decimal has more digits than it says")
+    time = interval(cert["at"])
+    require(sign(time) in (0, 1) and sign(story.end - time) == 1, "the time is outside the window")
+    error = abs(story.observed(cert["observed"], time) * interval(cert["unit"]) - value)
+    require(bool(arb(error) <= arb(unit / 2)) if isinstance(error, arb) else error <= unit / 2, "the value is another one")

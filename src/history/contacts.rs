@@ -36,6 +36,8 @@ pub(crate) struct Happening {
     /// When the contact would have pulled, or the gap have become negative: later than the moment where a
     /// contact had had no force for a while.
     pub forced: Moment,
+    /// Whether the contact had pushed since it closed.
+    pub pressed: bool,
 }
 
 /// A contact as it is.
@@ -343,21 +345,14 @@ impl Engine {
     pub fn change(&mut self, node: usize, changes: &[usize], cause: Cause) -> Outcome<()> {
         let bits = self.cut.bits;
         let now = self.states[node].now.clone();
-        let own = &self.nodes[node];
         if self.happenings.len() + changes.len() > MAX_EVENTS {
             let when = self.clock.told(&self.clock.time(&now)?);
             return Err(HistoryError::TooManyEvents { limit: MAX_EVENTS, when });
         }
         for contact in changes {
-            let known = &mut self.open[*contact];
-            let moment = known.idle.take().unwrap_or_else(|| now.clone());
-            known.closed = !known.closed;
-            known.gap = Number::zero();
-            known.pressed = false;
-            let (closes, contact, forced) = (known.closed, *contact, now.clone());
-            self.happenings.push(Happening { closes, cause, contact, moment, forced });
+            self.happen(*contact, &now, cause);
         }
-        let state = &self.states[node];
+        let (own, state) = (&self.nodes[node], &self.states[node]);
         let open = &self.open;
         let system = self.system(node, |contact| open[contact].closed)?;
         let known = |place: Option<usize>| place.map(|place| state.state[place].clone());
@@ -388,6 +383,28 @@ impl Engine {
         Ok(())
     }
 
+    /// Notes that a contact opens or closes now. One that does both at one instant, while others settle, has done neither.
+    fn happen(&mut self, contact: usize, now: &Moment, cause: Cause) {
+        let known = &mut self.open[contact];
+        let moment = known.idle.take().unwrap_or_else(|| now.clone());
+        let pressed = std::mem::take(&mut known.pressed);
+        known.closed = !known.closed;
+        known.gap = Number::zero();
+        let closes = known.closed;
+        let undone = |own: &Happening| {
+            (own.contact, own.cause, cause) == (contact, Cause::Jump, Cause::Jump)
+                && own.forced == *now
+        };
+        if let Some(last) = self.happenings.iter().rposition(undone) {
+            let last = self.happenings.remove(last);
+            known.pressed = last.pressed;
+            known.idle = (last.moment != last.forced).then_some(last.moment);
+            return;
+        }
+        let forced = now.clone();
+        self.happenings.push(Happening { closes, cause, contact, moment, forced, pressed });
+    }
+
     /// Replaces the springs that stand for the local contacts of a node by ones about as stiff as these are now, if
     /// they differ much.
     pub fn follow_stiffness(&mut self, node: usize) -> Outcome<()> {
@@ -415,6 +432,7 @@ impl Engine {
                     contact,
                     moment,
                     forced,
+                    pressed: false,
                 });
             }
         }

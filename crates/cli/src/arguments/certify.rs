@@ -26,7 +26,7 @@ pub struct Certify {
     #[arg(long, conflicts_with_all = ["through", "at", "window", "digits"])]
     pub general: bool,
     /// Certify when contacts open and close, and that nothing else happens to them
-    #[arg(long, conflicts_with_all = ["through", "general", "quantity", "goal", "minus"])]
+    #[arg(long, conflicts_with_all = ["through", "general", "quantity", "goal", "minus", "at", "points", "method", "tol"])]
     pub events: bool,
     /// Certify the value of this wave or observable, at one time or in doubles at many
     #[arg(long, value_name = "NAME", conflicts_with = "goal")]

@@ -13,12 +13,13 @@ pub fn line(network: &Network, writer: &mut Writer) -> Json {
     drawing.whole()
 }
 
-/// The same with contacts that part what they stand between. No wave has a name.
-pub fn with_contacts(network: &Network, layout: &Layout, writer: &mut Writer) -> Json {
+/// The same with what a motion is made of alone: no wave has a name. Contacts part what they stand between.
+pub fn moving(network: &Network, layout: &Layout, writer: &mut Writer) -> Json {
     let drawing = Drawing { network, layout, writer, drawn: Vec::new() };
     let mut line = drawing.whole();
-    let elements = line.as_array_mut().into_iter().flatten().filter_map(Json::as_object_mut);
-    for element in elements {
+    let elements = line.as_array_mut().expect("it is a list");
+    elements.retain(|element| element["is"] != "motion");
+    for element in elements.iter_mut().filter_map(Json::as_object_mut) {
         ["clock", "right", "left", "wave"].into_iter().for_each(|key| drop(element.remove(key)));
     }
     line
@@ -94,9 +95,7 @@ impl<'a> Drawing<'a> {
 
     /// What moves together beside no bar has a velocity of its own.
     fn motion(&mut self, place: usize, node: &Node<Fraction>, run: usize) {
-        let is_whole = self.layout.contacts.is_empty();
-        let wave = self.wave(Role::Velocity(place, node.first_place(run)));
-        let Some(wave) = wave.filter(|_| is_whole) else { return };
+        let Some(wave) = self.wave(Role::Velocity(place, node.first_place(run))) else { return };
         let at_start = node.attached(run).find_map(|own| match &own.law {
             ElementLaw::Mass { velocity, .. } if !self.network.is_disturbed(place) => {
                 Some(velocity.clone())

@@ -1,7 +1,8 @@
 //! `certify`: what is claimed, with all that it takes to verify it, for checkers that share nothing with this program.
 
 mod drawing;
-mod events;
+mod motion;
+mod reading;
 mod window;
 mod writer;
 
@@ -42,7 +43,7 @@ pub fn run(options: &Certify) -> Result<String, Failure> {
     let document = match (&options.quantity, &options.at, goal(options)) {
         _ if options.events => {
             let window = input::window(&problem, &options.from, options.to.as_deref())?;
-            events::certificate(&problem, &window, options.digits)?
+            motion::events(&problem, &window, options.digits)?
         }
         (Some(name), Some(at), _) => {
             let at = problem.time("--at", at.as_str())?;
@@ -197,7 +198,14 @@ fn value(
     let wanted = problem.wanted(name)?;
     let found = problem.proven(&wanted, std::slice::from_ref(at), asked, &|| ())?;
     let (decimal, last_place) = rounded(&found.values[0], digits);
-    let (mut document, _) = Quantity { problem, minus: None, name }.seen(at)?;
+    let (mut document, _) = match (Quantity { problem, minus: None, name }).seen(at) {
+        Ok(seen) => seen,
+        // What is no sum of pieces may be read off a motion.
+        Err(refusal) => {
+            let at = (at, &found.values[0]);
+            return reading::certificate(problem, &wanted.name, at, digits)?.ok_or(refusal);
+        }
+    };
     document.insert("kind".into(), json!("value"));
     document.insert("at".into(), json!(at.to_string()));
     document.insert("value".into(), json!(decimal.to_string()));

@@ -1,5 +1,4 @@
-//! Certificates of what contacts do: a checker follows the line itself, so that all it is told is the line, and when which
-//! contact changes.
+//! Certificates of motions. They state the line and the times of its events; a checker follows the motion itself.
 
 use super::drawing;
 use super::writer::Writer;
@@ -11,22 +10,30 @@ use serde_json::{Map, Value as Json, json};
 use std::collections::BTreeSet;
 use wavestep::ball::{Ball, Bound, Decimal, Number};
 use wavestep::enclosure::Numbers;
-use wavestep::expression::{Expression, Fraction};
+use wavestep::expression::{Expression, Fraction, Root};
 use wavestep::history::{Event, EventKind};
 use wavestep::network::{Contacts, ElementLaw, Layout, Network, Node};
 use wavestep::problem::Problem;
+use wavestep::scene::Drive;
 use wavestep::signal::EvaluateError;
 use wavestep_polynomial::Symbol;
 
-/// Bits and digits beyond those asked for, so that what is known of one event suffices for the next.
-const SPARE_BITS: f64 = 64.0;
+/// Bits and digits beyond those asked for: errors grow from event to event.
+const SPARE_BITS: f64 = 96.0;
 const SPARE_DIGITS: usize = 6;
+
+/// The least digits of the time of an event: its interval is within a step.
+const LEAST_DIGITS: usize = 9;
+
+/// The most bits and terms that a checker works with.
+const MOST_BITS: f64 = 4096.0;
+const MOST_TERMS: u32 = 400;
 
 /// The most steps of a checker in a window.
 const MOST_STEPS: f64 = 2000.0;
 
 /// Closings, openings and releases before the end of a window.
-pub fn certificate(
+pub fn events(
     problem: &Problem,
     [from, to]: &[BigRational; 2],
     digits: usize,
@@ -35,75 +42,97 @@ pub fn certificate(
         let message = "events are certified from the start on";
         return Err(Failure::usage(message, "leave --from out"));
     }
-    let network = problem.network()?;
-    if network.local_contact().is_some() {
-        return Err(refused("beside local contacts"));
-    }
-    if let Some(symbol) = problem.symbols().first() {
-        let remedy = format!("give a number for it, as in --set {symbol}=1/4");
-        return Err(Failure::usage(format!("the symbol {symbol} has no value"), remedy));
-    }
-    let layout = Layout::of(network.scene(), network.model(), Contacts::Links);
-    if layout.contacts.is_empty() {
+    let line = Line::of(problem, Contacts::Links)?;
+    if line.layout.contacts.is_empty() {
         return Err(Failure::usage("the line has no contacts", "write | where bodies touch"));
     }
-    let line = Line { network, layout: &layout, numbers: Numbers::new(&network.model().constants) };
-    let waiting = progress::spinner("following contacts");
-    let history = problem.history(Some(to), digits + SPARE_DIGITS)?;
-    drop(waiting);
-    if let Some(assumed) = history.assumptions.first() {
-        let message = format!("events of this scene rest on an assumption: {assumed}");
-        return Err(Failure::usage(message, "end the window before that time"));
-    }
-    let mut writer = Writer::default();
-    let drawn = drawing::with_contacts(network, &layout, &mut writer);
     let precision = line.precision(to, digits)?;
-    let [low, high] = line.in_steps(to, precision.bits)?;
+    let [low, high] = line.in_units(to, precision.bits)?;
     let end =
         if low == high { low } else { Decimal::bound(&low, digits, Bound::Lower).to_rational() };
-    let mut events = Vec::new();
-    for event in &history.events {
-        events.extend(line.told(event, &end, digits, precision.bits)?);
-    }
-    let mut document = Map::new();
-    let mut insert = |key: &str, value: Json| document.insert(key.into(), value);
-    insert("kind", json!("events"));
-    insert("title", json!(problem.title()));
-    insert("constants", json!(problem.constants(None)?));
-    insert("time", json!(network.scene().time.name()));
-    insert("line", drawn);
-    insert("numbers", line.told_numbers(&writer.others, precision.bits));
-    insert("roots", writer.told_roots());
-    insert("to", json!(end.to_string()));
-    insert("events", json!(events));
-    insert("step", json!(precision.step.to_string()));
-    insert("terms", json!(precision.terms));
-    insert("bits", json!(precision.bits));
-    Ok(document)
+    line.document("events", &end, to, digits, &precision, &mut Writer::default())
 }
 
 fn refused(reason: &str) -> Failure {
-    let message = format!("there are no certificates of events {reason}");
-    Failure::usage(message, "see them with `wavestep events`")
+    let message = format!("there are no certificates of motions {reason}");
+    Failure::usage(message, "see them with `wavestep events` and `wavestep eval`")
 }
 
-/// How a checker follows a line: steps that are short beside the decays of the line, the terms of Taylor polynomials on these,
-/// and the bits of their coefficients.
-struct Precision {
-    step: BigRational,
+/// How a checker follows a line: steps no longer than the fastest decay, the terms of Taylor polynomials on these, and
+/// the bits of their coefficients.
+pub struct Precision {
+    pub step: BigRational,
     terms: u32,
-    bits: u64,
+    pub bits: u64,
 }
 
-struct Line<'a> {
-    network: &'a Network,
-    layout: &'a Layout,
+/// A line with numbers, as it moves.
+pub struct Line<'a> {
+    problem: &'a Problem,
+    pub network: &'a Network,
+    layout: Layout,
     numbers: Numbers,
 }
 
-impl Line<'_> {
-    fn precision(&self, to: &BigRational, digits: usize) -> Result<Precision, Failure> {
-        let [to, _] = self.in_steps(to, 64)?;
+impl<'a> Line<'a> {
+    /// The line of a scene; its contacts open and close, or are joints.
+    pub fn of(problem: &'a Problem, contacts: Contacts) -> Result<Line<'a>, Failure> {
+        let network = problem.network()?;
+        if network.local_contact().is_some() {
+            return Err(refused("beside local contacts"));
+        }
+        if let Some(symbol) = problem.symbols().first() {
+            let remedy = format!("give a number for it, as in --set {symbol}=1/4");
+            return Err(Failure::usage(format!("the symbol {symbol} has no value"), remedy));
+        }
+        let layout = Layout::of(network.scene(), network.model(), contacts);
+        let numbers = Numbers::new(&network.model().constants);
+        Ok(Line { problem, network, layout, numbers })
+    }
+
+    /// What is claimed of all motions: the line, and what its contacts do until an end, which is at most `until` in the user's
+    /// unit.
+    pub fn document(
+        &self,
+        kind: &str,
+        end: &BigRational,
+        until: &BigRational,
+        digits: usize,
+        precision: &Precision,
+        writer: &mut Writer,
+    ) -> Result<Map<String, Json>, Failure> {
+        let mut events = Vec::new();
+        if !self.layout.contacts.is_empty() {
+            let _waiting = progress::spinner("following contacts");
+            let history = self.problem.history(Some(until), digits + SPARE_DIGITS)?;
+            if let Some(assumed) = history.assumptions.first() {
+                let message = format!("events of this scene rest on an assumption: {assumed}");
+                return Err(Failure::usage(message, "ask for an earlier time"));
+            }
+            for event in &history.events {
+                events.extend(self.told(event, end, digits, precision.bits)?);
+            }
+        }
+        let mut document = Map::new();
+        let mut insert = |key: &str, value: Json| document.insert(key.into(), value);
+        insert("kind", json!(kind));
+        insert("title", json!(self.problem.title()));
+        insert("constants", json!(self.problem.constants(None)?));
+        insert("time", json!(self.network.scene().time.name()));
+        insert("line", drawing::moving(self.network, &self.layout, writer));
+        insert("numbers", self.told_numbers(&writer.others, precision.bits));
+        insert("roots", writer.told_roots());
+        insert("to", json!(end.to_string()));
+        insert("events", json!(events));
+        insert("step", json!(precision.step.to_string()));
+        insert("terms", json!(precision.terms));
+        insert("bits", json!(precision.bits));
+        Ok(document)
+    }
+
+    /// How a checker follows the line until a time in the user's unit.
+    pub fn precision(&self, to: &BigRational, digits: usize) -> Result<Precision, Failure> {
+        let [to, _] = self.in_units(to, 64)?;
         let to = to.to_f64().unwrap_or(f64::INFINITY);
         let mut shortest = to;
         for travel in self.travels() {
@@ -113,6 +142,10 @@ impl Line<'_> {
             shortest = shortest.min(travel.to_f64().unwrap_or(0.0));
         }
         let mut rate = self.layout.nodes.iter().map(|node| self.rate(node)).fold(0.0, f64::max);
+        let laws = self.layout.nodes.iter().flat_map(|node| &node.elements).map(|own| &own.law);
+        if laws.into_iter().any(|law| *law == ElementLaw::Load(Drive::Velocity)) {
+            return Err(refused("under imposed velocities"));
+        }
         for load in self.network.model().loads.values() {
             self.refuse_constants(&load.course)?;
             let exponents = load.course.terms().map(|(exponent, _)| exponent);
@@ -129,12 +162,16 @@ impl Line<'_> {
         }
         let two = BigRational::from_integer(2.into());
         let step = two.pow(exponent as i32);
-        // What is off at first may grow as fast as the fastest motion; n!/2^n is beyond the last bit.
-        let bits = SPARE_BITS + 4.0 * digits as f64 + 1.5 * rate * to;
+        // Errors may grow as exp(rate t); n!/2^n is beyond the last bit.
+        let bits = SPARE_BITS + 4.0 * digits as f64 + 2.0 * rate * to;
         let (mut terms, mut factorial) = (4_u32, 0.0);
-        while factorial < bits {
+        while factorial < bits && terms <= MOST_TERMS {
             terms += 1;
             factorial += f64::from(terms).log2() - 1.0;
+        }
+        if bits > MOST_BITS || terms > MOST_TERMS {
+            let message = format!("a checker would need {bits:.0} bits and {terms} terms");
+            return Err(Failure::usage(message, "ask for fewer digits, or for an earlier time"));
         }
         Ok(Precision { step, terms, bits: bits as u64 })
     }
@@ -179,20 +216,24 @@ impl Line<'_> {
         }
     }
 
-    /// A time in the units of the line, between two numbers.
-    fn in_steps(&self, time: &BigRational, bits: u64) -> Result<[BigRational; 2], Failure> {
+    /// A time in the unit of the line, between two numbers.
+    pub fn in_units(&self, time: &BigRational, bits: u64) -> Result<[BigRational; 2], Failure> {
         self.scaled(&Number::of_rational(time.clone(), bits), bits)
     }
 
-    fn scaled(&self, time: &Number, bits: u64) -> Result<[BigRational; 2], Failure> {
-        let unit = &self.network.model().scale.time;
-        let unit = match unit.exact().and_then(|unit| unit.as_constant()) {
+    /// The number that a unit is.
+    pub fn unit(&self, unit: &Root, bits: u64) -> Result<Number, Failure> {
+        Ok(match unit.exact().and_then(|unit| unit.as_constant()) {
             Some(unit) => Number::Exact(unit),
             None => {
                 let unit = self.numbers.enclose_root(unit, bits);
                 Number::Enclosed(unit.map_err(EvaluateError::from)?)
             }
-        };
+        })
+    }
+
+    fn scaled(&self, time: &Number, bits: u64) -> Result<[BigRational; 2], Failure> {
+        let unit = self.unit(&self.network.model().scale.time, bits)?;
         let scaled = time.multiply(&unit.reciprocal(bits).map_err(EvaluateError::from)?, bits);
         Ok(wavestep::Value::of(&scaled, 1).bounds())
     }
@@ -215,9 +256,10 @@ impl Line<'_> {
         }
         let [low, high] = match low == high {
             true => [low.to_string(), high.to_string()],
-            // Room for what a checker finds.
+            // Wider, so that what a checker finds fits inside.
             false => {
                 let ten = BigRational::from_integer(10.into());
+                let digits = digits.max(LEAST_DIGITS);
                 let room = &high / ten.pow(i32::try_from(digits).expect("digits are limited"));
                 decimals(&(low - &room), &(high + room), digits + 1)
             }
@@ -246,7 +288,7 @@ fn about(value: &BigRational) -> f64 {
 }
 
 /// Decimals around an interval.
-fn decimals(low: &BigRational, high: &BigRational, digits: usize) -> [String; 2] {
+pub fn decimals(low: &BigRational, high: &BigRational, digits: usize) -> [String; 2] {
     let end = |value, bound| Decimal::bound(value, digits, bound).to_string();
     [end(low, Bound::Lower), end(high, Bound::Upper)]
 }

@@ -1,0 +1,123 @@
+"""Numbers that are rational or balls of Arb, and functions on a step, for motion_arb.py.
+
+A function on a step is a list of Taylor coefficients, the last one enclosed for the whole step.
+"""
+
+import re
+from fractions import Fraction
+
+import flint
+from flint import arb, fmpq
+
+
+class Unproven(Exception):
+    """The claim does not follow."""
+
+
+class Undecided(Unproven):
+    """Enclosures do not tell whether it follows."""
+
+
+def require(condition, told):
+    if not condition:
+        raise Unproven(told)
+
+
+def decide(condition, told):
+    if not condition:
+        raise Undecided(told)
+
+
+def fraction(text):
+    require(type(text) is str and len(text) <= 20000, "a number is no text, or too long")
+    require(re.fullmatch(r"-?[0-9]+(/[0-9]+|(\.[0-9]+)?(e-?[0-9]{1,4})?)", text), f"{text[:40]} is no number")
+    value = Fraction(text)
+    return fmpq(value.numerator, value.denominator)
+
+
+NIL = fmpq(0)
+LONGEST = 1024  # bits of a denominator
+
+
+def short(x):
+    """A rational number with a long denominator as a ball."""
+    return arb(x) if isinstance(x, fmpq) and int(x.q).bit_length() > LONGEST else x
+
+
+def is_nil(x):
+    return x == 0 if isinstance(x, fmpq) else bool(x.is_zero())
+
+
+def sign(x):
+    """1, 0 or -1; None where it is not known."""
+    if isinstance(x, fmpq):
+        return (x > 0) - (x < 0)
+    return 1 if x > 0 else -1 if x < 0 else 0 if x.is_zero() else None
+
+
+def size(x):
+    return arb(abs(x)).upper()
+
+
+def span(low, high):
+    """All numbers between two, which may be balls themselves."""
+    low, high = arb(low), arb(high)
+    return low if (high - low).is_zero() else low.union(high)
+
+
+def product(a, b):
+    return NIL if is_nil(a) or is_nil(b) else short(a * b)
+
+
+def dot(row, column):
+    result = NIL
+    for a, b in zip(row, column):
+        if not is_nil(a) and not is_nil(b):
+            result = result + a * b
+    return short(result)
+
+
+def interval(ends):
+    require(type(ends) is list, "an interval is no list")
+    low, high = map(fraction, ends)
+    require(low <= high, "an interval runs backwards")
+    return low if low == high else span(low, high)
+
+
+# Functions on a step: Taylor coefficients, the last one enclosed for the whole step.
+
+
+def moved(series, x):
+    """The coefficients about another place, or about all places of an interval."""
+    if is_nil(x) or all(map(is_nil, series)):
+        return series
+    result = list(series)
+    for start in range(len(series) - 1):  # Horner's scheme, repeated
+        for i in range(len(series) - 2, start - 1, -1):
+            result[i] = short(result[i] + product(result[i + 1], x))
+    return result
+
+
+def horner(series, x):
+    result = NIL
+    for c in reversed(series):
+        result = short(product(result, x) + c)
+    return result
+
+
+def derivative(series):
+    return [c * k for k, c in enumerate(series) if k] or [NIL]
+
+
+def stays_positive(series, begin, end, depth=24):
+    """Whether it is positive strictly between two places; what it begins with at 0 may be zeros."""
+    if begin == 0:
+        first = next((k for k, c in enumerate(series) if not is_nil(c)), len(series) - 1)
+        series = series[first:]
+    if sign(horner(series, span(begin, end))) == 1:
+        return True
+    if sign(horner(derivative(series), span(begin, end))) in (1, -1):
+        if all(sign(horner(series, at)) in (0, 1) for at in (begin, end)):
+            return True
+    half = (begin + end) / 2
+    return depth > 0 and stays_positive(series, begin, half, depth - 1) and stays_positive(series, half, end, depth - 1)
