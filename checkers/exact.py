@@ -181,7 +181,6 @@ def reduced(polynomial):
 
 
 def read_function(rows):
-    need(type(rows) is list, "a function is no list")
     function = {}
     for top, below in rows:
         key = ()

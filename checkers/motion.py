@@ -153,6 +153,7 @@ class Line:
 
     def number(self, rows):
         """A polynomial in the constants over such ones."""
+        need(type(rows) is list, "a number is no list")
         sums = []
         for below, top in read_function(rows).items():
             divisor = ONE

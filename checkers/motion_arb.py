@@ -40,6 +40,13 @@ ELEMENTS = {
 }
 
 
+def distinct(terms):
+    """The terms of a polynomial, none of which is zero or stands twice."""
+    keys = {tuple(sorted(names.items())) for _, names in terms}
+    require(len(keys) == len(terms) and all(fraction(c) != 0 for c, _ in terms), "a term stands twice, or is zero")
+    return terms
+
+
 class Parts:
     """The elements of the line in numbers."""
 
@@ -104,7 +111,7 @@ class Parts:
 
     def polynomial(self, terms):
         total = NIL
-        for c, powers in terms:
+        for c, powers in distinct(terms):
             term = fraction(c)
             for name, power in powers.items():
                 require(type(power) is int and 0 < power <= 10**4, "a power is no positive integer")
@@ -164,7 +171,7 @@ class Parts:
             for factor, power in factors:
                 below *= self.complex([[factor, []]]).get(0, flint.acb(0)) ** power
             decide(not below.contains(0), "a divisor may be zero")
-            for c, names in top:
+            for c, names in distinct(top):
                 term, power = flint.acb(fraction(c)), 0
                 for name, exponent in names.items():
                     require(type(exponent) is int and 0 < exponent <= 10**4, "a power is no positive integer")
@@ -183,7 +190,7 @@ class Parts:
             if exponent or any(factors for _, factors in function):
                 return None
             for top, _ in function:
-                for c, names in top:
+                for c, names in distinct(top):
                     if names.keys() - {self.time}:
                         return None
                     power = names.get(self.time, 0)

@@ -6,7 +6,6 @@ A function on a step is a list of Taylor coefficients, the last one enclosed for
 import re
 from fractions import Fraction
 
-import flint
 from flint import arb, fmpq
 
 

@@ -20,14 +20,8 @@ def late(*_):
 def verdict(original, altered):
     if altered == original:
         return "harmless"
-    verdicts = [alterations.outcome(checker, altered) for checker in alterations.CHECKERS]
-    if "TimeoutError" in verdicts or "MemoryError" in verdicts:
-        return "refused"
-    if len({verdict is None for verdict in verdicts}) > 1:
-        return f"judged differently: {verdicts}"
-    if verdicts[0] is not None:
-        return "refused"
-    return "harmless" if alterations.same_claims(altered, original) else "missed"
+    told = alterations.verdict(original, altered)
+    return "refused" if "TimeoutError" in told or "MemoryError" in told else told
 
 
 signal.signal(signal.SIGALRM, late)
