@@ -8,8 +8,8 @@ from fractions import Fraction
 from math import comb, isqrt
 
 from exact import MINUS, ROOTS, Ball, Undecided, Wrong, accumulate, coefficients, decided, decimal, is_zero, need, number, put
-from exact import rational, read, read_function, thawed
-from series import ONE, PRECISION, ZERO, Number, begins, interval, is_positive, shifted, slope, total, value
+from exact import frozen, rational, read, read_function, thawed
+from series import ONE, PRECISION, ZERO, Duration, Number, begins, interval, is_positive, shifted, slope, total, value
 
 KEYS = {kind: {"is"} for kind in ("free", "fixed", "endless", "contact")}
 KEYS |= {kind: {"is", "name", "stiffness", "damping"} for kind in ("spring", "support")}
@@ -163,6 +163,18 @@ class Line:
             sums.append(self.polynomial(top) / divisor)
         return total(sums)
 
+    def duration(self, rows):
+        """A travel time, as a multiple of 1 or of what others are multiples of, too."""
+        function = read_function(rows)
+        first = next((c for _, top in sorted(function.items()) for _, c in sorted(top.items()) if c), Fraction(0))
+        if not first:
+            return Duration({})
+        name = frozen({below: {m: c / first for m, c in top.items()} for below, top in function.items()})
+        is_rational = name == frozen({(): {(): Fraction(1)}})
+        if not is_rational:
+            Duration.VALUES[name] = self.number(rows).times(1 / first)
+        return Duration({"" if is_rational else name: first})
+
     def polynomial(self, top):
         sums = []
         for monomial, c in top.items():
@@ -179,8 +191,8 @@ class Line:
 
     def link(self, element):
         if element["is"] == "bar":
-            travel = None if element["travel"] is None else plain(element["travel"])
-            need(travel is None or travel > 0, "a bar without length")
+            travel = None if element["travel"] is None else self.duration(element["travel"])
+            decided(travel is None or travel.number().sign() == 1, "a bar without length")
             own = {key: self.number(element[key]) for key in ("impedance", "velocity", "force")}
             return {"is": "bar", "travel": travel, **own}
         if element["is"] == "spring":
@@ -318,7 +330,7 @@ class Motion:
         need(self.to > 0 and self.step > 0 and self.to / self.step < MOST_CELLS, "the window is empty, or too long")
         line = self.line
         need(all(0 <= contact < len(line.contacts) for contact, *_ in self.claims), "an event without a contact")
-        self.instants, self.now, self.marks, self.past, self.events = [ZERO], (0, Fraction(0)), [], [], []
+        self.instants, self.now, self.marks, self.past, self.events = [ZERO], START, [], [], []
         self.open = {i: {"rests": False, "idle": None, "pressed": False} for i in line.contacts}
         self.closed = set(line.contacts)
         springs = [i for i, link in enumerate(line.links) if link["is"] == "spring"]
@@ -335,23 +347,21 @@ class Motion:
         self.late = {link["travel"]: -1 for link in line.links if link["is"] == "bar" and link["travel"] is not None}
 
     def instant(self, time):
-        return self.instants[time[0]] + Number(time[1])
+        return self.instants[time[0]] + time[1].number()
 
     def later(self, a, b):
         """The sign of a less b."""
-        if a[0] == b[0]:
-            return (a[1] > b[1]) - (a[1] < b[1])
-        sign = (self.instant(a) - self.instant(b)).sign()
-        decided(sign, "the order of two times is not decided")
+        sign = 0 if a == b else self.since(a, b).sign()
+        decided(a == b or sign, "the order of two times is not decided")
         return sign
 
     def since(self, a, b):
         """How long after b a time a is."""
-        return Number(a[1] - b[1]) if a[0] == b[0] else self.instant(a) - self.instant(b)
+        return (a[1] - b[1]).number() if a[0] == b[0] else self.instant(a) - self.instant(b)
 
     def incoming(self):
         """The waves that reach the ends of bars from now on, and when the next one begins to."""
-        found, nothing, ends = {}, [ZERO] * (self.terms + 1), [(0, self.to)]
+        found, nothing, ends = {}, [ZERO] * (self.terms + 1), [exactly(self.to)]
         for travel in self.late:
             while (
                 self.late[travel] + 1 < len(self.marks)
@@ -376,9 +386,10 @@ class Motion:
         """What acts from now on, and when that changes."""
         found, ends = [], []
         for _, load in self.line.loads:
-            times = [(0, own) for own in (load.begin, load.end) if own is not None]
+            times = [exactly(own) for own in (load.begin, load.end) if own is not None]
             ends += [own for own in times if self.later(own, self.now) > 0]
-            acts = self.later((0, load.begin), self.now) <= 0 and (load.end is None or self.later((0, load.end), self.now) > 0)
+            acts = self.later(exactly(load.begin), self.now) <= 0
+            acts = acts and (load.end is None or self.later(exactly(load.end), self.now) > 0)
             found.append(load.series(self.instant(self.now), self.step, self.terms) if acts else [ZERO] * (self.terms + 1))
         return found, ends
 
@@ -480,7 +491,7 @@ class Motion:
         line, system, N = self.line, self.system, self.terms
         waves, ends = self.incoming()
         loads, more = self.loads()
-        exact = [(0, low) for _, _, low, high in self.claims if low == high]
+        exact = [exactly(low) for _, _, low, high in self.claims if low == high]
         end = self.earliest(ends + more + exact)
         solved = self.settle(waves, loads)
         end, last = self.cell(waves, loads, end)
@@ -516,7 +527,7 @@ class Motion:
             own["rests"] = False
         if due:
             self.instants.append(self.instant(self.now) + place.times(self.step))
-            self.now = (len(self.instants) - 1, Fraction(0))
+            self.now = (len(self.instants) - 1, Duration({}))
             self.change([due[0]], True)
         else:
             self.now = end
@@ -525,20 +536,20 @@ class Motion:
         """The end of a cell that is short enough, and what encloses the last orders there."""
         reach = self.since(end, self.now).ends()[1] / self.step
         if reach > 1:
-            end, reach = moved(self.now, self.step), Fraction(1)
+            end, reach = moved(self.now, Duration.of(self.step)), Fraction(1)
         for halvings in range(1, 40):
             last = self.enclosed(waves, loads, reach)
             if last:
                 return end, last
             reach = min(reach / 2, Fraction(1, 2**halvings))
-            end = moved(self.now, self.step * reach)
+            end = moved(self.now, Duration.of(self.step * reach))
         raise Undecided("a cell is too long")
 
     def watch(self, guards):
         """Notes impacts at the start, and since when contacts that have pushed have no force."""
         for i in sorted(self.closed):
             own, is_silent = self.open[i], all(c.is_zero() for c in guards[i])
-            if not is_silent and self.now == (0, 0) and all(event[1] != i for event in self.events):
+            if not is_silent and self.now == START and all(event[1] != i for event in self.events):
                 self.events.append(("closing", i, self.now))
             own["pressed"] |= not is_silent
             own["idle"] = (own["idle"] or self.now) if is_silent and own["pressed"] else None
@@ -573,7 +584,7 @@ class Motion:
         return found
 
     def follow(self):
-        while self.now != (0, self.to):
+        while self.now != exactly(self.to):
             self.advance()
         for i in sorted(self.closed):
             if self.open[i]["idle"] is not None:
@@ -641,6 +652,13 @@ READINGS = {("bar", what): 2 for what in ("velocity", "displacement", "force")}
 READINGS |= {("spring", what): 1 for what in ("velocity", "displacement")}
 READINGS |= {(kind, what): 0 for kind in ("mass", "support", "force") for what in ("velocity", "displacement")}
 READINGS |= {(kind, what): 0 for kind in ("spring", "support") for what in ("compression", "force")}
+
+
+START = 0, Duration({})
+
+
+def exactly(time):
+    return 0, Duration.of(time)
 
 
 def moved(time, by):

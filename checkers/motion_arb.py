@@ -12,6 +12,7 @@ import flint
 from flint import arb, fmpq
 
 from series_arb import (
+    Length,
     NIL,
     Undecided,
     decide,
@@ -75,7 +76,7 @@ class Parts:
                 keys = {"bar": ("impedance", "velocity", "force"), "spring": ("stiffness", "damping"), "contact": ()}[own["is"]]
                 link = {"is": own["is"], **{key: self.number(own[key]) for key in keys}}
                 if own["is"] == "bar":
-                    link["travel"] = None if own["travel"] is None else self.exact(own["travel"])
+                    link["travel"] = None if own["travel"] is None else self.length(own["travel"])
                     require(sign(link["impedance"]) == 1, "an impedance is not positive")
                 self.links.append(link)
                 for values, new in ((self.mass, NIL), (self.momentum, NIL), (self.fixed, False), (self.endless, False)):
@@ -98,7 +99,7 @@ class Parts:
             far = self.endless[i] or self.endless[i + 1]
             require(not far or link["is"] == "bar" and link["travel"] is None, "an endless end without an endless bar")
             require(link["is"] != "bar" or far == (link["travel"] is None), "a bar has no length")
-            require(link["is"] != "bar" or far or link["travel"] > 0, "a bar has no length")
+            decide(link["is"] != "bar" or far or sign(link["travel"].value()) == 1, "a bar has no length")
             require(
                 link["is"] != "spring" or all(sign(link[key]) in (0, 1) for key in ("stiffness", "damping")),
                 "stiffness or damping may be negative",
@@ -135,6 +136,15 @@ class Parts:
             decide(sign(below) in (1, -1), "a divisor may be zero")
             total = short(total + self.polynomial(top) / below)
         return total
+
+    def length(self, rows):
+        """A travel time: those that are multiples of each other count in one unit."""
+        value = self.number(rows)
+        if isinstance(value, fmpq):
+            return Length(value)
+        first = fraction(rows[0][0][0][0])
+        unit = [[[[str(fraction(c) / first), names] for c, names in top], factors] for top, factors in rows]
+        return Length(0, {json.dumps(unit): [first, value / first]})
 
     def exact(self, rows):
         value = self.number(rows)
@@ -374,6 +384,13 @@ def inverse(rows):
     return [row[count:] for row in rows]
 
 
+START = 0, Length()
+
+
+def at(time):
+    return 0, Length(time)
+
+
 class Story:
     """What has happened so far. A time is (n, s): s after the n-th instant that is not exact, the 0-th is the start."""
 
@@ -388,7 +405,7 @@ class Story:
             require(0 <= self.told[-1][2] <= self.told[-1][3], "an interval runs backwards")
             before = [own[3] for own in self.told[:-1] if own[0] == self.told[-1][0]]
             require(not before or before[-1] <= self.told[-1][2], "two events of a contact are in one interval")
-        self.origins, self.now = [arb(0)], (0, NIL)
+        self.origins, self.now = [arb(0)], START
         self.begins, self.past, self.happened = [], [], []
         self.closed, self.idle, self.flush, self.pressed = set(parts.contacts), {}, set(), set()
         heavy = [r for r, m in enumerate(parts.mass) if sign(m) == 1 and not parts.fixed[r]]
@@ -403,23 +420,23 @@ class Story:
                 require(is_nil(known[0] - known[1]), "two rigid bodies meet at the start")
 
     def when(self, time):
-        return self.origins[time[0]] + time[1]
+        return self.origins[time[0]] + time[1].value()
 
     def between(self, a, b):
         """How long a time is after another one."""
-        return a[1] - b[1] if a[0] == b[0] else self.when(a) - self.when(b)
+        return a[1].plus(b[1], -1).value() if a[0] == b[0] else self.when(a) - self.when(b)
 
     def is_later(self, a, b):
-        order = sign(self.between(a, b))
+        order = 0 if a == b else sign(self.between(a, b))
         decide(order is not None, "it is not decided which of two times is the later one")
         return order == 1
 
     def next_break(self):
-        times = [(0, self.end)] + [(0, low) for _, _, low, high in self.told if low == high]
+        times = [at(self.end)] + [at(low) for _, _, low, high in self.told if low == high]
         for link in self.parts.links:
             if link["is"] == "bar" and link["travel"] is not None:
-                times += [(n, s + link["travel"]) for n, s in self.begins[-self.count(link["travel"]) :] + [self.now]]
-        times += [(0, load[key]) for _, load in self.parts.loads for key in ("from", "until") if load[key] is not None]
+                times += [(n, s.plus(link["travel"])) for n, s in self.begins[-self.count(link["travel"]) :] + [self.now]]
+        times += [at(load[key]) for _, load in self.parts.loads for key in ("from", "until") if load[key] is not None]
         first = None
         for time in times:
             if self.is_later(time, self.now) and (first is None or self.is_later(first, time)):
@@ -430,7 +447,7 @@ class Story:
         """How many cells have begun within a travel time, and one more."""
         count = 1
         while count < len(self.begins) and not self.is_later(
-            self.now, (self.begins[-count][0], self.begins[-count][1] + travel)
+            self.now, (self.begins[-count][0], self.begins[-count][1].plus(travel))
         ):
             count += 1
         return count + 1
@@ -444,7 +461,7 @@ class Story:
             if link["travel"] is None:
                 continue
             for n in range(len(self.begins) - 1, -1, -1):
-                begin = (self.begins[n][0], self.begins[n][1] + link["travel"])
+                begin = (self.begins[n][0], self.begins[n][1].plus(link["travel"]))
                 if not self.is_later(begin, self.now):
                     later = short(self.between(self.now, begin) / self.step)
                     found[i, "f"], found[i, "g"] = (moved(self.past[n][way, i], later) for way in "fg")
@@ -454,10 +471,10 @@ class Story:
     def acting(self):
         found = []
         for _, load in self.parts.loads:
-            is_on = not self.is_later((0, load["from"]), self.now) and (
-                load["until"] is None or self.is_later((0, load["until"]), self.now)
+            is_on = not self.is_later(at(load["from"]), self.now) and (
+                load["until"] is None or self.is_later(at(load["until"]), self.now)
             )
-            time = self.now[1] if self.now[0] == 0 else self.when(self.now)
+            time = self.now[1].value() if self.now[0] == 0 else self.when(self.now)
             found.append(self.parts.pushes(load, time, self.step, self.order) if is_on else [NIL] * (self.order + 1))
         return found
 
@@ -596,7 +613,7 @@ class Story:
         states, solutions = self.settled(waves, loads)
         share = short(self.between(end, self.now) / self.step)
         if sign(share - 1) != -1:
-            end, share = (self.now[0], self.now[1] + self.step), fmpq(1)
+            end, share = (self.now[0], self.now[1].plus(Length(self.step))), fmpq(1)
         high = fmpq(1)
         while sign(share - high / 2) == -1:
             high = high / 2
@@ -605,13 +622,13 @@ class Story:
             if last is not None:
                 break
             high = high / 2
-            end, share = (self.now[0], self.now[1] + self.step * high), high
+            end, share = (self.now[0], self.now[1].plus(Length(self.step * high))), high
         decide(last is not None, "a step is too long")
         wide, all_ = last
         guards = {i: self.guard(i, states, solutions) + [self.last(i, wide, all_)] for i in self.gaps}
         for i in sorted(self.closed):
             if not all(map(is_nil, guards[i])):
-                if self.now == (0, 0) and all(own[0] != i for own in self.happened):
+                if self.now == START and all(own[0] != i for own in self.happened):
                     self.happened.append((i, "closing", self.now))
                 self.idle.pop(i, None)
                 self.pressed.add(i)
@@ -647,7 +664,7 @@ class Story:
             self.now = end
             return
         self.origins.append(self.when(self.now) + place * self.step)
-        self.now = (len(self.origins) - 1, NIL)
+        self.now = (len(self.origins) - 1, Length())
         self.switch([change[0]], True)
 
     def change_before(self, end):
@@ -687,7 +704,7 @@ class Story:
         sum_ = NIL
         for n, begin in enumerate(self.begins):
             after = self.begins[n + 1] if n + 1 < len(self.begins) else self.now
-            passed, left = (time - own[1] if own[0] == 0 else time - self.when(own) for own in (begin, after))
+            passed, left = (time - (own[1].value() if own[0] == 0 else self.when(own)) for own in (begin, after))
             decide(sign(left) is not None, "it is not decided in which step a time is")
             is_here, series = sign(left) == -1, self.past[n][key]
             if over:
@@ -728,7 +745,7 @@ class Story:
         return result
 
     def run(self):
-        while self.now != (0, self.end):
+        while self.now != at(self.end):
             self.cell()
         self.happened += [(i, "release", since) for i, since in sorted(self.idle.items())]
 
@@ -757,7 +774,7 @@ def check_motion(cert):
         own = next((n for n, event in enumerate(story.happened) if event[0] == contact), None)
         require(own is not None and story.happened[own][1] == kind, f"there is no {kind} then")
         _, _, time = story.happened.pop(own)
-        exact = time[1] if time[0] == 0 else story.when(time)
+        exact = time[1].value() if time[0] == 0 else story.when(time)
         require(
             not exact < low
             and not exact > high

@@ -111,6 +111,35 @@ def interval(pair):
     return Number.between(low, high)
 
 
+class Duration:
+    """A sum of rational multiples of travel times: of 1, under no name, and of others, under names; their values are kept here."""
+
+    VALUES = {}
+
+    def __init__(self, parts):
+        self.parts = {name: c for name, c in parts.items() if c}
+
+    @staticmethod
+    def of(rational_):
+        return Duration({"": Fraction(rational_)})
+
+    def __add__(self, other):
+        names = self.parts.keys() | other.parts.keys()
+        return Duration({name: self.parts.get(name, 0) + other.parts.get(name, 0) for name in names})
+
+    def __sub__(self, other):
+        return self + Duration({name: -c for name, c in other.parts.items()})
+
+    def __eq__(self, other):
+        return self.parts == other.parts
+
+    def __hash__(self):
+        return hash(frozenset(self.parts.items()))
+
+    def number(self):
+        return total(ONE.times(c) if not name else self.VALUES[name].times(c) for name, c in self.parts.items())
+
+
 def total(numbers):
     result = ZERO
     for own in numbers:

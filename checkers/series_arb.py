@@ -83,6 +83,26 @@ def interval(ends):
     return low if low == high else span(low, high)
 
 
+class Length:
+    """A length of time: a rational number, and rational multiples of travel times that are none."""
+
+    def __init__(self, plain=0, others=()):
+        self.plain, self.others = fmpq(plain), {key: own for key, own in dict(others).items() if own[0] != 0}
+
+    def plus(self, other, way=1):
+        others = {key: [way * count, value] for key, (count, value) in other.others.items()}
+        for key, (count, value) in self.others.items():
+            others[key] = [count + others.get(key, [0])[0], value]
+        return Length(self.plain + way * other.plain, others)
+
+    def value(self):
+        return sum((count * value for count, value in self.others.values()), self.plain)
+
+    def __eq__(self, other):
+        difference = self.plus(other, -1)
+        return difference.plain == 0 and not difference.others
+
+
 # Functions on a step: Taylor coefficients, the last one enclosed for the whole step.
 
 

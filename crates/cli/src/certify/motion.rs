@@ -134,13 +134,8 @@ impl<'a> Line<'a> {
     pub fn precision(&self, to: &BigRational, digits: usize) -> Result<Precision, Failure> {
         let [to, _] = self.in_units(to, 64)?;
         let to = to.to_f64().unwrap_or(f64::INFINITY);
-        let mut shortest = to;
-        for travel in self.travels() {
-            let Some(travel) = travel.as_constant() else {
-                return Err(refused("where travel times have no common measure"));
-            };
-            shortest = shortest.min(travel.to_f64().unwrap_or(0.0));
-        }
+        let size = |value: &Fraction| self.size(value);
+        let shortest = self.travels().map(size).fold(to, f64::min);
         let mut rate = self.layout.nodes.iter().map(|node| self.rate(node)).fold(0.0, f64::max);
         let laws = self.layout.nodes.iter().flat_map(|node| &node.elements).map(|own| &own.law);
         if laws.into_iter().any(|law| *law == ElementLaw::Load(Drive::Velocity)) {
@@ -149,9 +144,9 @@ impl<'a> Line<'a> {
         for load in self.network.model().loads.values() {
             self.refuse_constants(&load.course)?;
             let exponents = load.course.terms().map(|(exponent, _)| exponent);
-            let size =
+            let fastest =
                 |own: &Fraction| own.numerator().terms().map(|(_, c)| about(&c)).sum::<f64>();
-            rate = exponents.map(size).fold(rate, f64::max);
+            rate = exponents.map(fastest).fold(rate, f64::max);
         }
         // A power of two, at most the time of the fastest decay.
         let exponent = shortest.min(1.0 / rate).log2().floor();
@@ -176,6 +171,12 @@ impl<'a> Line<'a> {
         Ok(Precision { step, terms, bits: bits as u64 })
     }
 
+    /// About how large a number of the line is.
+    fn size(&self, value: &Fraction) -> f64 {
+        let ball = self.numbers.enclose(value, 64).unwrap_or_else(|_| Ball::zero());
+        ball.midpoint().to_double()
+    }
+
     fn travels(&self) -> impl Iterator<Item = &Fraction> {
         self.network.model().bars.values().filter_map(|bar| bar.travel.as_ref())
     }
@@ -183,10 +184,7 @@ impl<'a> Line<'a> {
     /// About how fast anything at a node changes: impedances and dampers over the least mass, stiffness over what damps it,
     /// and the fastest oscillation.
     fn rate(&self, node: &Node<Fraction>) -> f64 {
-        let size = |value: &Fraction| {
-            let ball = self.numbers.enclose(value, 64).unwrap_or_else(|_| Ball::zero());
-            ball.midpoint().to_double()
-        };
+        let size = |value: &Fraction| self.size(value);
         let (mut damping, mut stiffness, mut mass) = (0.0, 0.0, f64::INFINITY);
         let mut damps: f64 = f64::INFINITY;
         for impedance in node.impedance.iter().map(size).filter(|own| *own > 0.0) {

@@ -78,7 +78,8 @@ const READINGS: [&str; 4] = [
 ];
 
 /// The same later, between jumps, with more digits.
-const MORE_READINGS: [&str; 7] = [
+const MORE_READINGS: [&str; 8] = [
+    "incommensurate --quantity contact_force --at 200us",
     "hopkinson --quantity force --at 1ms --digits 30",
     "hopkinson --quantity compression --at 200us",
     "hopkinson-with-release --quantity gauge --at 500us",
@@ -257,6 +258,8 @@ fn events_beside_all_elements_are_verified() {
          mass m { mass = 1 }\nline free - p - a | b - m - free\n",
         "bar a { impedance = 1, velocity = -10 }\nsupport s { damping = 1 }\nbar b { impedance = 1, velocity = -1 }\n\
          line endless - a | s | b - endless\n",
+        "bar a { impedance = 1, travel = 1, velocity = 1 }\nbar b { impedance = 1, travel = sqrt(2) }\n\
+         bar c { impedance = 2, travel = 2*sqrt(2) }\nline free - a | b - c - free\n",
         "mass m { mass = 1, velocity = pi }\nspring s { stiffness = 4 }\nmass h { mass = 2 }\n\
          load p { force = -sqrt(2) }\nline free - p - m | s - h - free\n",
     ];
@@ -577,7 +580,6 @@ fn what_has_no_certificate_is_told() {
         ),
         ("certify rates.wave", "a root that depends on other numbers"),
         ("certify rings.wave", "a root that depends on other numbers"),
-        ("certify incommensurate --events", "no common measure"),
         ("certify saint-venant --events", "mu has no value"),
         ("certify saint-venant --set mu=1 --events --to 1000000", "steps"),
         ("certify saint-venant --set mu=1 --events --from 1 --to 2", "from the start"),
