@@ -9,40 +9,22 @@ import math
 import random
 import re
 import sys
-from fractions import Fraction
 
 try:
     import flint
     from flint import acb, acb_series, arb, fmpq, fmpq_mat, fmpq_mpoly_ctx
 
     from motion_arb import check_motion, check_reading
-    from series_arb import Unproven
+    from series_arb import Wrong, need, rational
 except ImportError:
     if __name__ != "__main__":
         raise
     sys.exit("python-flint is missing: pip install python-flint")
 
 
-class Wrong(Exception):
-    """What a certificate claims does not follow."""
-
-
-def need(claim, told):
-    if not claim:
-        raise Wrong(told)
-
-
 def is_index(value, most=10**4):
     """An integer that is neither negative nor of a size that would fill the memory."""
     return type(value) is int and 0 <= value <= most
-
-
-def rational(text):
-    """A fraction or a decimal, without digits or an exponent that would fill the memory."""
-    need(len(text) <= 20000, "a number is too long")
-    need(re.fullmatch(r"-?[0-9]+(/[0-9]+|(\.[0-9]+)?(e-?[0-9]{1,4})?)", text), f"{text[:40]} is no number")
-    value = Fraction(text)
-    return fmpq(value.numerator, value.denominator)
 
 
 # Exact values: sums of quotients of polynomials times exponentials of such quotients.
@@ -1106,7 +1088,7 @@ def judge(name):
         return False, f"cannot be read: {error}"
     try:
         check(certificate)
-    except (Wrong, Unproven) as error:
+    except Wrong as error:
         return False, f"NOT proven: {error}"
     except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError, MemoryError) as error:
         return False, f"NOT proven: it is not laid out as it should be: {error!r}"

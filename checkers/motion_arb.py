@@ -18,13 +18,13 @@ from series_arb import (
     decide,
     derivative,
     dot,
-    fraction,
+    rational,
     horner,
     interval,
     is_nil,
     moved,
     product,
-    require,
+    need,
     short,
     sign,
     size,
@@ -44,7 +44,7 @@ ELEMENTS = {
 def distinct(terms):
     """The terms of a polynomial, none of which is zero or stands twice."""
     keys = {tuple(sorted(names.items())) for _, names in terms}
-    require(len(keys) == len(terms) and all(fraction(c) != 0 for c, _ in terms), "a term stands twice, or is zero")
+    need(len(keys) == len(terms) and all(rational(c) != 0 for c, _ in terms), "a term stands twice, or is zero")
     return terms
 
 
@@ -52,14 +52,14 @@ class Parts:
     """The elements of the line in numbers."""
 
     def __init__(self, cert):
-        self.roots = {name: fraction(text) for name, text in cert["roots"].items()}
+        self.roots = {name: rational(text) for name, text in cert["roots"].items()}
         self.numbers = {name: interval(ends) for name, ends in cert["numbers"].items()}
-        require(not self.numbers.keys() & (self.roots.keys() | {cert["time"]}), "a name stands for two numbers")
+        need(not self.numbers.keys() & (self.roots.keys() | {cert["time"]}), "a name stands for two numbers")
         self.time, line = cert["time"], cert["line"]
-        require(type(self.time) is str and self.time not in self.roots, "the time has no name of its own")
-        require(all(set(own) == ELEMENTS[own["is"]] for own in line), "an element has other keys")
+        need(type(self.time) is str and self.time not in self.roots, "the time has no name of its own")
+        need(all(set(own) == ELEMENTS[own["is"]] for own in line), "an element has other keys")
         ends = {"free", "fixed", "endless"}
-        require(
+        need(
             len(line) >= 3 and all((own["is"] in ends) == (i in (0, len(line) - 1)) for i, own in enumerate(line)),
             "a line has two ends",
         )
@@ -69,7 +69,7 @@ class Parts:
         for own in line:
             run = len(self.mass) - 1
             if "name" in own:
-                require(type(own["name"]) is str and own["name"] not in self.named, "two elements have one name")
+                need(type(own["name"]) is str and own["name"] not in self.named, "two elements have one name")
                 places = {"bar": len(self.links), "spring": len(self.links), "support": len(self.supports)}
                 self.named[own["name"]] = own["is"], places.get(own["is"], run)
             if own["is"] in ("bar", "spring", "contact"):
@@ -77,13 +77,13 @@ class Parts:
                 link = {"is": own["is"], **{key: self.number(own[key]) for key in keys}}
                 if own["is"] == "bar":
                     link["travel"] = None if own["travel"] is None else self.length(own["travel"])
-                    require(sign(link["impedance"]) == 1, "an impedance is not positive")
+                    need(sign(link["impedance"]) == 1, "an impedance is not positive")
                 self.links.append(link)
                 for values, new in ((self.mass, NIL), (self.momentum, NIL), (self.fixed, False), (self.endless, False)):
                     values.append(new)
             elif own["is"] == "mass":
                 mass = self.number(own["mass"])
-                require(sign(mass) == 1, "a mass is not positive")
+                need(sign(mass) == 1, "a mass is not positive")
                 self.mass[run] = short(self.mass[run] + mass)
                 self.momentum[run] = short(self.momentum[run] + product(mass, self.number(own["velocity"])))
             elif own["is"] == "support":
@@ -93,45 +93,45 @@ class Parts:
             elif own["is"] in ("fixed", "endless"):
                 (self.fixed if own["is"] == "fixed" else self.endless)[run] = True
             else:
-                require(own["is"] == "free", "an element whose law is not known here")
-        require(len(self.mass) <= 64, "a line is too long")
+                need(own["is"] == "free", "an element whose law is not known here")
+        need(len(self.mass) <= 64, "a line is too long")
         for i, link in enumerate(self.links):
             far = self.endless[i] or self.endless[i + 1]
-            require(not far or link["is"] == "bar" and link["travel"] is None, "an endless end without an endless bar")
-            require(link["is"] != "bar" or far == (link["travel"] is None), "a bar has no length")
+            need(not far or link["is"] == "bar" and link["travel"] is None, "an endless end without an endless bar")
+            need(link["is"] != "bar" or far == (link["travel"] is None), "a bar has no length")
             decide(link["is"] != "bar" or far or sign(link["travel"].value()) == 1, "a bar has no length")
-            require(
+            need(
                 link["is"] != "spring" or all(sign(link[key]) in (0, 1) for key in ("stiffness", "damping")),
                 "stiffness or damping may be negative",
             )
         for run, far in enumerate(self.endless):
             alone = is_nil(self.mass[run]) and all(run != own[0] for own in self.supports + self.loads)
-            require(not far or alone, "something stands at an endless end")
-        require(all(sign(c) in (0, 1) for _, *pair in self.supports for c in pair), "stiffness or damping may be negative")
+            need(not far or alone, "something stands at an endless end")
+        need(all(sign(c) in (0, 1) for _, *pair in self.supports for c in pair), "stiffness or damping may be negative")
         self.contacts = [i for i, link in enumerate(self.links) if link["is"] == "contact"]
 
     def polynomial(self, terms):
         total = NIL
         for c, powers in distinct(terms):
-            term = fraction(c)
+            term = rational(c)
             for name, power in powers.items():
-                require(type(power) is int and 0 < power <= 10**4, "a power is no positive integer")
+                need(type(power) is int and 0 < power <= 10**4, "a power is no positive integer")
                 if name in self.numbers:
                     base = self.numbers[name]
                 else:
-                    require(name in self.roots and self.roots[name] > 0, f"{name} has no value")
+                    need(name in self.roots and self.roots[name] > 0, f"{name} has no value")
                     base = arb(self.roots[name]).sqrt()
                 term = product(term, base**power)
             total = short(total + term)
         return total
 
     def number(self, rows):
-        require(type(rows) is list, "a number is no list")
+        need(type(rows) is list, "a number is no list")
         total = NIL
         for top, factors in rows:
             below = fmpq(1)
             for factor, power in factors:
-                require(type(power) is int and 0 < power <= 10**4, "a power is no positive integer")
+                need(type(power) is int and 0 < power <= 10**4, "a power is no positive integer")
                 below = product(below, self.polynomial(factor) ** power)
             decide(sign(below) in (1, -1), "a divisor may be zero")
             total = short(total + self.polynomial(top) / below)
@@ -142,20 +142,20 @@ class Parts:
         value = self.number(rows)
         if isinstance(value, fmpq):
             return Length(value)
-        first = fraction(rows[0][0][0][0])
-        unit = [[[[str(fraction(c) / first), names] for c, names in top], factors] for top, factors in rows]
+        first = rational(rows[0][0][0][0])
+        unit = [[[[str(rational(c) / first), names] for c, names in top], factors] for top, factors in rows]
         return Length(0, {json.dumps(unit): [first, value / first]})
 
     def exact(self, rows):
         value = self.number(rows)
-        require(isinstance(value, fmpq), "a time is not rational")
+        need(isinstance(value, fmpq), "a time is not rational")
         return value
 
     def load(self, own):
         begin, end = (None if own[key] is None else self.exact(own[key]) for key in ("from", "until"))
         begin = begin if begin is not None else NIL
-        require(begin >= 0 and (end is None or end > begin), "a load ends before it begins")
-        require(self.plain(own["course"]) == self.plain(self.conjugate(own["course"])), "a load is not real")
+        need(begin >= 0 and (end is None or end > begin), "a load ends before it begins")
+        need(self.plain(own["course"]) == self.plain(self.conjugate(own["course"])), "a load is not real")
         return {"course": own["course"], "from": begin, "until": end}
 
     def conjugate(self, rows):
@@ -176,19 +176,19 @@ class Parts:
         """A rational function of time: its powers, in complex numbers."""
         powers = {}
         for top, factors in rows:
-            require(all(self.time not in names for factor, _ in factors for _, names in factor), "a divisor holds the time")
+            need(all(self.time not in names for factor, _ in factors for _, names in factor), "a divisor holds the time")
             below = flint.acb(1)
             for factor, power in factors:
                 below *= self.complex([[factor, []]]).get(0, flint.acb(0)) ** power
             decide(not below.contains(0), "a divisor may be zero")
             for c, names in distinct(top):
-                term, power = flint.acb(fraction(c)), 0
+                term, power = flint.acb(rational(c)), 0
                 for name, exponent in names.items():
-                    require(type(exponent) is int and 0 < exponent <= 10**4, "a power is no positive integer")
+                    need(type(exponent) is int and 0 < exponent <= 10**4, "a power is no positive integer")
                     if name == self.time:
                         power = exponent
                     else:
-                        require(name in self.roots, f"{name} has no value")
+                        need(name in self.roots, f"{name} has no value")
                         term *= flint.acb(self.roots[name]).sqrt() ** exponent
                 powers[power] = powers.get(power, flint.acb(0)) + term / below
         return powers
@@ -204,15 +204,15 @@ class Parts:
                     if names.keys() - {self.time}:
                         return None
                     power = names.get(self.time, 0)
-                    require(type(power) is int and 0 <= power <= 10**4, "a power is no positive integer")
-                    coefficients[power] = coefficients.get(power, NIL) + fraction(c)
+                    need(type(power) is int and 0 <= power <= 10**4, "a power is no positive integer")
+                    coefficients[power] = coefficients.get(power, NIL) + rational(c)
         return coefficients
 
     def pushes(self, load, begin, step, order):
         """The Taylor coefficients of a load in whole steps from a time on."""
         known = self.is_polynomial(load["course"])
         if known is not None:
-            require(all(power <= order for power in known), "a load has too high a power")
+            need(all(power <= order for power in known), "a load has too high a power")
             series = [known.get(k, NIL) for k in range(order + 1)]
             return [short(c * step**k) for k, c in enumerate(moved(series, begin))]
 
@@ -221,7 +221,7 @@ class Parts:
             t = flint.acb_series([time, step], prec=order + 1)
             for exponent, function in load["course"]:
                 linear, powers = self.complex(exponent), self.complex(function)
-                require(all(power <= 1 for power in linear), "an exponent is not linear in the time")
+                need(all(power <= 1 for power in linear), "an exponent is not linear in the time")
                 x = (
                     flint.acb_series([linear.get(0, 0)], prec=order + 1)
                     + flint.acb_series([linear.get(1, 0)], prec=order + 1) * t
@@ -396,15 +396,15 @@ class Story:
 
     def __init__(self, cert):
         self.parts = parts = Parts(cert)
-        self.order, self.step, self.end = cert["terms"], fraction(cert["step"]), fraction(cert["to"])
-        require(self.step > 0 and self.end > 0 and self.end / self.step < 8000, "a window without steps, or with too many")
+        self.order, self.step, self.end = cert["terms"], rational(cert["step"]), rational(cert["to"])
+        need(self.step > 0 and self.end > 0 and self.end / self.step < 8000, "a window without steps, or with too many")
         self.told = []
         for contact, kind, low, high in cert["events"]:
-            require(type(contact) is int and 0 <= contact < len(parts.contacts), "an event without a contact")
-            self.told.append((parts.contacts[contact], kind, fraction(low), fraction(high)))
-            require(0 <= self.told[-1][2] <= self.told[-1][3], "an interval runs backwards")
+            need(type(contact) is int and 0 <= contact < len(parts.contacts), "an event without a contact")
+            self.told.append((parts.contacts[contact], kind, rational(low), rational(high)))
+            need(0 <= self.told[-1][2] <= self.told[-1][3], "an interval runs backwards")
             before = [own[3] for own in self.told[:-1] if own[0] == self.told[-1][0]]
-            require(not before or before[-1] <= self.told[-1][2], "two events of a contact are in one interval")
+            need(not before or before[-1] <= self.told[-1][2], "two events of a contact are in one interval")
         self.origins, self.now = [arb(0)], START
         self.begins, self.past, self.happened = [], [], []
         self.closed, self.idle, self.flush, self.pressed = set(parts.contacts), {}, set(), set()
@@ -417,7 +417,7 @@ class Story:
         for i in parts.contacts:  # what is rigid on both sides of a contact moves as one already
             if self.laws.rigid(i):
                 known = [NIL if parts.fixed[r] else self.state["v", r] for r in (i, i + 1)]
-                require(is_nil(known[0] - known[1]), "two rigid bodies meet at the start")
+                need(is_nil(known[0] - known[1]), "two rigid bodies meet at the start")
 
     def when(self, time):
         return self.origins[time[0]] + time[1].value()
@@ -542,7 +542,7 @@ class Story:
             else:
                 known = [speeds[("v", r)] if heavy[r] else NIL for r in (i, i + 1)]
                 is_rigid = all(heavy[r] or self.parts.fixed[r] for r in (i, i + 1))
-                require(not is_rigid or i in self.flush or is_nil(known[0] - known[1]), "two rigid bodies meet")
+                need(not is_rigid or i in self.flush or is_nil(known[0] - known[1]), "two rigid bodies meet")
                 self.happened.append((i, "closing", self.now))
             self.closed ^= {i}
             self.pressed.discard(i)
@@ -550,7 +550,7 @@ class Story:
         self.laws = Laws(self.parts, self.closed)
         freed = set(self.laws.loose) - loose
         for i in freed:
-            require(sign(self.state["alpha", i]) in (0, None), "a compressed spring comes loose")
+            need(sign(self.state["alpha", i]) in (0, None), "a compressed spring comes loose")
             self.state["alpha", i] = NIL
         self.flush = set()
         for i in contacts:
@@ -574,7 +574,7 @@ class Story:
         largest = lambda place, values: max(size(own) for key, own in values.items() if self.place_of(*key) == place)
         for place in {self.place_of(*key) for key in start}:
             norm, forcing, first = (largest(place, values) for values in (norms, driven, start))
-            require((norm + forcing + first).is_finite(), "a motion without bounds")
+            need((norm + forcing + first).is_finite(), "a motion without bounds")
             if not length * norm < 0.75:
                 return None
             bound = ((first + length * forcing) / (1 - length * norm) * arb(self.step)).upper()
@@ -656,7 +656,7 @@ class Story:
                     motion[way, i] = [NIL] * (self.order + 1) if self.parts.endless[r] else waves_out
         self.begins.append(self.now)
         self.past.append(motion)
-        require(len(self.begins) < 8000, "there are too many steps")
+        need(len(self.begins) < 8000, "there are too many steps")
         self.state = {key: horner(motion[key], place) for key in self.state}
         self.gaps = {i: NIL if i in self.closed else horner(guards[i], place) for i in self.gaps}
         self.flush = set()
@@ -683,15 +683,13 @@ class Story:
 
     def root(self, series, low, high):
         """The only zero of what falls between two places."""
-        require(
-            sign(horner(series, low)) == 1 and sign(horner(series, high)) == -1, "a contact does not change when it is said"
-        )
+        need(sign(horner(series, low)) == 1 and sign(horner(series, high)) == -1, "a contact does not change when it is said")
         falls, place = derivative(series), span(low, high)
         decide(sign(horner(falls, place)) == -1, "a contact may change more than once")
         for _ in range(12):
             middle = arb(place.mid())
             newton = middle - horner(series, middle) / horner(falls, place)
-            require(newton.overlaps(place), "a contact does not change when it is said")
+            need(newton.overlaps(place), "a contact does not change when it is said")
             place = newton.intersection(place)
         return place
 
@@ -721,7 +719,7 @@ class Story:
         for factor, what, name, *of in rows:
             kind, n = parts.named[name]
             if kind == "bar":
-                require(what in ("velocity", "force", "displacement") and len(of) == 2, "a bar is read in another way")
+                need(what in ("velocity", "force", "displacement") and len(of) == 2, "a bar is read in another way")
                 link, over = parts.links[n], what == "displacement"
                 both = zip("fg", of)
                 f, g = (NIL if own is None else self.reading((way, n), time - parts.number(own), over) for way, own in both)
@@ -729,11 +727,11 @@ class Story:
                 if what == "force":
                     read = link["force"] + link["impedance"] * (f - g)
             elif what in ("velocity", "displacement"):
-                require(of in (["left"], ["right"]) if kind == "spring" else not of, "a spring has two sides, others have none")
+                need(of in (["left"], ["right"]) if kind == "spring" else not of, "a spring has two sides, others have none")
                 run = n + (of == ["right"]) if kind == "spring" else parts.supports[n][0] if kind == "support" else n
                 read = self.reading(("speed", run), time, what == "displacement")
             else:
-                require(what in ("compression", "force") and kind in ("spring", "support") and not of, "this cannot be read")
+                need(what in ("compression", "force") and kind in ("spring", "support") and not of, "this cannot be read")
                 read = self.reading(("alpha" if kind == "spring" else "u", n), time)
                 if what == "force":
                     run, stiffness, damping = (
@@ -762,20 +760,20 @@ def rational_below(ball):
 def check_motion(cert):
     names = "wavestep_certificate kind title constants time line numbers roots to events step terms bits"
     names += " quantity observed unit at value last_place" if cert["kind"] == "reading" else ""
-    require(set(cert) == set(names.split()), "a certificate has other keys")
+    need(set(cert) == set(names.split()), "a certificate has other keys")
     bits, terms = cert["bits"], cert["terms"]
-    require(all(type(own) is int for own in (bits, terms)) and 4 <= bits <= 4096 and 4 <= terms <= 400, "bits or terms")
+    need(all(type(own) is int for own in (bits, terms)) and 4 <= bits <= 4096 and 4 <= terms <= 400, "bits or terms")
     flint.ctx.prec = bits + 32
     story = Story(cert)
     story.run()
-    require(len(story.told) == len(story.happened), "there are more or fewer events")
+    need(len(story.told) == len(story.happened), "there are more or fewer events")
     times = []
     for contact, kind, low, high in story.told:
         own = next((n for n, event in enumerate(story.happened) if event[0] == contact), None)
-        require(own is not None and story.happened[own][1] == kind, f"there is no {kind} then")
+        need(own is not None and story.happened[own][1] == kind, f"there is no {kind} then")
         _, _, time = story.happened.pop(own)
         exact = time[1].value() if time[0] == 0 else story.when(time)
-        require(
+        need(
             not exact < low
             and not exact > high
             and (isinstance(exact, fmpq) or arb(low) <= exact.lower() and exact.upper() <= arb(high)),
@@ -791,10 +789,10 @@ def check_reading(cert):
     """The decimal is what is read, correctly rounded, whatever the time and the unit are within their intervals."""
     story = check_motion(cert)
     place = cert["last_place"]
-    require(type(place) is int and abs(place) <= 20000, "a place is no number, or too large")
-    value, unit = fraction(cert["value"]), fmpq(10) ** place
-    require(int((value / unit).q) == 1, "the decimal has more digits than it says")
+    need(type(place) is int and abs(place) <= 20000, "a place is no number, or too large")
+    value, unit = rational(cert["value"]), fmpq(10) ** place
+    need(int((value / unit).q) == 1, "the decimal has more digits than it says")
     time = interval(cert["at"])
-    require(sign(time) in (0, 1) and sign(story.end - time) == 1, "the time is outside the window")
+    need(sign(time) in (0, 1) and sign(story.end - time) == 1, "the time is outside the window")
     error = abs(story.observed(cert["observed"], time) * interval(cert["unit"]) - value)
-    require(bool(arb(error) <= arb(unit / 2)) if isinstance(error, arb) else error <= unit / 2, "the value is another one")
+    need(bool(arb(error) <= arb(unit / 2)) if isinstance(error, arb) else error <= unit / 2, "the value is another one")

@@ -9,17 +9,17 @@ from fractions import Fraction
 from flint import arb, fmpq
 
 
-class Unproven(Exception):
+class Wrong(Exception):
     """The claim does not follow."""
 
 
-class Undecided(Unproven):
+class Undecided(Wrong):
     """Enclosures do not tell whether it follows."""
 
 
-def require(condition, told):
+def need(condition, told):
     if not condition:
-        raise Unproven(told)
+        raise Wrong(told)
 
 
 def decide(condition, told):
@@ -27,9 +27,9 @@ def decide(condition, told):
         raise Undecided(told)
 
 
-def fraction(text):
-    require(type(text) is str and len(text) <= 20000, "a number is no text, or too long")
-    require(re.fullmatch(r"-?[0-9]+(/[0-9]+|(\.[0-9]+)?(e-?[0-9]{1,4})?)", text), f"{text[:40]} is no number")
+def rational(text):
+    need(type(text) is str and len(text) <= 20000, "a number is no text, or too long")
+    need(re.fullmatch(r"-?[0-9]+(/[0-9]+|(\.[0-9]+)?(e-?[0-9]{1,4})?)", text), f"{text[:40]} is no number")
     value = Fraction(text)
     return fmpq(value.numerator, value.denominator)
 
@@ -77,9 +77,9 @@ def dot(row, column):
 
 
 def interval(ends):
-    require(type(ends) is list, "an interval is no list")
-    low, high = map(fraction, ends)
-    require(low <= high, "an interval runs backwards")
+    need(type(ends) is list, "an interval is no list")
+    low, high = map(rational, ends)
+    need(low <= high, "an interval runs backwards")
     return low if low == high else span(low, high)
 
 

@@ -263,6 +263,12 @@ fn refused(reason: &str) -> Failure {
     Failure::usage(message, "certify its pieces, with --through")
 }
 
+fn refuse_symbols(problem: &Problem) -> Result<(), Failure> {
+    let Some(symbol) = problem.symbols().into_iter().next() else { return Ok(()) };
+    let remedy = format!("give a number for it, as in --set {symbol}=1/4");
+    Err(Failure::usage(format!("the symbol {symbol} has no value"), remedy))
+}
+
 /// A quantity as a sum of waves.
 fn observation(problem: &Problem, wanted: &Wanted) -> Result<Observation, Failure> {
     let opens = problem.network().is_ok_and(|network| !has_periods(network));
@@ -304,10 +310,7 @@ fn observed(
 ) -> Result<(Map<String, Json>, Vec<BigRational>), Failure> {
     let wanted = problem.wanted(name)?;
     let observation = observation(problem, &wanted)?;
-    if let Some(symbol) = problem.symbols().first() {
-        let remedy = format!("give a number for it, as in --set {symbol}=1/4");
-        return Err(Failure::usage(format!("the symbol {symbol} has no value"), remedy));
-    }
+    refuse_symbols(problem)?;
     let period = problem.shortest_period().expect("without symbols its length is known");
     // The clocks of waves differ: what is seen may be of a later period than its time.
     let delays: Vec<BigRational> =

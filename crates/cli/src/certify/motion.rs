@@ -10,7 +10,7 @@ use serde_json::{Map, Value as Json, json};
 use std::collections::BTreeSet;
 use wavestep::ball::{Ball, Bound, Decimal, Number};
 use wavestep::enclosure::Numbers;
-use wavestep::expression::{Expression, Fraction, Root};
+use wavestep::expression::{Fraction, Root};
 use wavestep::history::{Event, EventKind};
 use wavestep::network::{Contacts, ElementLaw, Layout, Network, Node};
 use wavestep::problem::Problem;
@@ -81,13 +81,12 @@ impl<'a> Line<'a> {
         if network.local_contact().is_some() {
             return Err(refused("beside local contacts"));
         }
-        if let Some(symbol) = problem.symbols().first() {
-            let remedy = format!("give a number for it, as in --set {symbol}=1/4");
-            return Err(Failure::usage(format!("the symbol {symbol} has no value"), remedy));
-        }
+        super::refuse_symbols(problem)?;
         let layout = Layout::of(network.scene(), network.model(), contacts);
         let numbers = Numbers::new(&network.model().constants);
-        Ok(Line { problem, network, layout, numbers })
+        let line = Line { problem, network, layout, numbers };
+        line.refuse_loads()?;
+        Ok(line)
     }
 
     /// What is claimed of all motions: the line, and what its contacts do until an end, which is at most `until` in the user's
@@ -137,12 +136,7 @@ impl<'a> Line<'a> {
         let size = |value: &Fraction| self.size(value);
         let shortest = self.travels().map(size).fold(to, f64::min);
         let mut rate = self.layout.nodes.iter().map(|node| self.rate(node)).fold(0.0, f64::max);
-        let laws = self.layout.nodes.iter().flat_map(|node| &node.elements).map(|own| &own.law);
-        if laws.into_iter().any(|law| *law == ElementLaw::Load(Drive::Velocity)) {
-            return Err(refused("under imposed velocities"));
-        }
         for load in self.network.model().loads.values() {
-            self.refuse_constants(&load.course)?;
             let exponents = load.course.terms().map(|(exponent, _)| exponent);
             let fastest =
                 |own: &Fraction| own.numerator().terms().map(|(_, c)| about(&c)).sum::<f64>();
@@ -204,14 +198,27 @@ impl<'a> Line<'a> {
         damping / mass + (stiffness / mass).sqrt() + stiffness / damps
     }
 
-    /// Loads hold rational numbers and roots only.
-    fn refuse_constants(&self, course: &Expression) -> Result<(), Failure> {
+    /// Loads are forces that hold rational numbers and roots only, at rational times.
+    fn refuse_loads(&self) -> Result<(), Failure> {
+        let mut laws = self.layout.nodes.iter().flat_map(|node| &node.elements);
+        if laws.any(|own| own.law == ElementLaw::Load(Drive::Velocity)) {
+            return Err(refused("under imposed velocities"));
+        }
         let time = &self.network.scene().time;
         let is_other = |own: &Symbol| own != time && own.square().is_none();
-        match course.symbols().into_iter().find(is_other) {
-            Some(symbol) => Err(refused(&format!("under loads that hold the number {symbol}"))),
-            None => Ok(()),
+        for load in self.network.model().loads.values() {
+            if let Some(symbol) = load.course.symbols().into_iter().find(is_other) {
+                return Err(refused(&format!("under loads that hold the number {symbol}")));
+            }
+            if [Some(&load.from), load.until.as_ref()]
+                .into_iter()
+                .flatten()
+                .any(|own| own.as_constant().is_none())
+            {
+                return Err(refused("under loads that begin or end at irrational times"));
+            }
         }
+        Ok(())
     }
 
     /// A time in the unit of the line, between two numbers.
@@ -252,16 +259,13 @@ impl<'a> Line<'a> {
         if high >= *end {
             return Ok(None);
         }
-        let [low, high] = match low == high {
-            true => [low.to_string(), high.to_string()],
-            // Wider, so that what a checker finds fits inside.
-            false => {
-                let ten = BigRational::from_integer(10.into());
-                let digits = digits.max(LEAST_DIGITS);
-                let room = &high / ten.pow(i32::try_from(digits).expect("digits are limited"));
-                decimals(&(low - &room), &(high + room), digits + 1)
-            }
+        let digits = digits.max(LEAST_DIGITS);
+        // Wider, so that what a checker finds fits inside.
+        let room = match low == high {
+            true => BigRational::default(),
+            false => &high / BigRational::from_integer(10.into()).pow(digits as i32),
         };
+        let [low, high] = written([low - &room, high + room], digits + 1);
         let kind = match event.kind {
             EventKind::Impact | EventKind::Closing => "closing",
             EventKind::Opening => "opening",
@@ -274,8 +278,8 @@ impl<'a> Line<'a> {
     fn told_numbers(&self, symbols: &BTreeSet<Symbol>, bits: u64) -> Json {
         let numbers = symbols.iter().filter_map(|symbol| {
             let (low, high) = self.numbers.value(symbol, bits)?.endpoints();
-            let [low, high] = [&low, &high].map(BigRational::from);
-            Some((symbol.to_string(), json!(decimals(&low, &high, bits as usize / 3))))
+            let bounds = [&low, &high].map(BigRational::from);
+            Some((symbol.to_string(), json!(written(bounds, bits as usize / 3))))
         });
         Json::Object(numbers.collect())
     }
@@ -285,8 +289,11 @@ fn about(value: &BigRational) -> f64 {
     value.to_f64().unwrap_or(f64::INFINITY).abs()
 }
 
-/// Decimals around an interval.
-pub fn decimals(low: &BigRational, high: &BigRational, digits: usize) -> [String; 2] {
+/// The ends of an interval, exactly where they are one number, else as decimals around it.
+pub fn written([low, high]: [BigRational; 2], digits: usize) -> [String; 2] {
+    if low == high {
+        return [low.to_string(), high.to_string()];
+    }
     let end = |value, bound| Decimal::bound(value, digits, bound).to_string();
-    [end(low, Bound::Lower), end(high, Bound::Upper)]
+    [end(&low, Bound::Lower), end(&high, Bound::Upper)]
 }

@@ -1,7 +1,7 @@
 //! Certificates of values that are no sums of pieces: where contacts open, in scenes with units, where rates have no formula, and
 //! of displacements. A checker follows the line, and reads the value off its elements.
 
-use super::motion::{Line, decimals};
+use super::motion::{Line, written};
 use super::rounded;
 use super::writer::Writer;
 use crate::failure::Failure;
@@ -41,17 +41,13 @@ pub fn certificate(
     let precision = line.precision(&until, digits)?;
     let at = line.in_units(at, precision.bits)?;
     let places = precision.bits as usize / 3;
-    let ends = |[low, high]: [BigRational; 2]| match low == high {
-        true => json!([low.to_string(), high.to_string()]),
-        false => json!(decimals(&low, &high, places)),
-    };
     let unit = Value::of(&line.unit(&measured.unit, precision.bits)?, 1).bounds();
     let (decimal, last_place) = rounded(value, digits);
     let mut document = line.document("reading", &end, &until, digits, &precision, &mut writer)?;
     document.insert("quantity".into(), json!(name));
     document.insert("observed".into(), json!(rows));
-    document.insert("unit".into(), ends(unit));
-    document.insert("at".into(), ends(at));
+    document.insert("unit".into(), json!(written(unit, places)));
+    document.insert("at".into(), json!(written(at, places)));
     document.insert("value".into(), json!(decimal.to_string()));
     document.insert("last_place".into(), json!(last_place));
     Ok(Some(document))
