@@ -11,8 +11,11 @@ import sys
 from fractions import Fraction
 
 from exact import LATEST, MINUS, ONE, ROOTS, Wrong, accumulate, add, decimal, frozen, is_count, is_zero, key_of, less, need, number
-from exact import number_at, on_period, plus, power, put, rational, read, read_form, read_function, sign, sign_on, slope, times, whole
+from exact import number_at, on_period, plus, power, printable, put, rational, read, read_form, read_function, sign, sign_on, slope, times, whole
 from motion import check_events, check_reading
+
+# What Python raises where a certificate is not laid out as it should be.
+MALFORMED = (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError, MemoryError)
 
 # From the drawing of a line to its laws.
 
@@ -517,11 +520,15 @@ def read_square(text):
     return Fraction(square)
 
 
-def check(cert):
+def read_roots(cert):
     need(type(cert["wavestep_certificate"]) is int and cert["wavestep_certificate"] == 1, "a certificate of another version")
     ROOTS.clear()
     ROOTS.update({symbol: read_square(square) for symbol, square in cert["roots"].items()})
     need(len(set(ROOTS.values())) == len(ROOTS) <= 16, "two roots of one number, or too many")
+
+
+def check(cert):
+    read_roots(cert)
     kinds = {"pieces": check_pieces, "general": check_general, "value": check_value, "doubles": check_doubles}
     kinds |= {"roots": check_roots, "extremum": check_extremum, "events": check_events, "reading": check_reading}
     need(type(cert["title"]) is str and cert["title"].encode(), "a title is missing")
@@ -547,29 +554,28 @@ def no_number(text):
     raise ValueError(f"{text[:40]} is neither a text nor an integer")
 
 
-def printable(text):
-    """On one line, without what a terminal would obey."""
-    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
-
-
 def verdict(name):
     """What is told of a file, on one line, and whether it is proven."""
     proven, told = judged(name)
     return proven, printable(f"{name}: {told}")
 
 
+def load(name):
+    with open(name, encoding="utf-8") as file:
+        ways = {"object_pairs_hook": one_each, "parse_int": short, "parse_float": no_number, "parse_constant": no_number}
+        return json.load(file, **ways)
+
+
 def judged(name):
     try:
-        with open(name, encoding="utf-8") as file:
-            ways = {"object_pairs_hook": one_each, "parse_int": short, "parse_float": no_number, "parse_constant": no_number}
-            certificate = json.load(file, **ways)
+        certificate = load(name)
     except (OSError, ValueError, RecursionError) as error:
         return False, f"cannot be read: {error}"
     try:
         check(certificate)
     except Wrong as error:
         return False, f"NOT proven: {error}"
-    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError, MemoryError) as error:
+    except MALFORMED as error:
         return False, f"NOT proven: it is not laid out as it should be: {error!r}"
     return True, f"proven ({certificate['kind']} of {json.dumps(certificate['title'], ensure_ascii=False)})"
 

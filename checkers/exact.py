@@ -34,6 +34,11 @@ def decided(claim, told):
         raise Undecided(told)
 
 
+def printable(text):
+    """On one line, without what a terminal would obey."""
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+
+
 def product(a, b):
     """Two monomials: the product, and the rational number that squares of roots leave."""
     if not a or not b:
@@ -82,23 +87,25 @@ def accumulate(total, expression, factor=None):
     return total
 
 
+def over_one(function):
+    """A rational function over one denominator: its powers of factors, and what stands above, a function without any below."""
+    powers = {}
+    for below in function:
+        for factor, power in below:
+            powers[factor] = max(power, powers.get(factor, 0))
+    total = {}
+    for below, top in function.items():
+        lacking = ONE
+        for factor, power in powers.items():
+            for _ in range(power - dict(below).get(factor, 0)):
+                lacking = add({}, {(): dict(factor)}, lacking)
+        add(total, {(): top}, lacking)
+    return powers, total
+
+
 def is_zero(expression):
     """Whether each rational function is zero: over one denominator its numerators cancel."""
-    for function in expression.values():
-        powers = {}
-        for below in function:
-            for factor, power in below:
-                powers[factor] = max(power, powers.get(factor, 0))
-        total = {}
-        for below, top in function.items():
-            lacking = ONE
-            for factor, power in powers.items():
-                for _ in range(power - dict(below).get(factor, 0)):
-                    lacking = add({}, {(): dict(factor)}, lacking)
-            add(total, {(): top}, lacking)
-        if any(total.values()):
-            return False
-    return True
+    return not any(top for function in expression.values() for top in over_one(function)[1].values())
 
 
 def terms(function, s):

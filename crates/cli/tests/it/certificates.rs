@@ -11,7 +11,7 @@ use wavestep::scenes::SCENES;
 const WITHOUT: [&str; 3] = ["incommensurate", "local-contact", "hertz-striker"];
 
 /// Scenes that have certificates of their pieces.
-fn certified() -> impl Iterator<Item = &'static str> {
+pub(super) fn certified() -> impl Iterator<Item = &'static str> {
     SCENES.iter().map(|scene| scene.name).filter(|name| !WITHOUT.contains(name))
 }
 
@@ -125,18 +125,17 @@ const RATIOS: [&str; 6] = ["1/10", "1/4", "1", "3/2", "3", "10"];
 /// A Python with python-flint, where `.ci/run` put it.
 const FLINT: &str = "target/flint/bin/python";
 
-/// What a script of `checkers/` says of files in a folder; `None` without the Python that it needs.
-fn run_script(
+/// Whether a program succeeds in a folder, and what it says; `None` where it is missing.
+pub(super) fn run_program(
     folder: &Path,
-    python: &str,
-    script: &str,
+    program: &str,
     arguments: &[String],
 ) -> Option<(bool, String)> {
-    let mut command = Command::new(python);
-    command.arg(format!("{ROOT}/checkers/{script}")).args(arguments).current_dir(folder);
+    let mut command = Command::new(program);
+    command.args(arguments).current_dir(folder);
     match command.env("PYTHONDONTWRITEBYTECODE", "1").output() {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            eprintln!("{python} is missing: left out");
+            eprintln!("{program} is missing: left out");
             None
         }
         output => {
@@ -145,6 +144,17 @@ fn run_script(
             Some((output.status.success(), String::from_utf8(told).unwrap()))
         }
     }
+}
+
+/// What a script of `checkers/` says of files in a folder.
+pub(super) fn run_script(
+    folder: &Path,
+    python: &str,
+    script: &str,
+    arguments: &[String],
+) -> Option<(bool, String)> {
+    let script = format!("{ROOT}/checkers/{script}");
+    run_program(folder, python, &[&[script], arguments].concat())
 }
 
 fn with_flint(folder: &Path, script: &str, arguments: &[String]) -> Option<(bool, String)> {
@@ -165,7 +175,7 @@ fn assert_proven(folder: &Path, files: &[String]) {
 }
 
 /// Writes a certificate.
-fn certify(folder: &Path, line: &str, file: &str) {
+pub(super) fn certify(folder: &Path, line: &str, file: &str) {
     let words: Vec<&str> = line.split(' ').chain(["-o", file]).collect();
     let (code, _, errors) = run(folder, &[&["certify"], &words[..]].concat());
     assert_eq!((code, errors.contains("error")), (0, false), "{line}: {errors}");

@@ -27,6 +27,7 @@ mod snapshot;
 mod strains;
 mod sweep;
 mod table;
+mod theories;
 mod typeset;
 mod validity;
 mod vocabulary;
