@@ -221,8 +221,7 @@ impl Problem {
 
     /// The last period with which something arrives, where waves have one period and do not return.
     pub(super) fn last_arrival(&self) -> Option<usize> {
-        let recurrence = self.network().ok()?.recurrence().ok()?;
-        recurrence.arrivals()?.iter().flatten().copied().max()
+        self.network().ok()?.recurrence().ok()?.last_arrival()
     }
 
     /// What it was read from.

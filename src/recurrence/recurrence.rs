@@ -9,6 +9,7 @@ use crate::recurrence::statement::{
     Statement,
 };
 use std::collections::BTreeSet;
+use std::sync::{Arc, OnceLock};
 use wavestep_polynomial::{Polynomial, Symbol};
 
 /// The most arrivals of one wave that are listed.
@@ -21,14 +22,25 @@ const MOST_ARRIVALS: usize = 1000;
 /// - `steps` holds one step a wave, and each uses on the current period only waves of steps
 ///   before it. Where equations are coupled by derivatives, waves are added that uncouple them;
 ///   these are numbered after those stated.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, Debug)]
 pub struct Recurrence {
     statement: Statement,
     steps: Vec<Step>,
     hidden: usize,
     coupled: Vec<Coupled>,
     growth: Growth,
+    /// When something arrives, once it was asked for, here or of a clone.
+    arrivals: Arc<OnceLock<Option<Vec<BTreeSet<usize>>>>>,
 }
+
+/// All else follows from the statement.
+impl PartialEq for Recurrence {
+    fn eq(&self, other: &Recurrence) -> bool {
+        self.statement == other.statement
+    }
+}
+
+impl Eq for Recurrence {}
 
 /// The degree of pieces and echoes of order `n` is at most about `fixed + (n + 1) per_period`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -55,7 +67,8 @@ impl Recurrence {
         (statement.constants, statement.assumptions) =
             (naming.numbers.into_constants(), naming.assumptions);
         let growth = Growth::of(&statement, &steps);
-        Ok(Recurrence { statement, steps, hidden, coupled, growth })
+        let arrivals = Arc::default();
+        Ok(Recurrence { statement, steps, hidden, coupled, growth, arrivals })
     }
 
     pub fn statement(&self) -> &Statement {
@@ -82,33 +95,28 @@ impl Recurrence {
 
     /// For each wave, the periods at which something arrives: on all others the piece continues the one before it. `None` where
     /// waves return, or where arrivals are too many to list.
-    pub(crate) fn arrivals(&self) -> Option<Vec<BTreeSet<usize>>> {
+    pub(crate) fn arrivals(&self) -> Option<&[BTreeSet<usize>]> {
+        self.arrivals.get_or_init(|| self.find_arrivals()).as_deref()
+    }
+
+    fn find_arrivals(&self) -> Option<Vec<BTreeSet<usize>>> {
         let equations = put_in(&self.steps, &self.statement.time);
-        let mut known = vec![BTreeSet::from([0]); self.steps.len()];
-        // A chain without a return passes each wave once.
-        for _ in 0..=self.steps.len() {
-            let before = known.clone();
-            for (step, equation) in &equations {
-                let continuous = step.start.iter().map(|start| &start.continuous);
-                let mut own = BTreeSet::new();
-                for form in continuous.chain([equation]) {
-                    own.extend(form.forcing_terms().iter().map(|(lag, _)| lag));
-                    for (of, operator) in form.operators() {
-                        for lag in operator.lags().filter(|lag| of != step.wave || *lag > 0) {
-                            own.extend(known[of].iter().map(|earlier| earlier + lag));
-                        }
-                    }
-                }
-                known[step.wave].extend(own);
-            }
-            if known == before {
-                return Some(known);
-            }
-            if known.iter().any(|own| own.len() > MOST_ARRIVALS) {
-                return None;
-            }
+        let mut known: Vec<Option<BTreeSet<usize>>> = vec![None; self.steps.len()];
+        // What depends on nothing unknown is next; a wave that returns depends on itself.
+        for _ in 0..self.steps.len() {
+            let next = equations.iter().find_map(|(step, equation)| {
+                let own = known[step.wave].is_none().then(|| arrivals_of(step, equation, &known));
+                Some((step.wave, own??))
+            });
+            let (wave, own) = next.filter(|(_, own)| own.len() <= MOST_ARRIVALS)?;
+            known[wave] = Some(own);
         }
-        None
+        known.into_iter().collect()
+    }
+
+    /// The last period with which something arrives, by any wave; `None` as above.
+    pub(crate) fn last_arrival(&self) -> Option<usize> {
+        self.arrivals()?.iter().flatten().copied().max()
     }
 
     /// The number of waves, those that were added to uncouple equations included.
@@ -257,6 +265,25 @@ pub(crate) fn put_in<'s>(steps: &'s [Step], time: &Symbol) -> Vec<(&'s Step, Lin
         (step, equation)
     });
     equations.collect()
+}
+
+/// The periods at which something arrives with the wave of a step; `None` where it depends on a wave of which they are not known.
+fn arrivals_of(
+    step: &Step,
+    equation: &LinearForm,
+    known: &[Option<BTreeSet<usize>>],
+) -> Option<BTreeSet<usize>> {
+    let mut own = BTreeSet::from([0]);
+    let continuous = step.start.iter().map(|start| &start.continuous);
+    for form in continuous.chain([equation]) {
+        own.extend(form.forcing_terms().iter().map(|(lag, _)| lag));
+        for (of, operator) in form.operators() {
+            for lag in operator.lags().filter(|lag| of != step.wave || *lag > 0) {
+                own.extend(known[of].as_ref()?.iter().map(|earlier| earlier + lag));
+            }
+        }
+    }
+    Some(own)
 }
 
 /// The right side of an equation that is solved for the wave of a step.

@@ -181,8 +181,8 @@ fn square_free_factors(p: &[BigInt]) -> Option<Vec<Vec<BigInt>>> {
     }
     let lead = p[degree].abs();
     let norm: BigInt = p.iter().map(BigInt::abs).sum();
-    // Coefficients of factors are at most 2^n ‖p‖ (Mignotte); those here are multiplied by the leading one.
-    let bound = (norm * &lead) << (degree + 1);
+    // Of a factor whose leading coefficient is that of p, all are at most 2^n ‖p‖ (Mignotte), of either sign.
+    let bound = norm << (degree + 1);
     let slope = derivative(p);
     for prime in MERSENNE.map(|e| (BigInt::one() << e) - 1).into_iter().filter(|p| *p > bound) {
         let prime = Prime(prime);
@@ -210,9 +210,8 @@ fn square_free_factors(p: &[BigInt]) -> Option<Vec<Vec<BigInt>>> {
             }
             divides
         });
-        if rest.len() > 1 {
-            found.push(rest);
-        }
+        // One part at least is left.
+        found.push(rest);
         return Some(found);
     }
     None

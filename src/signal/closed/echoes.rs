@@ -111,8 +111,7 @@ fn last_number(network: &Network) -> Result<Option<usize>, EvaluateError> {
     if network.lattice().periods().len() > 1 {
         return Ok(None);
     }
-    let arrivals = network.recurrence()?.arrivals();
-    Ok(arrivals.map(|all| all.iter().flatten().copied().max().unwrap_or(0)))
+    Ok(network.recurrence()?.last_arrival())
 }
 
 /// How many whole periods fit into a time, or one more; no more than a limit.

@@ -10,8 +10,8 @@ use crate::signal::signal::{Limit, Point};
 use crate::solution::{EchoRow, EchoTable, GeneralForm, Solution};
 use num_traits::{Signed, ToPrimitive, Zero};
 use std::borrow::Cow;
-use std::cell::{OnceCell, RefCell};
-use std::collections::{BTreeMap, BTreeSet};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 use wavestep_polynomial::{Rational, Symbol};
 
@@ -30,8 +30,6 @@ pub(super) struct ExactEchoes<'a> {
     period: Rational,
     /// The echoes of waves asked for, with the order they are known to.
     echoes: RefCell<BTreeMap<WaveIndex, (usize, Rc<Echoes>)>>,
-    /// By wave, when something arrives, once it was asked for.
-    arrivals: OnceCell<Option<Vec<BTreeSet<usize>>>>,
 }
 
 impl<'a> ExactEchoes<'a> {
@@ -42,8 +40,7 @@ impl<'a> ExactEchoes<'a> {
         }
         let period = recurrence.statement().period.as_constant();
         let period = period.expect("a period without symbols is a number");
-        let (echoes, arrivals) = Default::default();
-        Ok(ExactEchoes { solution, period, echoes, arrivals })
+        Ok(ExactEchoes { solution, period, echoes: RefCell::default() })
     }
 
     /// The recurrence that is solved.
@@ -184,8 +181,7 @@ impl<'a> ExactEchoes<'a> {
         if last.is_negative() {
             return Ok(None);
         }
-        let arrivals = self.arrivals.get_or_init(|| self.recurrence().arrivals());
-        if let Some(all) = arrivals.as_ref().and_then(|all| all[wave].last())
+        if let Some(all) = self.recurrence().arrivals().and_then(|all| all[wave].last())
             && last > (*all).into()
         {
             return Ok(Some(*all));

@@ -57,8 +57,8 @@ pub struct ClosedForm {
     pub(super) numbers: Rc<Numbers>,
     /// The echoes, where arrivals lie on no grid.
     pub(super) lattice: Option<Rc<Arriving>>,
-    /// By wave, when something arrives, once it was asked for.
-    arrivals: OnceCell<Option<Vec<BTreeSet<usize>>>>,
+    /// By wave, the arrivals on a grid that are worked out, where others are left out.
+    arrivals: Option<Rc<[BTreeSet<usize>]>>,
     /// What each echo can bring to what is seen, once it was asked for.
     shares: Rc<OnceCell<Option<Shares>>>,
     /// The echoes that are worked out, where others may be left out.
@@ -121,7 +121,7 @@ impl ClosedForm {
             unit,
             slowness,
             lattice: None,
-            arrivals: OnceCell::new(),
+            arrivals: None,
             shares: Rc::default(),
             kept: None,
             seen: Rc::new(observation.clone()),
@@ -153,7 +153,7 @@ impl ClosedForm {
         };
         let Some(shares) = shares else { return Ok(None) };
         let (kept, arrivals) = match &self.lattice {
-            Some(lattice) => (shares.keep(lattice, most), OnceCell::new()),
+            Some(lattice) => (shares.keep(lattice, most), None),
             None => {
                 let kept = shares.keep_first(&self.recurrence, most);
                 let last = kept.demand.last().unwrap_or(0);
@@ -161,7 +161,7 @@ impl ClosedForm {
                     return Ok(None);
                 }
                 let arrivals = vec![(0..=last).collect(); self.recurrence.wave_count()];
-                (kept, OnceCell::from(Some(arrivals)))
+                (kept, Some(arrivals.into()))
             }
         };
         let (kept, seen) = (Some(Rc::new(kept)), Rc::new(self.observation.clone()));
@@ -268,7 +268,7 @@ impl ClosedForm {
     }
 
     fn all_arrivals(&self) -> Option<&[BTreeSet<usize>]> {
-        self.arrivals.get_or_init(|| self.recurrence.arrivals()).as_deref()
+        self.arrivals.as_deref().or_else(|| self.recurrence.arrivals())
     }
 
     fn whole_periods(&self, time: &Fraction, limit: usize) -> Result<usize, EvaluateError> {

@@ -33,6 +33,12 @@ fn factors_of_known_polynomials() {
     assert_eq!(factors("b^3 + b*mu + s + 2"), one("b^3 + b*mu + s + 2"));
     // Where b is 3 the degree in s drops, and what is left has no factors: that says nothing.
     assert_eq!(factors("b*s^2 - 3*s^2 + b*s - 2*s + 1").len(), 2);
+    // The leading coefficient times a factor is larger than any coefficient of the polynomial.
+    let two_factors = factors("1208925819614629174706176*s^2 + 4398046511104*s + 3");
+    assert_eq!(
+        two_factors,
+        ["1099511627776*s + 1", "1099511627776*s + 3"].map(|p| (p.to_owned(), 1))
+    );
     assert!(read("0").factors().is_none());
 }
 
