@@ -10,12 +10,14 @@ import random
 import re
 import sys
 
+from reading import Wrong, main, need
+
 try:
     import flint
     from flint import acb, acb_series, arb, fmpq, fmpq_mat, fmpq_mpoly_ctx
 
     from motion_arb import check_motion, check_reading
-    from series_arb import Wrong, need, rational
+    from series_arb import rational
 except ImportError:
     if __name__ != "__main__":
         raise
@@ -1054,53 +1056,5 @@ def check(cert):
     kinds[cert["kind"]](cert, claim)
 
 
-def distinct(pairs):
-    keys = [key for key, _ in pairs]
-    if len(set(keys)) != len(keys):
-        raise ValueError("a key stands twice in an object")
-    return dict(pairs)
-
-
-def integer(digits):
-    if len(digits) > 12:
-        raise ValueError("an integer is too long")
-    return int(digits)
-
-
-def refused(text):
-    raise ValueError(f"{text[:40]} is neither a text nor an integer")
-
-
-def verdict(name):
-    """What is told of a file, on one line that no title can break, and whether it is proven."""
-    proven, told = judge(name)
-    line = f"{name}: {told}"
-    return proven, "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
-
-
-def judge(name):
-    try:
-        with open(name, encoding="utf-8") as file:
-            certificate = json.load(
-                file, object_pairs_hook=distinct, parse_int=integer, parse_float=refused, parse_constant=refused
-            )
-    except (OSError, ValueError, RecursionError) as error:
-        return False, f"cannot be read: {error}"
-    try:
-        check(certificate)
-    except Wrong as error:
-        return False, f"NOT proven: {error}"
-    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError, MemoryError) as error:
-        return False, f"NOT proven: it is not laid out as it should be: {error!r}"
-    return True, f"proven ({certificate['kind']} of {json.dumps(certificate['title'], ensure_ascii=False)})"
-
-
 if __name__ == "__main__":
-    if not sys.argv[1:] or sys.argv[1].startswith("-"):
-        print(f"usage: {sys.argv[0]} CERTIFICATE.json ...", file=sys.stderr)
-        sys.exit(2)
-    sys.set_int_max_str_digits(0)  # texts have a bound of their own
-    sys.stdout.reconfigure(errors="backslashreplace")
-    verdicts = [verdict(name) for name in sys.argv[1:]]
-    print("\n".join(told for _, told in verdicts))
-    sys.exit(not all(proven for proven, _ in verdicts))
+    main(check)

@@ -10,33 +10,12 @@ import random
 import re
 from fractions import Fraction
 
+from reading import Wrong, need
+
 ROOTS = {}  # symbols that stand for square roots, with what is below these
 ONE = {(): {(): 1}}
 MINUS = {(): {(): {(): -1}}}  # the expression -1
 LONGEST, HIGHEST, LATEST, PLACES = 20000, 10**4, 10**6, 20000  # characters of a number; powers; delays in periods; decimals
-
-
-class Wrong(Exception):
-    """What a certificate claims does not follow."""
-
-
-class Undecided(Wrong):
-    """Enclosures do not tell whether it follows."""
-
-
-def need(claim, told):
-    if not claim:
-        raise Wrong(told)
-
-
-def decided(claim, told):
-    if not claim:
-        raise Undecided(told)
-
-
-def printable(text):
-    """On one line, without what a terminal would obey."""
-    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
 def product(a, b):

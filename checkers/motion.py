@@ -7,8 +7,8 @@ adds and multiplies these.
 from fractions import Fraction
 from math import comb, isqrt
 
-from exact import MINUS, ROOTS, Ball, Undecided, Wrong, accumulate, coefficients, decided, decimal, is_zero, need, number, put
-from exact import frozen, rational, read, read_function, thawed
+from exact import MINUS, ROOTS, Ball, accumulate, coefficients, decimal, frozen, is_zero, number, put, rational, read, read_function, thawed
+from reading import Undecided, Wrong, decided, need
 from series import ONE, PRECISION, ZERO, Duration, Number, begins, interval, is_positive, shifted, slope, total, value
 
 KEYS = {kind: {"is"} for kind in ("free", "fixed", "endless", "contact")}

@@ -11,11 +11,10 @@ from fractions import Fraction
 import flint
 from flint import arb, fmpq
 
+from reading import Undecided, decided, need
 from series_arb import (
     Length,
     NIL,
-    Undecided,
-    decide,
     derivative,
     dot,
     rational,
@@ -24,7 +23,6 @@ from series_arb import (
     is_nil,
     moved,
     product,
-    need,
     short,
     sign,
     size,
@@ -99,7 +97,7 @@ class Parts:
             far = self.endless[i] or self.endless[i + 1]
             need(not far or link["is"] == "bar" and link["travel"] is None, "an endless end without an endless bar")
             need(link["is"] != "bar" or far == (link["travel"] is None), "a bar has no length")
-            decide(link["is"] != "bar" or far or sign(link["travel"].value()) == 1, "a bar has no length")
+            decided(link["is"] != "bar" or far or sign(link["travel"].value()) == 1, "a bar has no length")
             need(
                 link["is"] != "spring" or all(sign(link[key]) in (0, 1) for key in ("stiffness", "damping")),
                 "stiffness or damping may be negative",
@@ -133,7 +131,7 @@ class Parts:
             for factor, power in factors:
                 need(type(power) is int and 0 < power <= 10**4, "a power is no positive integer")
                 below = product(below, self.polynomial(factor) ** power)
-            decide(sign(below) in (1, -1), "a divisor may be zero")
+            decided(sign(below) in (1, -1), "a divisor may be zero")
             total = short(total + self.polynomial(top) / below)
         return total
 
@@ -180,7 +178,7 @@ class Parts:
             below = flint.acb(1)
             for factor, power in factors:
                 below *= self.complex([[factor, []]]).get(0, flint.acb(0)) ** power
-            decide(not below.contains(0), "a divisor may be zero")
+            decided(not below.contains(0), "a divisor may be zero")
             for c, names in distinct(top):
                 term, power = flint.acb(rational(c)), 0
                 for name, exponent in names.items():
@@ -370,7 +368,7 @@ def inverse(rows):
     rows = [list(row) + [fmpq(int(i == j)) for j in range(count)] for i, row in enumerate(rows)]
     for column in range(count):
         usable = [r for r in range(column, count) if sign(rows[r][column]) in (1, -1)]
-        decide(usable, "the laws do not determine a velocity")
+        decided(usable, "the laws do not determine a velocity")
         pivot = max(usable, key=lambda r: float(size(rows[r][column])))
         rows[column], rows[pivot] = rows[pivot], rows[column]
         by = rows[column][column]
@@ -428,7 +426,7 @@ class Story:
 
     def is_later(self, a, b):
         order = 0 if a == b else sign(self.between(a, b))
-        decide(order is not None, "it is not decided which of two times is the later one")
+        decided(order is not None, "it is not decided which of two times is the later one")
         return order == 1
 
     def next_break(self):
@@ -512,7 +510,7 @@ class Story:
     def start_of(self, series):
         first = next((c for c in series if not is_nil(c)), NIL)
         order = sign(first)
-        decide(order is not None, "it is not decided whether a contact changes")
+        decided(order is not None, "it is not decided whether a contact changes")
         return order
 
     def settled(self, waves, loads):
@@ -623,7 +621,7 @@ class Story:
                 break
             high = high / 2
             end, share = (self.now[0], self.now[1].plus(Length(self.step * high))), high
-        decide(last is not None, "a step is too long")
+        decided(last is not None, "a step is too long")
         wide, all_ = last
         guards = {i: self.guard(i, states, solutions) + [self.last(i, wide, all_)] for i in self.gaps}
         for i in sorted(self.closed):
@@ -636,14 +634,14 @@ class Story:
                 self.idle.setdefault(i, self.now)
         change = self.change_before(end)
         if change is not None:
-            decide(sign(share - change[2]) in (0, 1), "it is not decided whether an event is in a step")
+            decided(sign(share - change[2]) in (0, 1), "it is not decided whether an event is in a step")
             place = self.root(guards[change[0]], *change[1:])
         else:
             place = share
         for i, own in guards.items():
             until = change[1] if change is not None and change[0] == i else place
             until = until if isinstance(until, fmpq) else rational_above(until)
-            decide(all(map(is_nil, own)) or stays_positive(own, NIL, until), "a contact may change, but no event is claimed")
+            decided(all(map(is_nil, own)) or stays_positive(own, NIL, until), "a contact may change, but no event is claimed")
         motion = {key: [s[key] for s in states[: self.order]] + [wide[self.order][key]] for key in self.state}
         for r in range(len(self.parts.mass)):
             speed = [self.laws.velocity(s, z, r) for s, z in zip(states, solutions)]
@@ -685,7 +683,7 @@ class Story:
         """The only zero of what falls between two places."""
         need(sign(horner(series, low)) == 1 and sign(horner(series, high)) == -1, "a contact does not change when it is said")
         falls, place = derivative(series), span(low, high)
-        decide(sign(horner(falls, place)) == -1, "a contact may change more than once")
+        decided(sign(horner(falls, place)) == -1, "a contact may change more than once")
         for _ in range(12):
             middle = arb(place.mid())
             newton = middle - horner(series, middle) / horner(falls, place)
@@ -696,14 +694,14 @@ class Story:
     def reading(self, key, time, over=False):
         """What something is at a time, or its integral from the start on."""
         order = sign(time)
-        decide(order is not None, "it is not decided what is there")
+        decided(order is not None, "it is not decided what is there")
         if order == -1:
             return NIL
         sum_ = NIL
         for n, begin in enumerate(self.begins):
             after = self.begins[n + 1] if n + 1 < len(self.begins) else self.now
             passed, left = (time - (own[1].value() if own[0] == 0 else self.when(own)) for own in (begin, after))
-            decide(sign(left) is not None, "it is not decided in which step a time is")
+            decided(sign(left) is not None, "it is not decided in which step a time is")
             is_here, series = sign(left) == -1, self.past[n][key]
             if over:
                 place = passed if is_here else self.between(after, begin)
@@ -781,7 +779,7 @@ def check_motion(cert):
         )
         times.append(time)
     for earlier, later in zip(times, times[1:]):
-        decide(sign(story.between(later, earlier)) in (0, 1), "events are not in the order of time")
+        decided(sign(story.between(later, earlier)) in (0, 1), "events are not in the order of time")
     return story
 
 

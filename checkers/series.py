@@ -8,7 +8,8 @@ c_N x^N, by Lagrange's remainder.
 from fractions import Fraction
 from math import comb
 
-from exact import decided, need, rational
+from exact import rational
+from reading import decided, need
 
 EXACT = 1024  # bits of the longest denominator of a number that is exact
 PRECISION = {"bits": 256}

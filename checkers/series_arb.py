@@ -8,23 +8,7 @@ from fractions import Fraction
 
 from flint import arb, fmpq
 
-
-class Wrong(Exception):
-    """The claim does not follow."""
-
-
-class Undecided(Wrong):
-    """Enclosures do not tell whether it follows."""
-
-
-def need(condition, told):
-    if not condition:
-        raise Wrong(told)
-
-
-def decide(condition, told):
-    if not condition:
-        raise Undecided(told)
+from reading import need
 
 
 def rational(text):

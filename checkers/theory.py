@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 """Writes the pieces of certificates as theorems for Coq: coq/Pieces.v says what they mean, docs/certificates.md how to use them.
 
-The laws are those of check.py, which has proven that they have one solution; that the pieces are it is left to Coq.
+The laws are those of laws.py, and pieces.py proves that they have one solution; Coq proves that the pieces are that solution.
 """
 
 import re
 import sys
 from fractions import Fraction
 
-from check import MALFORMED, check_statement, load, read_roots
-from exact import LATEST, ROOTS, Wrong, is_count, need, over_one, printable, read, read_function, terms, thawed
+from check import read_roots
+from exact import LATEST, ROOTS, is_count, over_one, read, read_function, terms, thawed
+from pieces import check_statement
+from reading import MALFORMED, Wrong, files, load, need, printable
 
 
 class Theory:
@@ -101,25 +103,19 @@ class Theory:
         ]
 
 
-def main(files):
-    if not files or files[0].startswith("-"):
-        print(f"usage: {sys.argv[0]} CERTIFICATE.json ... > THEORY.v", file=sys.stderr)
-        return 2
-    sys.set_int_max_str_digits(0)
-    lines, modules = ["From Wavestep Require Import Pieces.", ""], [f"Certificate{i + 1}" for i in range(len(files))]
-    for module, file in zip(modules, files):
+def main():
+    names = files("CERTIFICATE.json ... > THEORY.v")
+    lines, modules = ["From Wavestep Require Import Pieces.", ""], [f"Certificate{i + 1}" for i in range(len(names))]
+    for module, name in zip(modules, names):
         try:
-            lines += Theory(load(file)).written(module)
+            lines += Theory(load(name)).written(module)
         except (Wrong, OSError) as error:
-            print(printable(f"{file}: {error}"), file=sys.stderr)
-            return 1
+            sys.exit(printable(f"{name}: {error}"))
         except MALFORMED as error:
-            print(printable(f"{file}: it is not laid out as it should be: {error!r}"), file=sys.stderr)
-            return 1
+            sys.exit(printable(f"{name}: it is not laid out as it should be: {error!r}"))
     all_ = ", ".join(f"{module}.proven" for module in modules)
     print("\n".join(lines + [f"Definition proven := ({all_}).", "Print Assumptions proven."]))
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    main()

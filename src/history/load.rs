@@ -5,9 +5,9 @@
 
 use crate::ball::{Ball, ComplexBall, Magnitude, Number};
 use crate::enclosure::{EnclosureError, Numbers, enclose_expression};
-use crate::expression::{Expression, Fraction};
+use crate::expression::{Expression, Transform};
 use crate::history::series::{CellNorm, Series, Truncation};
-use wavestep_polynomial::{Rational, Symbol};
+use wavestep_polynomial::{Rational, Symbol, factorial};
 
 /// Polynomials of this degree or a higher one are not kept exactly.
 const MAX_DEGREE: usize = 16;
@@ -34,27 +34,18 @@ impl Course {
         time: &Symbol,
         bits: u64,
     ) -> Result<Course, EnclosureError> {
-        let polynomial = polynomial_of(course, time, bits);
-        let at_zero = |value: &Fraction| value.substitute(time, &Fraction::zero());
+        let course = Transform::of(course, time);
         let values = |symbol: &Symbol, bits: u64| numbers.value(symbol, bits);
-        let enclose = |value: Fraction| enclose_expression(&value.into(), &values, bits);
+        let enclose = |value: &Expression| enclose_expression(value, &values, bits);
         let mut terms = Vec::new();
-        for (exponent, coefficient) in course.terms() {
-            let rate = enclose(at_zero(&exponent.derivative(time))?)?;
-            let size = enclose(at_zero(exponent)?)?.exp(bits)?;
-            let (mut polynomial, mut derivative) = (Vec::new(), coefficient.clone());
-            let mut factorial = Rational::from_integer(1.into());
-            while !derivative.is_zero() {
-                let value = enclose(at_zero(&derivative)?)?;
-                let value = value.multiply_rational(&factorial.recip(), bits);
-                polynomial.push(value.multiply(&size, bits));
-                let count = num_bigint::BigInt::from(polynomial.len());
-                factorial *= Rational::from_integer(count);
-                derivative = derivative.derivative(time);
+        for (rate, coefficients) in course.poles() {
+            let mut polynomial = Vec::with_capacity(coefficients.len());
+            for (c, own) in coefficients.iter().zip(over_factorials()) {
+                polynomial.push(enclose(c)?.multiply_rational(&own, bits));
             }
-            terms.push((rate, polynomial));
+            terms.push((enclose(&rate.clone().into())?, polynomial));
         }
-        Ok(Course { terms, polynomial })
+        Ok(Course { terms, polynomial: polynomial_of(&course, bits) })
     }
 
     /// A bound of its rates.
@@ -119,18 +110,20 @@ impl Course {
     }
 }
 
+/// 1/j! for all j.
+fn over_factorials() -> impl Iterator<Item = Rational> {
+    (0..).map(|j| Rational::new(1.into(), factorial(j)))
+}
+
 /// A course that is a polynomial with rational coefficients; `None` for others.
-fn polynomial_of(course: &Expression, time: &Symbol, bits: u64) -> Option<Series> {
-    let (mut coefficients, mut derivative) = (Vec::new(), course.clone());
-    let mut factorial = Rational::from_integer(1.into());
-    while !derivative.is_zero() {
-        if coefficients.len() == MAX_DEGREE {
-            return None;
-        }
-        let value = derivative.substitute(time, &Fraction::zero()).ok()?.as_constant()?;
-        coefficients.push(Number::of_rational(value / &factorial, bits));
-        factorial *= Rational::from_integer(coefficients.len().into());
-        derivative = derivative.derivative(time);
-    }
-    Some(Series::new(coefficients, Magnitude::ZERO))
+fn polynomial_of(course: &Transform, bits: u64) -> Option<Series> {
+    let mut poles = course.poles();
+    let coefficients = match (poles.next(), poles.next()) {
+        (None, _) => &[],
+        (Some((rate, own)), None) if rate.is_zero() && own.len() <= MAX_DEGREE => own,
+        _ => return None,
+    };
+    let rational = coefficients.iter().zip(over_factorials());
+    let rational = rational.map(|(c, own)| Some(Number::of_rational(c.as_constant()? * own, bits)));
+    Some(Series::new(rational.collect::<Option<_>>()?, Magnitude::ZERO))
 }

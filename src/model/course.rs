@@ -2,7 +2,7 @@
 
 use crate::ball::{ComplexBall, Number};
 use crate::enclosure::{EnclosureError, Numbers, enclose_expression};
-use crate::expression::{Expression, Fraction, Root};
+use crate::expression::{Expression, Fraction, Root, Transform};
 use num_traits::ToPrimitive;
 use wavestep_polynomial::Symbol;
 
@@ -38,10 +38,9 @@ pub fn double_root(numbers: &Numbers, value: &Root) -> Result<f64, EnclosureErro
     numbers.enclose_root(value, BITS).map(|ball| ball.midpoint().to_double())
 }
 
-fn complex(numbers: &Numbers, value: &Fraction) -> Result<Complex, EnclosureError> {
-    let expression = Expression::from(value.clone());
+fn complex(numbers: &Numbers, value: &Expression) -> Result<Complex, EnclosureError> {
     let values = |symbol: &Symbol, bits: u64| numbers.value(symbol, bits);
-    let ball: ComplexBall = enclose_expression(&expression, &values, BITS)?;
+    let ball: ComplexBall = enclose_expression(value, &values, BITS)?;
     Ok([ball.real().midpoint().to_double(), ball.imaginary().midpoint().to_double()])
 }
 
@@ -52,22 +51,14 @@ impl Course {
         course: &Expression,
         time: &Symbol,
     ) -> Result<Course, EnclosureError> {
-        let at_zero = |value: &Fraction| value.substitute(time, &Fraction::zero());
         let mut terms = Vec::new();
-        for (exponent, coefficient) in course.terms() {
-            let rate = complex(numbers, &at_zero(&exponent.derivative(time))?)?;
-            let [growth, turn] = complex(numbers, &at_zero(exponent)?)?;
-            let (sine, cosine) = turn.sin_cos();
-            let [re, im] = [growth.exp() * cosine, growth.exp() * sine];
-            let mut polynomial = Vec::new();
-            let (mut derivative, mut factorial) = (coefficient.clone(), 1.0);
-            while !derivative.is_zero() {
-                let [x, y] = complex(numbers, &at_zero(&derivative)?)?;
-                polynomial.push([(x * re - y * im) / factorial, (x * im + y * re) / factorial]);
+        for (rate, coefficients) in Transform::of(course, time).poles() {
+            let (mut polynomial, mut factorial) = (Vec::new(), 1.0);
+            for c in coefficients {
+                polynomial.push(complex(numbers, c)?.map(|part| part / factorial));
                 factorial *= polynomial.len() as f64;
-                derivative = derivative.derivative(time);
             }
-            terms.push((rate, polynomial));
+            terms.push((complex(numbers, &rate.clone().into())?, polynomial));
         }
         Ok(Course { terms })
     }

@@ -213,14 +213,8 @@ impl Problem {
         Ok((Problem::of(source, self.values.clone())?, Some(told)))
     }
 
-    /// Whether waves come back: of a scene, whether a bar lies between two places.
-    pub fn waves_return(&self) -> bool {
-        let mut bars = self.scaled().map(|scaled| scaled.model().bars.values());
-        bars.as_mut().map_or(true, |bars| bars.any(|bar| bar.travel.is_some()))
-    }
-
     /// The last period with which something arrives, where waves have one period and do not return.
-    pub(super) fn last_arrival(&self) -> Option<usize> {
+    pub fn last_arrival(&self) -> Option<usize> {
         self.network().ok()?.recurrence().ok()?.last_arrival()
     }
 

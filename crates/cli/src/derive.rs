@@ -33,9 +33,9 @@ pub fn run(options: &Derive) -> Result<String, Failure> {
         return Ok(exact);
     };
     let mark = if options.format == Format::Latex { "%" } else { "#" };
-    let (orders, holds) = match model.waves_return() {
-        true => (options.orders(), "period by period"),
-        false => (None, "at all times"),
+    let (orders, holds) = match model.last_arrival() {
+        Some(0) => (None, "at all times"),
+        _ => (options.orders(), "period by period"),
     };
     let derived = formulas(&model, options, orders)?;
     if options.format == Format::Json {

@@ -6,10 +6,10 @@ use super::motion::TERMS;
 use super::on_cell::OnCell;
 use super::symbol::OverSymbol;
 use crate::ball::{Arithmetic as _, BallError, Magnitude};
-use crate::expression::{Expression, Fraction};
+use crate::expression::{Expression, Fraction, Transform};
 use crate::limits::MAX_SYMBOL_BITS as BITS;
 use crate::signal::{Varying, complex_product, of_exponential};
-use wavestep_polynomial::Symbol;
+use wavestep_polynomial::{Rational, Symbol};
 
 /// Exponentials are worked out at the first of so many steps, and multiplied with those of the steps between.
 const BLOCK: usize = 16;
@@ -32,6 +32,18 @@ fn size(own: &Complex) -> Magnitude {
     own[0].magnitude().add(&own[1].magnitude())
 }
 
+/// A sum of exponentials, with its real and its imaginary part.
+fn value(sum: &Expression, symbol: &OverSymbol<'_>) -> Outcome<Complex> {
+    let mut total = [Varying::zero(), Varying::zero()];
+    for (exponent, coefficient) in sum.terms() {
+        let [x, y] = symbol.complex(exponent)?;
+        let size = Varying::exp([&x, &y], BITS)?;
+        let own = complex_product(&symbol.complex(coefficient)?, &size, BITS);
+        total = std::array::from_fn(|part| total[part].add(&own[part], BITS));
+    }
+    Ok(total)
+}
+
 impl Exponential {
     /// The terms of a course, which is the sum of their real parts; `length` is how long a step takes. Of two that are
     /// conjugate one stands for both. None where a power of time is too high.
@@ -45,32 +57,24 @@ impl Exponential {
         symbol: &OverSymbol<'_>,
     ) -> Outcome<Option<Vec<Exponential>>> {
         let i = Symbol::square_root(-1).expect("the imaginary unit");
-        let at_zero = |value: &Fraction| value.substitute(time, &Fraction::zero());
         let (mut terms, mut conjugates) = (Vec::new(), Vec::new());
-        for (exponent, coefficient) in course.terms() {
-            if conjugates.contains(exponent) {
+        for (rate, coefficients) in Transform::of(course, time).poles() {
+            if conjugates.contains(rate) {
                 continue;
             }
-            let conjugate = exponent.substitute(&i, &-&Fraction::symbol(&i))?;
-            let [x, y] = symbol.complex(&at_zero(exponent)?)?;
-            let mut factor = Varying::exp([&x, &y], BITS)?;
-            if conjugate != *exponent {
-                factor = factor.map(|part| part.add(&part, BITS));
-                conjugates.push(conjugate);
+            if coefficients.len() > TERMS {
+                return Ok(None);
             }
-            let (mut polynomial, mut left) = (Vec::new(), coefficient.clone());
-            while !left.is_zero() {
-                if polynomial.len() == TERMS {
-                    return Ok(None);
-                }
-                let at_start = symbol.complex(&at_zero(&left)?)?;
-                polynomial.push(complex_product(&at_start, &factor, BITS));
-                let count = polynomial.len() as u64;
-                factor = scaled(&factor, length).map(|part| part.over(count, BITS));
-                left = left.derivative(time);
+            let conjugate = rate.substitute(&i, &-&Fraction::symbol(&i))?;
+            let stands_for = if conjugate == *rate { 1 } else { 2 };
+            conjugates.push(conjugate);
+            let mut factor = Varying::constant(&Rational::from_integer(stands_for.into()), BITS);
+            let mut polynomial = Vec::with_capacity(coefficients.len());
+            for (c, count) in coefficients.iter().zip(1..) {
+                polynomial.push(scaled(&value(c, symbol)?, &factor));
+                factor = factor.multiply(length, BITS).over(count, BITS);
             }
-            let rate = scaled(&symbol.complex(&exponent.derivative(time))?, length);
-            terms.push(Exponential { rate, polynomial });
+            terms.push(Exponential { rate: scaled(&symbol.complex(rate)?, length), polynomial });
         }
         Ok(Some(terms))
     }
