@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Checks certificates of wavestep with nothing but the standard library; docs/certificates.md says what is claimed.
 
-Here is what there is to check; what is proven, and why, each file tells from top to bottom: laws.py and pieces.py, which all
-but motions rest on, general.py, windows.py, and motion.py with series.py. exact.py adds, multiplies and compares.
+It chooses the check for each kind. laws.py derives the laws of a line, pieces.py proves pieces, general.py formulas for every n,
+windows.py values, zeros and extrema, motion.py with series.py events; exact.py is the arithmetic.
 """
 
 import json

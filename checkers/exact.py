@@ -67,7 +67,7 @@ def accumulate(total, expression, factor=None):
 
 
 def over_one(function):
-    """A rational function over one denominator: its powers of factors, and what stands above, a function without any below."""
+    """A rational function over one denominator: the powers of its factors, and the numerator, a function without denominators."""
     powers = {}
     for below in function:
         for factor, power in below:
@@ -82,9 +82,23 @@ def over_one(function):
     return powers, total
 
 
+def vanishes(function):
+    """Whether a rational function is zero: over one denominator its numerators cancel."""
+    return not any(over_one(function)[1].values())
+
+
 def is_zero(expression):
-    """Whether each rational function is zero: over one denominator its numerators cancel."""
-    return not any(top for function in expression.values() for top in over_one(function)[1].values())
+    """Whether the rational functions before each exponential cancel; an exponent may be written in more than one way."""
+    left = [(thawed(x), function) for x, function in expression.items() if not vanishes(function)]
+    while left:
+        (x, total), *others = left
+        alike = [vanishes(add(add({}, x), y, {(): {(): -1}})) for y, _ in others]
+        for (_, function), is_alike in zip(others, alike):
+            total = add(add({}, total), function) if is_alike else total
+        if not vanishes(total):
+            return False
+        left = [other for other, is_alike in zip(others, alike) if not is_alike]
+    return True
 
 
 def terms(function, s):

@@ -1,4 +1,4 @@
-"""Pieces: functions on the first periods that satisfy the laws, and nothing else does."""
+"""Pieces: functions on the first periods that satisfy the laws, and are the only ones that do."""
 
 from exact import LATEST, MINUS, ROOTS, accumulate, is_count, is_zero, number_at, on_period, put, read, read_form
 from exact import read_function
@@ -82,7 +82,10 @@ def check_statement(cert):
     """The laws, which are as many as waves and have one solution."""
     check_symbols(cert)
     equations, continuity = statement(cert)
+    need(type(cert["waves"]) is list, "waves are a list")
     need(len(equations) == len(cert["waves"]) == len(set(cert["waves"])), "waves and equations")
+    named = {wave for form in equations + [form for form, _ in continuity] for wave, *_ in form} - {None}
+    need(named <= set(cert["waves"]), "a law of an unknown wave")
     check_determined(equations, continuity, cert["waves"])
     return equations, continuity
 

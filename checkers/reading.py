@@ -1,4 +1,4 @@
-"""How certificates are read and verdicts printed, by both checkers; nothing is proven here."""
+"""How certificates are read, refused and told, by both checkers; nothing is proven here."""
 
 import json
 import sys
@@ -32,7 +32,7 @@ def printable(text):
 
 
 def one_each(pairs):
-    """An object, no key of which stands twice."""
+    """An object without repeated keys."""
     if len(dict(pairs)) < len(pairs):
         raise ValueError("a key stands twice")
     return dict(pairs)

@@ -35,6 +35,7 @@ class Theory:
         for factor in powers:
             self.factors.setdefault(factor, len(self.factors))
         course = {}
+        list(terms(function, time))  # no divisor holds the time
         for _, m, c, power in terms(above, time):
             course.setdefault(power, {})[tuple(pair for pair in m if pair[0] != time)] = c
         below = [powers.get(factor, 0) for factor in self.factors] if powers else []
@@ -74,7 +75,8 @@ class Theory:
         """A module of this name."""
         cert = self.cert
         read_roots(cert)
-        need("pieces" in cert and is_count(cert["through"], LATEST), "this certificate has no pieces")
+        need(cert["kind"] == "pieces" and is_count(cert["through"], LATEST), "this is no certificate of pieces")
+        need(type(cert["waves"]) is list and set(cert["pieces"]) == set(cert["waves"]), "waves and pieces")
         need(not ROOTS, "pieces with square roots are not written for Coq")
         period = read_function(cert["period"])
         need(set(period) <= {()}, "a period with a denominator is not written for Coq")

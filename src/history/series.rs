@@ -215,6 +215,20 @@ fn divide(coefficients: &mut [Number], step: impl Fn(&Number, &Number) -> Number
     }
 }
 
+/// The same in balls, for a number `a` without radius: once `c_k` is scaled by `a^k`, division by `x − a` takes additions only.
+fn recentered(coefficients: &[Number], a: &Number, bits: u64) -> Vec<Number> {
+    // Zero has no inverse, and moves nothing.
+    let Ok(inverse) = a.reciprocal(bits) else { return coefficients.to_vec() };
+    let scaled = |own: &[Number], factor: &Number| -> Vec<Number> {
+        let next = |power: &Number| Some(power.multiply(factor, bits));
+        let powers = std::iter::successors(Some(Number::one()), next);
+        own.iter().zip(powers).map(|(c, power)| c.multiply(&power, bits)).collect()
+    };
+    let mut shifted = scaled(coefficients, a);
+    divide(&mut shifted, |c, next| c.add(next, bits));
+    scaled(&shifted, &inverse)
+}
+
 /// `Σ_{i≥1} C(j+i, i) r^i s_(j+i)`: how much the coefficient of `x^j` changes at most, for coefficients of
 /// these sizes, where the origin is moved by `r`.
 fn moved(sizes: &[Magnitude], j: usize, r: &Magnitude) -> Magnitude {
@@ -461,7 +475,7 @@ impl Series {
     /// The series at `0 ≤ a ≤ h`: `f(a + x)`.
     ///
     /// # Cost
-    /// `N²/2` products for `N` coefficients.
+    /// `N²/2` sums and `4N` products for `N` coefficients.
     pub fn shift(&self, a: &Number, cut: &Truncation) -> Series {
         if a.is_zero() {
             return self.clone();
@@ -475,8 +489,8 @@ impl Series {
             return self.with_coefficients(shifted);
         }
         let (middle, radius) = a.split(bits);
-        let mut shifted: Vec<Number> = self.coefficients.iter().map(|c| c.enclosed(bits)).collect();
-        divide(&mut shifted, |c, next| c.add(&next.multiply(&middle, bits), bits));
+        let own: Vec<Number> = self.coefficients.iter().map(|c| c.enclosed(bits)).collect();
+        let mut shifted = recentered(&own, &middle, bits);
         if !radius.is_zero() {
             // c'_j(a) − c'_j(m) = Σ_{i≥1} C(j+i, i) (a − m)^i c'_(j+i)(m).
             let sizes: Vec<Magnitude> = shifted.iter().map(Number::magnitude).collect();

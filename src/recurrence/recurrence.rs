@@ -102,7 +102,7 @@ impl Recurrence {
     fn find_arrivals(&self) -> Option<Vec<BTreeSet<usize>>> {
         let equations = put_in(&self.steps, &self.statement.time);
         let mut known: Vec<Option<BTreeSet<usize>>> = vec![None; self.steps.len()];
-        // What depends on nothing unknown is next; a wave that returns depends on itself.
+        // Next is a wave all of whose sources are known; one that returns never has them.
         for _ in 0..self.steps.len() {
             let next = equations.iter().find_map(|(step, equation)| {
                 let own = known[step.wave].is_none().then(|| arrivals_of(step, equation, &known));
@@ -116,7 +116,7 @@ impl Recurrence {
 
     /// The last period with which something arrives, by any wave; `None` as above.
     pub(crate) fn last_arrival(&self) -> Option<usize> {
-        self.arrivals()?.iter().flatten().copied().max()
+        Some(self.arrivals()?.iter().flatten().copied().max().unwrap_or(0))
     }
 
     /// The number of waves, those that were added to uncouple equations included.

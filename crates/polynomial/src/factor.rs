@@ -181,14 +181,18 @@ fn square_free_factors(p: &[BigInt]) -> Option<Vec<Vec<BigInt>>> {
     }
     let lead = p[degree].abs();
     let norm: BigInt = p.iter().map(BigInt::abs).sum();
-    // Of a factor whose leading coefficient is that of p, all are at most 2^n ‖p‖ (Mignotte), of either sign.
+    // A factor f times lead(p)/lead(f) has coefficients of at most 2^n ‖p‖ (Mignotte); the prime exceeds twice that.
     let bound = norm << (degree + 1);
     let slope = derivative(p);
     for prime in MERSENNE.map(|e| (BigInt::one() << e) - 1).into_iter().filter(|p| *p > bound) {
         let prime = Prime(prime);
         let whole = |factor: &[BigInt]| primitive(&prime.balanced(factor, &lead));
         // p over what it shares with its derivative has every factor once.
-        let Some(single) = quotient(p, &whole(&prime.gcd(p, &slope))) else { continue };
+        let shared = whole(&prime.gcd(p, &slope));
+        // They may share more modulo the prime.
+        let (Some(single), Some(_)) = (quotient(p, &shared), quotient(&slope, &shared)) else {
+            continue;
+        };
         let monic = prime.monic(&single);
         if prime.gcd(&monic, &derivative(&monic)).len() > 1 {
             continue;
@@ -210,7 +214,7 @@ fn square_free_factors(p: &[BigInt]) -> Option<Vec<Vec<BigInt>>> {
             }
             divides
         });
-        // One part at least is left.
+        // `gather` takes half of the parts at most.
         found.push(rest);
         return Some(found);
     }

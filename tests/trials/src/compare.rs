@@ -11,9 +11,9 @@ use wavestep::signal::{ClosedSignal, Limit, Signal, Value, value};
 use wavestep::{Method, Tolerance};
 use wavestep_polynomial::{Rational, Symbol};
 
-/// Digits of values, and bits at most.
+/// Digits of values, and bits at most: a value below 2^−1024 is compared as an enclosure of zero.
 const COUNT: usize = 17;
-const BITS: u64 = 1 << 12;
+const BITS: u64 = 1 << 10;
 
 /// The law of a march without a proven bound, in parts of the largest value.
 const MARCHED_LAW: f64 = 1e-12;

@@ -238,6 +238,18 @@ fn laws_of_all_elements_are_those_of_the_drawing() {
     assert_proven(&folder, &files);
 }
 
+/// One exponent may be written in two ways.
+#[test]
+fn exponents_with_denominators_are_verified() {
+    let folder = folder("certificates-with-denominators");
+    let text = "scene \"Plain\"\nsymbol l > 0\nsymbol c > 0\n\
+                bar a { impedance = 1, travel = l/c, velocity = 1 }\nspring k { stiffness = 1 }\n\
+                bar b { impedance = 1 }\nline free - a | k - b - endless\n";
+    std::fs::write(folder.join("plain.wave"), text).unwrap();
+    certify(&folder, "plain.wave --through 2", "plain.json");
+    assert_proven(&folder, &["plain.json".to_owned()]);
+}
+
 #[test]
 fn motions_of_shipped_scenes_are_verified() {
     let folder = folder("certificates-of-events");

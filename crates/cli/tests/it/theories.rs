@@ -1,4 +1,4 @@
-//! Pieces as theorems for Coq, in the words of `checkers/coq/Pieces.v`. Left out where there is no Coq.
+//! Pieces as theorems for Coq, as defined in `checkers/coq/Pieces.v`. Left out where there is no Coq.
 
 use super::certificates::{certified, certify, run_program, run_script};
 use super::{ROOT, folder};
@@ -65,7 +65,7 @@ fn pieces_of_shipped_scenes_are_theorems() {
 
 /// One number at a time: of a function, an exponent, a start, a law.
 #[test]
-fn altered_pieces_are_no_theorems() {
+fn coq_refuses_altered_pieces() {
     let Some(folder) = with_proof("altered-theories") else { return };
     certify(&folder, "rigid-mass --through 3", "rigid.json");
     certify(&folder, "mass-on-fixed-bar --through 3", "mass.json");

@@ -39,6 +39,9 @@ fn factors_of_known_polynomials() {
         two_factors,
         ["1099511627776*s + 1", "1099511627776*s + 3"].map(|p| (p.to_owned(), 1))
     );
+    // Modulo the prime 2^61 - 1 the two factors share a root.
+    let shared = "s^5 - 1048576*s^4 - 524288*s + 549755813888";
+    assert_eq!(factors(shared), ["s - 1048576", "s^4 - 524288"].map(|p| (p.to_owned(), 1)));
     assert!(read("0").factors().is_none());
 }
 
