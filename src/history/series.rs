@@ -217,8 +217,10 @@ fn divide(coefficients: &mut [Number], step: impl Fn(&Number, &Number) -> Number
 
 /// The same in balls, for a number `a` without radius: once `c_k` is scaled by `a^k`, division by `x − a` takes additions only.
 fn recentered(coefficients: &[Number], a: &Number, bits: u64) -> Vec<Number> {
-    // Zero has no inverse, and moves nothing.
-    let Ok(inverse) = a.reciprocal(bits) else { return coefficients.to_vec() };
+    if a.magnitude().is_zero() {
+        return coefficients.to_vec();
+    }
+    let inverse = a.reciprocal(bits).expect("a number without radius, and not zero");
     let scaled = |own: &[Number], factor: &Number| -> Vec<Number> {
         let next = |power: &Number| Some(power.multiply(factor, bits));
         let powers = std::iter::successors(Some(Number::one()), next);

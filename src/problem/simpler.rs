@@ -213,7 +213,7 @@ impl Problem {
         Ok((Problem::of(source, self.values.clone())?, Some(told)))
     }
 
-    /// The last period with which something arrives, where waves have one period and do not return.
+    /// The last period at which anything arrives; `None` where waves return or have several periods, or arrivals are many.
     pub fn last_arrival(&self) -> Option<usize> {
         self.network().ok()?.recurrence().ok()?.last_arrival()
     }

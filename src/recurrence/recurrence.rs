@@ -29,7 +29,7 @@ pub struct Recurrence {
     hidden: usize,
     coupled: Vec<Coupled>,
     growth: Growth,
-    /// When something arrives, once it was asked for, here or of a clone.
+    /// When something arrives. Filled at first use; shared by clones.
     arrivals: Arc<OnceLock<Option<Vec<BTreeSet<usize>>>>>,
 }
 
@@ -114,7 +114,7 @@ impl Recurrence {
         known.into_iter().collect()
     }
 
-    /// The last period with which something arrives, by any wave; `None` as above.
+    /// The last period at which anything arrives; `None` where [`Recurrence::arrivals`] is.
     pub(crate) fn last_arrival(&self) -> Option<usize> {
         Some(self.arrivals()?.iter().flatten().copied().max().unwrap_or(0))
     }
@@ -267,7 +267,8 @@ pub(crate) fn put_in<'s>(steps: &'s [Step], time: &Symbol) -> Vec<(&'s Step, Lin
     equations.collect()
 }
 
-/// The periods at which something arrives with the wave of a step; `None` where it depends on a wave of which they are not known.
+/// The periods at which something arrives with the wave of a step; `None` where it depends on a wave whose arrivals are
+/// not known.
 fn arrivals_of(
     step: &Step,
     equation: &LinearForm,
