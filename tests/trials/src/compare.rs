@@ -11,16 +11,21 @@ use wavestep::signal::{ClosedSignal, Limit, Signal, Value, value};
 use wavestep::{Method, Tolerance};
 use wavestep_polynomial::{Rational, Symbol};
 
-/// Digits of values, and bits at most: a value below 2^−1024 is compared as an enclosure of zero.
+/// Digits of values.
 const COUNT: usize = 17;
-const BITS: u64 = 1 << 10;
+
+/// Bits of values at most: one below 2^−1024 is compared as an enclosure of zero. Where a stiff scene is followed, each bit
+/// more means more cells, and it is one below 2^−256.
+pub const BITS: u64 = 1 << 10;
+pub const STIFF_BITS: u64 = 1 << 8;
 
 /// The law of a march without a proven bound, in parts of the largest value.
 const MARCHED_LAW: f64 = 1e-12;
 
-/// A problem, and what was compared of it.
+/// A problem, the bits of its values at most, and what was compared of it.
 pub struct Comparison<'a> {
     pub problem: &'a Problem,
+    pub bits: u64,
     pub tally: &'a mut Tally,
 }
 
@@ -43,7 +48,7 @@ impl Comparison<'_> {
                 }
             };
             for ((time, side), known) in times.iter().zip(&mut found) {
-                let told = match value(&*signal, time, *side, COUNT, BITS) {
+                let told = match value(&*signal, time, *side, COUNT, self.bits) {
                     Ok(told) => told,
                     Err(error) => {
                         self.tally.refuse(source, &error);

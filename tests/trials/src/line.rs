@@ -1,7 +1,7 @@
 //! A scene in all ways, and by the solver in doubles.
 
 use crate::chance::Chance;
-use crate::compare::{At, Comparison, about, is_near, reads_back};
+use crate::compare::{At, BITS, Comparison, STIFF_BITS, about, is_near, reads_back};
 use crate::events::{self, COARSE, Followed, TOLERANCE};
 use crate::observe::Observed;
 use crate::scene::{Element, Measure, Quotient, Scene};
@@ -23,7 +23,7 @@ pub const QUICK: Length = Length { periods: 6, events: 4 };
 /// Two observables.
 const NAMES: [&str; 2] = ["one", "other"];
 
-/// How many changes of its fastest node a closed scene is followed for in doubles.
+/// How many changes of its fastest node a scene may see. With more it is stiff: no closed one is followed in doubles.
 const MOST_CHANGES: f64 = 2e3;
 
 /// How many travel times of its shortest bar a closed scene is looked at for, where it has others: echoes are expanded one
@@ -95,10 +95,11 @@ fn compared(
             until.min(MOST_RETURNS * scene.shortest())
         }
     };
-    let is_told = scene.opens
-        || solver.rate() * until < MOST_CHANGES && solver.follow(until, usize::MAX).is_some();
+    let is_stiff = solver.rate() * until >= MOST_CHANGES;
+    let is_told = scene.opens || !is_stiff && solver.follow(until, usize::MAX).is_some();
     let times: Vec<f64> = (0..4).map(|_| until * (1 + chance.below(996)) as f64 / 997.0).collect();
-    let mut comparison = Comparison { problem: &problem, tally };
+    let bits = if is_stiff { STIFF_BITS } else { BITS };
+    let mut comparison = Comparison { problem: &problem, bits, tally };
     let tolerance = [1e-3, 1e-9, 1e-13][chance.below(3)];
     let solver = is_told.then_some(&solver);
     for (name, own) in NAMES.iter().zip(&seen) {
@@ -106,7 +107,7 @@ fn compared(
         if !scene.opens
             && let Ok(general) = problem.without_values()
         {
-            let mut general = Comparison { problem: &general, tally: comparison.tally };
+            let mut general = Comparison { problem: &general, bits, tally: comparison.tally };
             general.formulas(name, &problem)?;
         }
     }

@@ -1,13 +1,21 @@
-//! `wavestep-trials [--hours H] [--scenes N] [--first NUMBER]`: trials one after another, and what became of them.
+//! `wavestep-trials [--hours H] [--scenes N] [--first NUMBER] [--workers W]`: trials one after another, and what became of them.
+//! `wavestep-trials --show NUMBER`: the text of one.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind, set_hook};
 use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread::{self, ScopedJoinHandle};
 use std::time::{Duration, Instant};
 use wavestep_trials::{CHECKS, KINDS, Tally, Trial, Verdict};
 
 /// Trials that take longer are told, in seconds.
 const LONG: f64 = 20.0;
+
+/// The stack of a worker, in bytes.
+const STACK: usize = 64 << 20;
 
 /// The trials of one kind.
 #[derive(Clone, Default)]
@@ -30,22 +38,12 @@ impl Report {
         self.rows.iter().map(|row| row.agree + row.wrong).sum()
     }
 
-    fn run(&mut self, number: u64) {
-        let begun = Instant::now();
-        let trial = Trial::new(number);
-        let (kind, text) = (trial.kind, trial.text.clone());
-        // Where a panic ends the run, it is known which trial it was.
-        let told = format!("trial {number}, {}\n{text}", KINDS[kind].0);
-        set_hook(Box::new(move |panic| eprintln!("{panic}\n{told}")));
-        let verdict = catch_unwind(AssertUnwindSafe(|| trial.run()));
-        let seconds = begun.elapsed().as_secs_f64();
-        let row = &mut self.rows[kind];
+    /// Adds what became of a trial, and how many seconds it took.
+    fn add(&mut self, told: &Told, verdict: std::thread::Result<Verdict>, seconds: f64) {
+        let row = &mut self.rows[told.kind];
         row.seconds += seconds;
-        if seconds > LONG {
-            eprintln!("trial {number}, {}: {seconds:.0} s\n{text}", KINDS[kind].0);
-        }
         if seconds > row.slowest.0 {
-            row.slowest = (seconds, number);
+            row.slowest = (seconds, told.number);
         }
         let wrong = match verdict {
             Ok(Verdict::Senseless(_)) => return row.senseless += 1,
@@ -61,7 +59,7 @@ impl Report {
             }
         };
         row.wrong += 1;
-        let wrong = format!("trial {number}, {}: {wrong}\n{text}", KINDS[kind].0);
+        let wrong = format!("{}: {wrong}\n{}", told.title(), told.text);
         eprintln!("{wrong}");
         self.wrong.push(wrong);
     }
@@ -95,6 +93,79 @@ impl Report {
     }
 }
 
+/// A trial as it is told to people.
+#[derive(Clone, Default)]
+struct Told {
+    number: u64,
+    kind: usize,
+    text: String,
+}
+
+impl Told {
+    fn title(&self) -> String {
+        format!("trial {}, {}", self.number, KINDS[self.kind].0)
+    }
+}
+
+thread_local! {
+    /// The trial of a worker: where a panic ends the run, it is known which one it was.
+    static CURRENT: RefCell<Told> = RefCell::default();
+}
+
+/// What the workers share.
+struct Run {
+    begun: Instant,
+    /// When no trial is begun any more, if ever.
+    end: Option<Instant>,
+    /// How many scenes are compared at most.
+    most: f64,
+    /// The number of the next trial.
+    next: AtomicU64,
+    /// Which trials are under way, since when.
+    running: Mutex<BTreeMap<u64, Instant>>,
+    report: Mutex<Report>,
+}
+
+impl Run {
+    fn is_over(&self) -> bool {
+        let count = self.report.lock().expect("no worker panics").count();
+        count as f64 >= self.most || self.end.is_some_and(|end| Instant::now() > end)
+    }
+
+    /// Runs one trial after another.
+    fn work(&self) {
+        while !self.is_over() {
+            let number = self.next.fetch_add(1, Ordering::Relaxed);
+            let begun = Instant::now();
+            self.running.lock().expect("no worker panics").insert(number, begun);
+            let trial = Trial::new(number);
+            let told = Told { number, kind: trial.kind, text: trial.text.clone() };
+            CURRENT.set(told.clone());
+            let verdict = catch_unwind(AssertUnwindSafe(|| trial.run()));
+            let seconds = begun.elapsed().as_secs_f64();
+            if seconds > LONG {
+                eprintln!("{}: {seconds:.0} s\n{}", told.title(), told.text);
+            }
+            self.running.lock().expect("no worker panics").remove(&number);
+            self.report.lock().expect("no worker panics").add(&told, verdict, seconds);
+        }
+    }
+
+    /// How far it is, and which trials take long.
+    fn tell(&self) {
+        let report = self.report.lock().expect("no worker panics");
+        let [count, wrong] = [report.count(), report.wrong.len()];
+        let [seconds, next] = [self.begun.elapsed().as_secs(), self.next.load(Ordering::Relaxed)];
+        eprintln!("{seconds} s: {count} trials below number {next}, {wrong} wrong");
+        for (number, begun) in self.running.lock().expect("no worker panics").iter() {
+            let seconds = begun.elapsed().as_secs_f64();
+            if seconds > LONG {
+                eprintln!("trial {number} has taken {seconds:.0} s");
+            }
+        }
+    }
+}
+
 /// The number behind a name among the arguments.
 fn argument(name: &str) -> Option<f64> {
     let arguments: Vec<String> = std::env::args().collect();
@@ -104,32 +175,41 @@ fn argument(name: &str) -> Option<f64> {
 }
 
 fn main() -> ExitCode {
+    if let Some(number) = argument("--show") {
+        print!("{}", Trial::new(number as u64).text);
+        return ExitCode::SUCCESS;
+    }
     if cfg!(panic = "abort") {
         eprintln!(
             "built with `--release`, a panic ends the run; with `--profile wheel` it is one more failure"
         );
     }
+    set_hook(Box::new(|panic| {
+        let told = CURRENT.with_borrow(Told::clone);
+        eprintln!("{panic}\n{}\n{}", told.title(), told.text);
+    }));
     let begun = Instant::now();
-    let hours = argument("--hours");
-    let end = hours.map(|hours| begun + Duration::from_secs_f64(3600.0 * hours));
-    let most = argument("--scenes").unwrap_or(if end.is_some() { f64::INFINITY } else { 1000.0 });
-    let mut report = Report { rows: vec![Row::default(); KINDS.len()], wrong: Vec::new() };
-    let mut told = begun;
-    for number in argument("--first").unwrap_or(1.0) as u64.. {
-        if report.count() as f64 >= most || end.is_some_and(|end| Instant::now() > end) {
-            break;
+    let end = argument("--hours").map(|hours| begun + Duration::from_secs_f64(3600.0 * hours));
+    let workers = argument("--workers").map_or(1, |count| count as usize);
+    let run = Run {
+        begun,
+        end,
+        most: argument("--scenes").unwrap_or(if end.is_some() { f64::INFINITY } else { 1000.0 }),
+        next: AtomicU64::new(argument("--first").unwrap_or(1.0) as u64),
+        running: Mutex::default(),
+        report: Mutex::new(Report { rows: vec![Row::default(); KINDS.len()], wrong: Vec::new() }),
+    };
+    thread::scope(|scope| {
+        let begin = |_| thread::Builder::new().stack_size(STACK).spawn_scoped(scope, || run.work());
+        let workers: Vec<_> = (0..workers).map(begin).collect::<Result<_, _>>().expect("threads");
+        while !workers.iter().all(ScopedJoinHandle::is_finished) {
+            thread::sleep(Duration::from_secs(1));
+            if run.begun.elapsed().as_secs().is_multiple_of(10) {
+                run.tell();
+            }
         }
-        report.run(number);
-        if told.elapsed().as_secs() >= 10 {
-            told = Instant::now();
-            let seconds = begun.elapsed().as_secs_f64();
-            eprintln!(
-                "{seconds:.0} s: {} trials through number {number}, {} wrong",
-                report.count(),
-                report.wrong.len()
-            );
-        }
-    }
+    });
+    let report = run.report.into_inner().expect("no worker panics");
     report.print(begun.elapsed().as_secs_f64());
     ExitCode::from(u8::from(!report.wrong.is_empty()))
 }

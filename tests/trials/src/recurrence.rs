@@ -1,7 +1,7 @@
 //! Random recurrences, and their solution in doubles, period by period.
 
 use crate::chance::Chance;
-use crate::compare::{At, Comparison, about, is_near, reads_back};
+use crate::compare::{At, BITS, Comparison, about, is_near, reads_back};
 use crate::curve::{Curve, POINTS, integrals, points};
 use crate::scene::Quotient;
 use crate::{SOLVER, TEXT, Tally, Verdict};
@@ -115,7 +115,7 @@ impl Stated {
         let arrival =
             wavestep_polynomial::Rational::new(self.period.0.into(), self.period.1.into());
         at.extend([Limit::Left, Limit::Right].map(|side| (arrival.clone(), side)));
-        let mut comparison = Comparison { problem: &problem, tally };
+        let mut comparison = Comparison { problem: &problem, bits: BITS, tally };
         let digits = comparison.digits("seen", &at)?;
         let largest = solved.iter().flatten().map(|own| own.at(1.0).abs()).fold(1.0, f64::max);
         let tolerance = [1e-3, 1e-9, 1e-13][chance.below(3)];
