@@ -359,9 +359,11 @@ impl Engine {
         let displaced: Vec<Number> = (state.system.kept.iter())
             .map(|place| known(*place).unwrap_or_else(Number::zero))
             .collect();
-        let velocity = |run: usize| known(state.system.place_of_velocity(run));
-        let masses = |runs| self.masses_that_meet(own, runs);
-        let next = system.state(own, velocity, &displaced, masses, bits)?;
+        let before = &state.system;
+        let rests = |run: usize| before.held[before.group[run]].then(Number::zero);
+        let velocity = |run: usize| known(before.place_of_velocity(run)).or_else(|| rests(run));
+        let impact = |runs| self.impact(own, runs);
+        let next = system.state(own, velocity, &displaced, impact, bits)?;
         let is_kept = |system: &System<Number>, place: usize| system.kept[place].is_some();
         let is_spring = |place: &usize| !own.elements[*place].law.is_driven();
         let loosened = (0..own.elements.len())

@@ -21,7 +21,9 @@ use crate::history::pressing::TooLong;
 use crate::history::series::{CellNorm, LONGEST_CELL, Series, Truncation};
 use crate::history::track::{Arriving, Track};
 use crate::limits::{MAX_CONTACTS, MAX_HISTORY_CELLS, memory, pause, tell_done};
-use crate::network::{Contacts, ElementLaw, Layout, Network, Node, Side, System, Unresisted};
+use crate::network::{
+    Contacts, ElementLaw, Layout, Lumped, Network, Node, Side, System, Unresisted,
+};
 use crate::scene::{Dimension, Drive, ElementIndex};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -276,14 +278,20 @@ impl Engine {
         Ok(engine)
     }
 
-    /// The names of the last mass of one run and the first of the next.
-    pub fn masses_that_meet(&self, node: &Node<Number>, [left, right]: [usize; 2]) -> [String; 2] {
+    /// Why rigid masses of two runs cannot meet, or one of the first with the wall at the second.
+    pub fn impact(&self, node: &Node<Number>, [left, right]: [usize; 2]) -> NotFollowed {
         let masses = |run: usize| {
             let masses = node.elements.iter().filter(move |own| own.run == run);
             masses.filter(|own| matches!(own.law, ElementLaw::Mass { .. }))
         };
-        let nearest = [masses(left).next_back(), masses(right).next()];
-        nearest.map(|mass| self.names[mass.expect("the run has a mass").element].clone())
+        let name = |mass: Option<&Lumped<Number>>| {
+            self.names[mass.expect("the run has a mass").element].clone()
+        };
+        if node.is_held(right) {
+            return NotFollowed::ImpactOnWall { mass: name(masses(left).next()) };
+        }
+        let masses = [masses(left).next_back(), masses(right).next()];
+        NotFollowed::RigidImpact { masses: masses.map(name) }
     }
 
     /// The rate of the norm of cells: above the norm of each node in any state of its contacts, and the
@@ -330,8 +338,8 @@ impl Engine {
             let system = self.system(number, |_| true)?;
             let still = vec![Number::zero(); node.elements.len()];
             let velocity = |run: usize| self.starting_velocity(node, run);
-            let masses = |runs| self.masses_that_meet(node, runs);
-            let state = system.state(node, velocity, &still, masses, bits)?;
+            let impact = |runs| self.impact(node, runs);
+            let state = system.state(node, velocity, &still, impact, bits)?;
             let passivity = Passivity::at(node, &system, (&state, bits))?;
             let errors = passivity.errors(&state);
             if let Some(all) = &mut self.errors {

@@ -127,6 +127,12 @@ pub enum NotFollowed {
         /// Their names.
         masses: [String; 2],
     },
+    /// A mass that meets a wall and moves.
+    #[error("the rigid mass `{mass}` hits a wall: put a spring or a bar between them")]
+    ImpactOnWall {
+        /// Its name.
+        mass: String,
+    },
 }
 
 /// What the precision allowed does not decide.

@@ -552,29 +552,37 @@ impl System<Number> {
         (state, after)
     }
 
-    /// The state that continues with these velocities of runs and displacements of elements; masses are told by their names.
+    /// The state that continues with these velocities of runs and displacements of elements.
     ///
     /// # Errors
-    /// [`HistoryError::Refused`] where rigid masses of different velocities meet.
+    /// What `impact` says of two runs, where rigid masses of different velocities meet, or a moving one and a wall.
     pub fn state(
         &self,
         node: &Node<Number>,
         velocity: impl Fn(usize) -> Option<Number>,
         displaced: &[Number],
-        masses: impl Fn([usize; 2]) -> [String; 2],
+        impact: impl Fn([usize; 2]) -> NotFollowed,
         bits: u64,
     ) -> Result<Vec<Number>, HistoryError> {
         let mut state = Vec::with_capacity(self.states());
+        let with_mass = |group: usize| {
+            let own = (0..node.runs()).filter(move |run| self.group[*run] == group);
+            own.filter(|run| !node.mass_of(*run, bits).is_zero())
+        };
+        for wall in (0..node.runs()).filter(|run| node.is_held(*run)) {
+            let moves = |run: &usize| velocity(*run).is_none_or(|own| !own.is_zero());
+            if let Some(run) = with_mass(self.group[wall]).find(moves) {
+                return Err(impact([run, wall]).into());
+            }
+        }
         for group in &self.heavy {
-            let own = (0..node.runs()).filter(|run| self.group[*run] == *group);
-            let mut own = own.filter(|run| !node.mass_of(*run, bits).is_zero());
+            let mut own = with_mass(*group);
             let first = own.next().expect("a heavy group has a mass");
             let common = velocity(first).expect("a mass has a velocity");
             let mut before = first;
             for run in own {
                 if velocity(run).is_none_or(|other| other != common) {
-                    let masses = masses([before, run]);
-                    return Err(NotFollowed::RigidImpact { masses }.into());
+                    return Err(impact([before, run]).into());
                 }
                 before = run;
             }

@@ -4,13 +4,14 @@ use super::bounds::{MAX_NAMED_TERMS, length};
 use super::constants::rates;
 use super::{Kind, Problem, ProblemError};
 use crate::expression::Condition;
+use crate::history::HistoryError;
 use crate::limits::counted;
 use crate::network::{Network, NetworkError};
 use crate::recurrence::Statement;
 use crate::scene::PI;
 use crate::signal::arrivals;
 use crate::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution};
-use wavestep_polynomial::Symbol;
+use wavestep_polynomial::{Rational, Symbol};
 
 /// The periods for which both derivations are compared.
 const PERIODS: usize = 6;
@@ -90,6 +91,7 @@ pub enum General {
 impl Problem {
     /// Checks the problem: its laws are solved and the first periods derived in two ways.
     pub fn check(&self) -> Result<Checked, ProblemError> {
+        self.can_begin()?;
         if let Some(contact) = self.local_contact() {
             return Ok(Checked::LocalContact(contact));
         }
@@ -99,6 +101,15 @@ impl Problem {
                 Ok(periods) => Ok(Checked::Periods(Box::new(periods))),
                 Err(reason) => self.needs_values(reason),
             },
+        }
+    }
+
+    /// That a scene whose contacts open is not refused at once by what follows it: rigid masses may meet at the start.
+    fn can_begin(&self) -> Result<(), ProblemError> {
+        let opens = self.network().is_ok_and(|network| network.scene().contacts_open);
+        match opens.then(|| self.history(Some(&Rational::default()), 1)) {
+            Some(Err(refused @ ProblemError::History(HistoryError::Refused(_)))) => Err(refused),
+            _ => Ok(()),
         }
     }
 

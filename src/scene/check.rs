@@ -318,7 +318,9 @@ impl Check<'_> {
         let fixed = [left, right].into_iter().flatten().find(|(end, _)| *end == End::Fixed);
         let mut imposed = None;
         for position in here {
-            if let Some((_, end)) = fixed {
+            if let Some((_, end)) = fixed
+                && !self.may_leave(position, end)
+            {
                 self.fault(Mistake::Held, [Part::Position(position), end]);
                 continue;
             }
@@ -333,6 +335,19 @@ impl Check<'_> {
                 }
             }
         }
+    }
+
+    /// Whether an element stands behind a contact that may open from a fixed end. What has its velocity imposed may not: while
+    /// the contact is closed it would have two.
+    fn may_leave(&self, position: usize, end: Part) -> bool {
+        let line = &self.scene.line;
+        let mut between = match end {
+            Part::Left => line.joints[..=position].iter(),
+            _ => line.joints[position + 1..].iter(),
+        };
+        let is_imposed =
+            matches!(self.kind_at(position), Kind::Load(load) if load.drive == Drive::Velocity);
+        self.scene.contacts_open && !is_imposed && between.any(|joint| *joint == Joint::Contact)
     }
 
     /// Something sets the line in motion.

@@ -2,6 +2,7 @@
 
 use crate::history::{kinds, network_of};
 use wavestep::history::{Event, EventKind, History};
+use wavestep::problem::{Problem, Values};
 
 /// A bar against a wall. A force `f` at its other end is felt at the wall a travel time later as `2 f`, until
 /// the wave has gone back and forth.
@@ -91,6 +92,44 @@ fn rigid_masses_that_meet_are_refused() {
                 line free - a | b - free\ncontacts open";
     let error = History::of(&network_of(text, &[]), None, 9).err().unwrap();
     assert!(error.to_string().contains("the rigid masses `a` and `b` meet"), "{error}");
+}
+
+/// A mass at a wall that a load pulls off, `t − 1/2` against a bar without end: it leaves when the load turns, and then
+/// moves with `v' = τ − v`, which is `v = τ − 1 + exp(−τ)`.
+const PULLED: &str = "scene \"Pulled off a wall\"\nload pull { force = t - 1/2 }\nmass m { mass = 1 }\n\
+    bar rod { impedance = 1 }\nobserve v = velocity(m)\nline fixed | pull - m - rod - endless\ncontacts open";
+
+#[test]
+fn a_load_pulls_a_mass_off_a_wall() {
+    let until = wavestep::language::parse_number("4").unwrap();
+    let history = History::of(&network_of(PULLED, &[]), Some(&until), 9).unwrap();
+    // Pressed by half of the unit of force at once.
+    assert_eq!(kinds(&history.events), [EventKind::Impact, EventKind::Opening]);
+    assert_eq!(history.events[0].forces[1].to_text(9), "0.5 = 1/2");
+    assert_eq!(history.events[1].time.to_text(9), "0.5 = 1/2");
+    let problem = Problem::of_text("wall.wave", PULLED, &Values::new()).unwrap();
+    let signal = problem.signal("v").unwrap();
+    assert_eq!(signal.at("1/2", 9).unwrap().to_text(9), "0");
+    let moved = 2.5 - 1.0 + (-2.5_f64).exp();
+    assert!((signal.at("3", 17).unwrap().to_f64() - moved).abs() < 1e-15);
+}
+
+#[test]
+fn rigid_masses_that_hit_a_wall_are_refused() {
+    let until = wavestep::language::parse_number("4").unwrap();
+    let error = |text: &str| History::of(&network_of(text, &[]), Some(&until), 9).err().unwrap();
+    let refused = "the rigid mass `m` hits a wall: put a spring or a bar between them";
+    let begins = PULLED.replace("mass = 1 }", "mass = 1, velocity = -1 }");
+    assert_eq!(error(&begins).to_string(), refused);
+    // It is refused before anything is followed.
+    let problem = Problem::of_text("wall.wave", &begins, &Values::new()).unwrap();
+    assert_eq!(problem.check().unwrap_err().to_string(), refused);
+    let comes_back = PULLED.replace("t - 1/2", "1 - 2*t");
+    assert_eq!(error(&comes_back).to_string(), refused);
+    let mirrored = begins.replace("velocity = -1", "velocity = 1");
+    let mirrored =
+        mirrored.replace("fixed | pull - m - rod - endless", "endless - rod - m - pull | fixed");
+    assert_eq!(error(&mirrored).to_string(), refused);
 }
 
 #[test]

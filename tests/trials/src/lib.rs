@@ -54,16 +54,21 @@ impl Tally {
     }
 
     fn refuse(&mut self, what: &str, error: &dyn std::fmt::Display) {
-        let text = error.to_string();
-        let mut plain = String::new();
-        for own in text.lines().next().unwrap_or_default().chars() {
-            let own = if own.is_ascii_digit() { '#' } else { own };
-            if own != '#' || !plain.ends_with('#') {
-                plain.push(own);
-            }
-        }
-        *self.refused.entry(format!("{what}: {plain}")).or_default() += 1;
+        let text = without_numbers(&error.to_string());
+        *self.refused.entry(format!("{what}: {text}")).or_default() += 1;
     }
+}
+
+/// The first line of a message, each number in it as `#`.
+pub fn without_numbers(text: &str) -> String {
+    let mut plain = String::new();
+    for own in text.lines().next().unwrap_or_default().chars() {
+        let own = if own.is_ascii_digit() { '#' } else { own };
+        if own != '#' || !plain.ends_with('#') {
+            plain.push(own);
+        }
+    }
+    plain
 }
 
 /// What became of a trial.

@@ -1,4 +1,5 @@
-//! `wavestep-trials [--hours H] [--scenes N] [--first NUMBER] [--workers W]`: trials one after another, and what became of them.
+//! `wavestep-trials [--hours H] [--scenes N] [--first NUMBER] [--workers W] [--kind K]`: trials one after another, of all
+//! kinds or of the K-th alone, and what became of them.
 //! `wavestep-trials --show NUMBER`: the text of one.
 
 use std::cell::RefCell;
@@ -9,7 +10,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread::{self, ScopedJoinHandle};
 use std::time::{Duration, Instant};
-use wavestep_trials::{CHECKS, KINDS, Tally, Trial, Verdict};
+use wavestep_trials::{CHECKS, KINDS, Tally, Trial, Verdict, without_numbers};
 
 /// Trials that take longer are told, in seconds.
 const LONG: f64 = 20.0;
@@ -22,7 +23,8 @@ const STACK: usize = 64 << 20;
 struct Row {
     agree: usize,
     wrong: usize,
-    senseless: usize,
+    /// Why others are no scenes.
+    senseless: BTreeMap<String, usize>,
     seconds: f64,
     slowest: (f64, u64),
     tally: Tally,
@@ -46,7 +48,9 @@ impl Report {
             row.slowest = (seconds, told.number);
         }
         let wrong = match verdict {
-            Ok(Verdict::Senseless(_)) => return row.senseless += 1,
+            Ok(Verdict::Senseless(reason)) => {
+                return *row.senseless.entry(without_numbers(&reason)).or_default() += 1;
+            }
             Ok(Verdict::Agrees(tally)) => {
                 row.agree += 1;
                 return row.tally.add(&tally);
@@ -64,6 +68,16 @@ impl Report {
         self.wrong.push(wrong);
     }
 
+    /// Reasons of one sort, and how often each was given.
+    fn print_reasons(&self, sort: &str, reasons: impl Fn(&Row) -> &BTreeMap<String, usize>) {
+        let mut all: BTreeMap<&str, usize> = BTreeMap::new();
+        for (reason, count) in self.rows.iter().flat_map(|row| reasons(row)) {
+            *all.entry(reason).or_default() += count;
+        }
+        println!("\n{sort}");
+        all.iter().for_each(|(reason, count)| println!("{count:>8}  {reason}"));
+    }
+
     fn print(&self, seconds: f64) {
         println!("{} trials in {seconds:.0} s, {} wrong", self.count(), self.wrong.len());
         println!();
@@ -75,17 +89,15 @@ impl Report {
         println!("{:>8}", "untold");
         for (row, (kind, _)) in self.rows.iter().zip(KINDS) {
             let Row { agree, wrong, senseless, seconds, slowest, tally } = row;
+            let senseless = senseless.values().sum::<usize>();
             let each = 1e3 * seconds / (*agree + *wrong).max(1) as f64;
             print!("{kind:<18}{agree:>8}{wrong:>6}{senseless:>10}{each:>8.1}{:>8.1}", slowest.0);
             tally.compared.iter().for_each(|count| print!("{count:>10}"));
             println!("{:>8}", tally.untold);
         }
-        let mut refused: BTreeMap<&str, usize> = BTreeMap::new();
-        for (error, count) in self.rows.iter().flat_map(|row| &row.tally.refused) {
-            *refused.entry(error).or_default() += count;
-        }
-        println!("\nrefused");
-        refused.iter().for_each(|(error, count)| println!("{count:>8}  {error}"));
+        self.print_reasons("senseless", |row| &row.senseless);
+        self.print_reasons("refused", |row| &row.tally.refused);
+        println!();
         for (row, (kind, _)) in self.rows.iter().zip(KINDS) {
             println!("slowest of {kind}: trial {}, {:.1} s", row.slowest.1, row.slowest.0);
         }
@@ -117,6 +129,8 @@ struct Run {
     begun: Instant,
     /// When no trial is begun any more, if ever.
     end: Option<Instant>,
+    /// The kind that is compared, where not all are.
+    kind: Option<usize>,
     /// How many scenes are compared at most.
     most: f64,
     /// The number of the next trial.
@@ -136,9 +150,12 @@ impl Run {
     fn work(&self) {
         while !self.is_over() {
             let number = self.next.fetch_add(1, Ordering::Relaxed);
+            let trial = Trial::new(number);
+            if self.kind.is_some_and(|kind| kind != trial.kind) {
+                continue;
+            }
             let begun = Instant::now();
             self.running.lock().expect("no worker panics").insert(number, begun);
-            let trial = Trial::new(number);
             let told = Told { number, kind: trial.kind, text: trial.text.clone() };
             CURRENT.set(told.clone());
             let verdict = catch_unwind(AssertUnwindSafe(|| trial.run()));
@@ -194,6 +211,7 @@ fn main() -> ExitCode {
     let run = Run {
         begun,
         end,
+        kind: argument("--kind").map(|place| place as usize - 1),
         most: argument("--scenes").unwrap_or(if end.is_some() { f64::INFINITY } else { 1000.0 }),
         next: AtomicU64::new(argument("--first").unwrap_or(1.0) as u64),
         running: Mutex::default(),
