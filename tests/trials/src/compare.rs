@@ -14,8 +14,8 @@ use wavestep_polynomial::{Rational, Symbol};
 /// Digits of values.
 const COUNT: usize = 17;
 
-/// Bits of values at most: one below 2^−1024 is compared as an enclosure of zero. Where a stiff scene is followed, each bit
-/// more means more cells, and it is one below 2^−256.
+/// Bits of values at most: one below 2^−1024 is compared as an enclosure of zero. Following a stiff scene takes more cells with
+/// each bit, so there the limit is 2^−256.
 pub const BITS: u64 = 1 << 10;
 pub const STIFF_BITS: u64 = 1 << 8;
 

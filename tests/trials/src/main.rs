@@ -69,9 +69,9 @@ impl Report {
     }
 
     /// Reasons of one sort, and how often each was given.
-    fn print_reasons(&self, sort: &str, reasons: impl Fn(&Row) -> &BTreeMap<String, usize>) {
+    fn print_reasons(&self, sort: &str, reasons: fn(&Row) -> &BTreeMap<String, usize>) {
         let mut all: BTreeMap<&str, usize> = BTreeMap::new();
-        for (reason, count) in self.rows.iter().flat_map(|row| reasons(row)) {
+        for (reason, count) in self.rows.iter().flat_map(reasons) {
             *all.entry(reason).or_default() += count;
         }
         println!("\n{sort}");
@@ -131,7 +131,7 @@ struct Run {
     end: Option<Instant>,
     /// The kind that is compared, where not all are.
     kind: Option<usize>,
-    /// How many scenes are compared at most.
+    /// No trial is begun once so many scenes were compared.
     most: f64,
     /// The number of the next trial.
     next: AtomicU64,
@@ -150,6 +150,7 @@ impl Run {
     fn work(&self) {
         while !self.is_over() {
             let number = self.next.fetch_add(1, Ordering::Relaxed);
+            CURRENT.set(Told { number, ..Told::default() });
             let trial = Trial::new(number);
             if self.kind.is_some_and(|kind| kind != trial.kind) {
                 continue;
@@ -207,11 +208,18 @@ fn main() -> ExitCode {
     }));
     let begun = Instant::now();
     let end = argument("--hours").map(|hours| begun + Duration::from_secs_f64(3600.0 * hours));
-    let workers = argument("--workers").map_or(1, |count| count as usize);
+    let workers = argument("--workers").map_or(1, |count| count.max(1.0) as usize);
+    let kind = argument("--kind").map(|place| place as usize);
+    assert!(
+        kind.is_none_or(|kind| (1..=KINDS.len()).contains(&kind)),
+        "--kind is 1 to {}",
+        KINDS.len()
+    );
+    let kind = kind.map(|kind| kind - 1);
     let run = Run {
         begun,
         end,
-        kind: argument("--kind").map(|place| place as usize - 1),
+        kind,
         most: argument("--scenes").unwrap_or(if end.is_some() { f64::INFINITY } else { 1000.0 }),
         next: AtomicU64::new(argument("--first").unwrap_or(1.0) as u64),
         running: Mutex::default(),
