@@ -3,7 +3,7 @@
 use super::arguments::{Eval, Format};
 use super::failure::Failure;
 use super::json::SCHEMA_VERSION;
-use super::rows::lines;
+use super::rows::{csv, lines};
 use num_rational::BigRational;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -92,7 +92,7 @@ fn note_tested(Tested { contact, tolerance, differs }: &Tested) {
     };
     eprintln!(
         "note: {why}; these values are tested, not certified: computed to \
-         {tolerance:e} of the largest"
+         {tolerance:e} of the largest value"
     );
     if let Some(differs) = differs {
         eprintln!(
@@ -158,10 +158,8 @@ pub fn written(
     let rows = times.iter().zip(&found.values);
     match options.format {
         Format::Csv => {
-            let line = |(time, value): (&BigRational, &f64)| {
-                format!("{time},{},{}\n", in_decimals(time), double(*value))
-            };
-            std::iter::once("time,time_decimal,value\n".to_owned()).chain(rows.map(line)).collect()
+            let rows = rows.map(|(time, value)| (time, double(*value)));
+            csv(problem, wanted, (rows, "value"), options)
         }
         Format::Json => {
             let row = |(time, value): (&BigRational, &f64)| json!({"time": time.to_string(), "value": value});

@@ -18,9 +18,10 @@ pub fn run(options: &Export) -> Result<String, Failure> {
     let tolerance = options.tol.as_deref().map_or(Ok(Tolerance::Ulps(4.0)), tolerance)?;
     let problem = input::problem(&options.scene)?;
     let [from, to] = input::window(&problem, &options.from, Some(&options.to))?;
-    // The double nearest to the end belongs to the window, also where it lies beyond.
-    let nearest = to.to_f64().and_then(BigRational::from_float);
-    let to = nearest.map_or(to.clone(), |nearest| nearest.max(to));
+    // The doubles nearest to both ends belong to the window, also where they lie beyond.
+    let nearest = |end: &BigRational| end.to_f64().and_then(BigRational::from_float);
+    let from = nearest(&from).map_or(from.clone(), |nearest| nearest.min(from));
+    let to = nearest(&to).map_or(to.clone(), |nearest| nearest.max(to));
     let pulls = pulling(&problem, &to);
     let spinner = progress::spinner("expanding the observable");
     let question = problem.question_for(&options.quantity, [from, to], Purpose::Polynomials)?;

@@ -6,7 +6,7 @@ use super::json::SCHEMA_VERSION;
 use num_rational::BigRational;
 use num_traits::{Signed as _, ToPrimitive as _};
 use serde_json::{Value as Json, json};
-use wavestep::ball::{Decimal, Exactness, in_decimals};
+use wavestep::ball::{Decimal, Exactness};
 use wavestep::problem::{self, Problem, Wanted, evenly_spaced};
 use wavestep::scene::Dimension;
 use wavestep::signal::{Limit, Value};
@@ -14,8 +14,10 @@ use wavestep::signal::{Limit, Value};
 /// The most times that are evaluated at once.
 const MAX_POINTS: usize = 1_000_000;
 
-/// Times as longer fractions are given in decimals where few of them are all.
+/// Times whose fraction is longer are written in decimals: all of them where these are no more, else with at least those of
+/// a double.
 const MAX_FRACTION: usize = 40;
+const TIME_DIGITS: usize = 17;
 
 /// More digits than a ball of the highest precision has.
 pub const ALL_DIGITS: usize = 1 << 30;
@@ -112,7 +114,14 @@ pub fn written(
     options: &Eval,
 ) -> String {
     match options.format {
-        Format::Csv => csv(rows, options.digits),
+        Format::Csv => {
+            let line = |value: &Value| {
+                let (decimal, exactness) = value.decimal(options.digits);
+                format!("{decimal},{}", exactness == Exactness::Exact)
+            };
+            let rows = rows.0.iter().zip(rows.1.iter().map(line));
+            csv(problem, wanted, (rows, "value,exact"), options)
+        }
         Format::Json => json_document(problem, wanted, rows, options),
         _ => {
             let values = rows.1.iter().map(|value| value.to_text(options.digits));
@@ -133,22 +142,38 @@ pub fn lines<'a>(
     let line = |(time, value): (&BigRational, String)| {
         let fraction = time.to_string();
         let is_short = second.is_empty() && fraction.len() <= MAX_FRACTION;
-        let time = if is_short { fraction } else { in_decimals(time) };
+        let time = match Decimal::from_rational(time, MAX_FRACTION) {
+            _ if is_short => fraction,
+            (decimal, Exactness::Exact) => decimal.to_string(),
+            _ => rounded(time, options.digits).to_string(),
+        };
         format!("{}({time}{second}{limit}) = {value}{unit}\n", wanted.name)
     };
     rows.map(line).collect()
 }
 
-fn csv((times, values): (&[BigRational], &[Value]), digits: usize) -> String {
-    let line = |(time, value): (&BigRational, &Value)| {
-        let (decimal, exactness) = value.decimal(digits);
-        let exact = exactness == Exactness::Exact;
-        let time_decimal = Decimal::from_rational(time, digits.max(17)).0;
-        format!("{time},{time_decimal},{decimal},{exact}\n")
+/// A row for each time, with the unit of its value where the scene has units.
+pub fn csv<'a>(
+    problem: &Problem,
+    wanted: &Wanted,
+    (rows, columns): (impl Iterator<Item = (&'a BigRational, String)>, &str),
+    options: &Eval,
+) -> String {
+    let [header, unit] = match problem.has_units() {
+        true => [",unit".to_owned(), format!(",{}", wanted.unit())],
+        false => Default::default(),
     };
-    std::iter::once("time,time_decimal,value,exact\n".to_owned())
-        .chain(times.iter().zip(values).map(line))
+    let line = |(time, values): (&BigRational, String)| {
+        format!("{time},{},{values}{unit}\n", rounded(time, options.digits))
+    };
+    std::iter::once(format!("time,time_decimal,{columns}{header}\n"))
+        .chain(rows.map(line))
         .collect()
+}
+
+/// A time in decimals, with so many digits and at least those of a double.
+fn rounded(time: &BigRational, digits: usize) -> Decimal {
+    Decimal::from_rational(time, digits.max(TIME_DIGITS)).0
 }
 
 fn json_document(

@@ -21,11 +21,15 @@ pub struct Teller<'a> {
 }
 
 impl Teller<'_> {
-    /// A value with its unit; where the scene has units, exact values are decimals.
+    /// A value with its unit; where the scene has units, exact values are decimals, rounded where they do not end.
     pub fn value(&self, value: &Value, dimension: Dimension) -> String {
         let dimensional = self.problem.has_units();
+        let ends = |text: &String| !text.contains('/');
         let text = match value {
-            Value::Exact(value) if dimensional => in_decimals(value),
+            Value::Exact(number) if dimensional => {
+                let rounded = || value.decimal(self.digits).0.to_string();
+                Some(in_decimals(number)).filter(ends).unwrap_or_else(rounded)
+            }
             Value::Exact(fraction) if fraction.to_string().len() > self.longest_fraction => {
                 value.decimal(self.digits).0.to_string()
             }

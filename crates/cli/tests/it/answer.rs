@@ -341,6 +341,26 @@ fn a_c_file_tells_how_it_was_written() {
     assert!(text.contains("in s;"), "the unit of time");
 }
 
+/// The doubles nearest to both ends are in the window: 1.4 and 3.3 lie on different sides of 7/5 and 33/10.
+#[test]
+fn exported_windows_hold_the_doubles_of_their_ends() {
+    for (from, to) in [("1.4", "3.3"), ("3.3", "4.4"), ("0.1", "0.3")] {
+        let line =
+            format!("export rigid-mass --set mu=1 --as c --quantity f --from {from} --to {to}");
+        let (out, _) = both(&line);
+        let told = out.lines().find_map(|line| line.strip_prefix(" * t from "));
+        let ends = told.and_then(|told| told.split_once(" to ")).unwrap();
+        let number = |text: &str| {
+            let text = text.split([' ', ',', '*']).next().unwrap();
+            text.parse::<f64>().unwrap_or_else(|_| panic!("{text}"))
+        };
+        assert!(
+            number(ends.0) <= from.parse().unwrap() && number(ends.1) >= to.parse().unwrap(),
+            "{ends:?}"
+        );
+    }
+}
+
 /// A file that cannot be written is a fault of usage, and no part of it is left.
 #[test]
 fn a_file_is_written_whole_or_not_at_all() {

@@ -205,6 +205,23 @@ fn values_in_csv_have_four_columns() {
     }
 }
 
+/// With units there is a column for them, and times that do not end are rounded in decimals, in text as well.
+#[test]
+fn values_in_csv_have_their_units() {
+    let line = "eval hopkinson --quantity force,gauge_output --from 0us --to 500us --points 4";
+    for method in ["", " --method certified"] {
+        let text = output(&format!("{line} --format csv{method}"));
+        let rows: Vec<Vec<&str>> = text.lines().map(|row| row.split(',').collect()).collect();
+        assert_eq!(rows[0].last(), Some(&"unit"));
+        assert_eq!(rows[2][..3], ["force", "1/6000", "0.00016666666666666667"]);
+        assert_eq!(rows[2].last(), Some(&"N"));
+        assert_eq!(rows[6].last(), Some(&""), "a strain has no unit");
+    }
+    let told = output(line);
+    let starts = ["force(0 s) = ", "force(0.00016666666666666667 s) = "];
+    assert!(told.lines().zip(starts).all(|(row, start)| row.starts_with(start)), "{told}");
+}
+
 /// A scene like none of those that are shipped: Windows line ends, Greek, names used elsewhere.
 const STRANGE: &str = "\u{FEFF}recurrence \"Größe \\\\ & % $ _ {x} <b>\"\r\n\
     symbol μ > 0, r_1 >= 1/2\r\n\

@@ -1,6 +1,6 @@
 //! The command `events`, and what other commands say of contacts that open.
 
-use super::{anywhere, run, snapshot, words};
+use super::{anywhere, folder, run, snapshot, words};
 
 fn output(arguments: &[&str]) -> String {
     let (code, out, told) = run(anywhere(), arguments);
@@ -135,5 +135,20 @@ fn closed_contacts_are_said_to_open_here() {
     let told = "Contacts open here when they would go into tension; the scene keeps them closed.";
     for (scene, closed) in [("hopkinson", true), ("hopkinson-with-release", false)] {
         assert_eq!(output(&["events", scene]).contains(told), closed, "{scene}");
+    }
+}
+
+/// In scenes with units velocities are decimals, rounded where they do not end.
+#[test]
+fn no_fraction_is_told_with_a_unit() {
+    let text = "scene \"Drill\"\nbar piston { impedance = 30 kN*s/m, travel = 60 us, velocity = 10 m/s }\n\
+        bar rod { impedance = 17 kN*s/m, travel = 300 us }\nline free - piston | rod - free\ncontacts open\n";
+    let folder = folder("events-units");
+    std::fs::write(folder.join("drill.wave"), text).unwrap();
+    let (code, out, told) = run(&folder, &words("events drill.wave --digits 6"));
+    assert_eq!(code, 0, "{told}");
+    assert!(out.contains("velocity 10 m/s -> 6.38298 m/s of piston"), "{out}");
+    for line in out.lines().filter(|line| line.contains("velocity")) {
+        assert_eq!(line.matches('/').count(), line.matches("m/s").count(), "{line}");
     }
 }
