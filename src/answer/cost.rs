@@ -189,6 +189,8 @@ pub struct Size {
     /// Whether waves have one pole and one lag, with rational constants, so that a march in
     /// fixed-point numbers gives the pieces.
     pub marches: bool,
+    /// Whether the scene has been followed: its pieces are known, and no echoes are added up.
+    pub followed: bool,
 }
 
 /// What a way costs, in seconds.
@@ -210,7 +212,8 @@ impl Cost {
     pub fn of(method: Method, size: Size, costs: &Costs) -> Option<Cost> {
         let take = |work| costs.of(work);
         let n = size.order as f64 + 1.0;
-        let moved = if size.marches { take(Work::Moved) } else { TERMS * n * take(Work::Term) };
+        let added = if size.followed { 1.0 } else { n };
+        let moved = if size.marches { take(Work::Moved) } else { TERMS * added * take(Work::Term) };
         let pieces = PIECES * n * moved;
         let echoes = n * n / 2.0;
         let coefficients = coefficients(n);
@@ -219,6 +222,7 @@ impl Cost {
             Method::Certified if size.marches => {
                 (n * take(Work::FixedPeriod), take(Work::FixedPoint))
             }
+            Method::Certified if size.followed => (0.0, TERMS * take(Work::Ball) + lookup),
             Method::Certified => (echoes * take(Work::Echo), n * take(Work::Ball) + lookup),
             Method::Compiled => (pieces, lookup),
             Method::Stable(StablePrecision::DoubleDouble) => {

@@ -93,7 +93,8 @@ pub fn consider(
     let form = question.signal.closed_form();
     let taps = form.as_ref().map(|form| Taps::of(form));
     let marches = matches!((&form, &taps), (Ok(form), Ok(Ok(taps))) if taps.is_rational() && form.is_rational());
-    let size = Size { order, points, marches };
+    let followed = matches!(form, Err(EvaluateError::NoClosedForm));
+    let size = Size { order, points, marches, followed };
     // Echoes that are left out are so where pieces are made; a march or a sum goes through all periods.
     let size_of = |method: Method| match method {
         Method::Certified | Method::Compiled | Method::Expanded => size,

@@ -40,4 +40,5 @@ pub use exponential::exp_of_rational;
 pub use magnitude::Magnitude;
 pub use number::Number;
 pub use precision::{Attempt, Precisions};
+pub(crate) use value::NEGLIGIBLE_BITS;
 pub use value::Value;

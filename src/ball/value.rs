@@ -13,7 +13,7 @@ use wavestep_polynomial::Rational;
 const MAX_FRACTION: usize = 60;
 
 /// `−log₂` of a size that is nothing beside any value of a scene.
-const NEGLIGIBLE_BITS: i64 = 1024;
+pub(crate) const NEGLIGIBLE_BITS: i64 = 1024;
 
 /// Bits of the first attempt beyond those of the digits.
 const SPARE_BITS: u64 = 32;
@@ -111,9 +111,9 @@ impl Value {
         }
     }
 
-    /// A ball around zero that is negligibly small counts as zero; it is written as `0 ± r`.
-    pub(crate) fn near_zero(ball: &Ball, digits: usize) -> Option<Value> {
-        if !ball.contains_zero() || *ball.radius() > Magnitude::power_of_two(-NEGLIGIBLE_BITS) {
+    /// A ball around zero that is below `2^−bits` counts as zero; it is written as `0 ± r`.
+    pub(crate) fn near_zero(ball: &Ball, digits: usize, bits: i64) -> Option<Value> {
+        if !ball.contains_zero() || *ball.radius() > Magnitude::power_of_two(-bits) {
             return None;
         }
         let decimal = Decimal::from_rational(&Rational::default(), digits).0;

@@ -127,7 +127,7 @@ pub enum NotFollowed {
         /// Their names.
         masses: [String; 2],
     },
-    /// A mass that meets a wall and moves.
+    /// A moving mass that meets a wall.
     #[error("the rigid mass `{mass}` hits a wall: put a spring or a bar between them")]
     ImpactOnWall {
         /// Its name.

@@ -7,7 +7,7 @@
 //!
 //! Read `engine` for the way from cell to cell, `leaving` for what a node sends out, `contacts` for which of them are
 //! closed, `reading` for what is taken from it, `crossing` and `positive` for the proof that nothing is passed over,
-//! `story` for how events are told, `observe` and `phased` for what is seen of it, `validity` for how long closed
+//! `story` for how events are told, `observe`, `follower` and `phased` for what is seen of it, `validity` for how long closed
 //! contacts are true, `closed_form` for instants in closed form, `series` for the arithmetic, `cells` and `memory` for
 //! what is kept of it, `pressing` and `power` for local contacts, `resting` for those that press evenly, `passivity` and
 //! `passive` for what becomes of errors, at a node and in the line, `energy` for what a wave holds, `body` for energies
@@ -23,6 +23,7 @@ pub mod energy;
 mod engine;
 mod error;
 pub mod family;
+mod follower;
 #[expect(clippy::module_inception, reason = "the module is named after what it tells")]
 mod history;
 mod leaving;
@@ -47,7 +48,8 @@ pub mod track;
 mod validity;
 
 pub use error::{HistoryError, NotFollowed, Question, When};
+pub(crate) use follower::Follower;
 pub use history::{Body, ContactSummary, Ending, Event, EventKind, History};
-pub(crate) use phased::{FollowedSignal, Follower};
+pub(crate) use phased::FollowedSignal;
 pub use validity::Validity;
 pub(crate) use validity::stays_closed;

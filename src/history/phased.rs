@@ -5,17 +5,16 @@ use crate::enclosure::EnclosureError;
 use crate::expression::{Expression, Fraction, Root};
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
-use crate::history::history::undecided;
-use crate::history::memory::Asked;
+use crate::history::follower::Follower;
 use crate::history::moment::Moment;
 use crate::history::part::{Part, Source};
 use crate::history::series::{Series, Truncation};
 use crate::limits::MAX_HISTORY_BITS;
-use crate::network::{Contacts, Network, Observed, Squared, Term};
+use crate::network::{Network, Observed, Squared, Term};
 use crate::scene::Dimension;
 use crate::signal::{
-    At, Effort, EvaluateError, Instant, Known, Limit, MAX_FLATNESS, Point, Scale, Signal, Signed,
-    Silence, Taylor,
+    At, Effort, EvaluateError, Instant, Known, Limit, MAX_FLATNESS, Point, Signal, Signed, Silence,
+    Taylor,
 };
 use num_traits::Zero as _;
 use std::borrow::Cow;
@@ -24,16 +23,14 @@ use std::cmp::Ordering;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
-/// The precision in bits that is begun with, and the highest that a search has.
-const FIRST_BITS: u64 = 192;
+/// The highest precision in bits that a search has.
 const SEARCH_BITS: u64 = 640;
 
-/// Beside a local contact, the precision in bits that is begun with: up to this many digits, and for more.
-const FEW_DIGITS: usize = 15;
-const LOCAL_BITS: [u64; 2] = [96, 128];
+/// Where too many bits are lost, stretches are counted again with more, up to these.
+const COUNTED_BITS: u64 = 1500;
 
-/// Precisions are multiples of so many bits.
-const STEP_BITS: u64 = 64;
+/// A value with fewer bits left tells nothing.
+const LEAST_BITS: i64 = 16;
 
 /// Bits that a value has lost about, compared with the precision it was worked out with.
 const SPARE_BITS: u64 = 64;
@@ -85,93 +82,6 @@ struct Followed {
     unit: [Number; 2],
 }
 
-/// A scene whose contacts open, followed until an instant: once for all signals that are seen of it.
-pub(crate) struct Follower<'a> {
-    network: &'a Network,
-    asked: Asked,
-    until: Moment,
-    known: RefCell<Rc<Engine>>,
-    /// The scene is not followed to the end of the window with so many bits.
-    too_many_bits: Cell<u64>,
-    /// Tells times that rest on no event, to any precision.
-    scale: Rc<Scale<'a>>,
-}
-
-impl<'a> Follower<'a> {
-    /// Follows the scene until the end of a window of the user's time, and forgets what is not asked for to see an
-    /// observable on it, if only one is. With the number of digits, where that is known, it takes no more bits than it needs.
-    pub fn new(
-        network: &'a Network,
-        observed: Option<&Observed>,
-        [from, to]: [&Rational; 2],
-        digits: Option<usize>,
-    ) -> Result<Rc<Follower<'a>>, HistoryError> {
-        let asked = Asked::of(network, observed, from);
-        let until = Moment::at(network.scaled_time(to));
-        let attempt = |bits| match Follower::follow(network, &asked, &until, bits) {
-            Ok(known) => Ok(Attempt::Done(Ok(known))),
-            Err(error) => undecided(error),
-        };
-        let first = match network.local_contact() {
-            None => FIRST_BITS,
-            Some(_) if digits.is_some_and(|digits| digits <= FEW_DIGITS) => LOCAL_BITS[0],
-            Some(_) => LOCAL_BITS[1],
-        };
-        let known = Precisions::growing_by_half(first, MAX_HISTORY_BITS).raise(attempt)?.best()?;
-        let (known, too_many_bits) = (RefCell::new(known), Cell::new(u64::MAX));
-        let scale = Scale::of(network);
-        Ok(Rc::new(Follower { network, asked, until, known, too_many_bits, scale }))
-    }
-
-    fn follow(
-        network: &Network,
-        asked: &Asked,
-        until: &Moment,
-        bits: u64,
-    ) -> Result<Rc<Engine>, HistoryError> {
-        let mut engine = Engine::new(network, Contacts::of(network.scene()), bits)?;
-        engine.ask_for(network, asked)?;
-        engine.follow_until(until)?;
-        Ok(Rc::new(engine))
-    }
-
-    /// How many cells of nodes were worked out, and how many are kept with those of waves.
-    pub fn cells(&self) -> [usize; 2] {
-        let known = self.known.borrow();
-        [known.count(), known.kept()]
-    }
-
-    /// The highest precision of stretches. Those of a scene with a local contact keep the one that they have first.
-    fn most_bits(&self, known: &Engine) -> u64 {
-        match self.network.local_contact() {
-            None => MAX_HISTORY_BITS,
-            Some(_) => known.cut.bits,
-        }
-    }
-
-    /// What is known at a precision; where more is known, that, and less where following with it takes too much.
-    fn engine(&self, bits: u64) -> Rc<Engine> {
-        let known = Rc::clone(&self.known.borrow());
-        if known.cut.bits >= bits {
-            return known;
-        }
-        let bits = bits.next_multiple_of(STEP_BITS);
-        if bits >= self.too_many_bits.get() {
-            return known;
-        }
-        match Follower::follow(self.network, &self.asked, &self.until, bits) {
-            Ok(finer) => {
-                *self.known.borrow_mut() = Rc::clone(&finer);
-                finer
-            }
-            Err(_) => {
-                self.too_many_bits.set(bits);
-                known
-            }
-        }
-    }
-}
-
 /// The parts of what is seen, at the precision of an engine.
 type Parts<'a> = Box<dyn Fn(&Engine) -> Result<Vec<Part>, HistoryError> + 'a>;
 
@@ -193,6 +103,8 @@ pub(crate) struct FollowedSignal<'a> {
     /// From so many bits on there are other stretches than those that were counted.
     other_stretches: Cell<u64>,
     known: RefCell<Rc<Followed>>,
+    /// How many stretches there are, once that is asked.
+    count: OnceCell<Result<usize, HistoryError>>,
 }
 
 impl<'a> FollowedSignal<'a> {
@@ -277,13 +189,43 @@ impl<'a> FollowedSignal<'a> {
             most_bits,
             other_stretches,
             known,
+            count: OnceCell::new(),
         })
     }
 
     /// Finds all breaks, so that stretches can be asked for.
     pub fn cut_at_breaks(self) -> Result<Self, HistoryError> {
-        self.known.borrow().pieces(self.follower.network, &self.window)?;
+        self.counted()?;
         Ok(self)
+    }
+
+    /// How many stretches there are, which is found out once.
+    fn counted(&self) -> Result<usize, HistoryError> {
+        self.count.get_or_init(|| self.counted_with_enough()).clone()
+    }
+
+    /// The same with so many bits that half of them are left at the ends of all stretches, if that can be: a light mass between
+    /// long bars loses some at each return of a wave.
+    fn counted_with_enough(&self) -> Result<usize, HistoryError> {
+        let is_local = self.follower.network.local_contact().is_some();
+        loop {
+            let known = Rc::clone(&self.known.borrow());
+            let pieces = known.pieces(self.follower.network, &self.window)?;
+            let bits = known.engine.cut.bits;
+            let more = bits * 3 / 2;
+            if is_local || more > COUNTED_BITS || known.tells(pieces, bits as i64 / 2) {
+                return Ok(pieces.len());
+            }
+            let engine = self.follower.engine(more);
+            if engine.cut.bits <= bits {
+                return match &*self.follower.refusal.borrow() {
+                    Some(refusal) if !known.tells(pieces, LEAST_BITS) => Err(refusal.clone()),
+                    _ => Ok(pieces.len()),
+                };
+            }
+            let finer = Followed::of(self.follower.network, engine, &self.seen)?;
+            *self.known.borrow_mut() = Rc::new(finer);
+        }
     }
 
     /// What is known at a precision; where more is known, that. Stretches that were counted stay: how many cells a local
@@ -427,6 +369,18 @@ impl Followed {
         Ok(self.pieces.get_or_init(|| pieces))
     }
 
+    /// Whether the values at the ends of pieces are known with so many bits, compared with the largest.
+    fn tells(&self, pieces: &[Piece], bits: i64) -> bool {
+        let cut = &self.engine.cut;
+        let (mut size, mut error) = (Magnitude::ZERO, Magnitude::ZERO);
+        for Piece { course: [_, length], series, size: first, .. } in pieces {
+            let last = series.value(length, cut).ball(cut.bits);
+            size = size.max(*first).max(last.magnitude());
+            error = error.max(*last.radius());
+        }
+        error <= size.scale(-bits)
+    }
+
     /// A length of the user's time in the scale of the scene.
     fn scaled(&self, time: &Rational) -> Number {
         let bits = self.engine.cut.bits;
@@ -566,7 +520,7 @@ impl Signal for FollowedSignal<'_> {
     }
 
     fn most_bits(&self) -> u64 {
-        self.most_bits
+        self.most_bits.max(self.ready_bits())
     }
 
     fn ready_bits(&self) -> u64 {
@@ -599,9 +553,8 @@ impl Signal for FollowedSignal<'_> {
     }
 
     fn count(&self) -> Result<usize, EvaluateError> {
-        let known = self.cut(0)?;
-        let pieces = known.pieces(self.follower.network, &self.window);
-        Ok(pieces.map_err(|error| error.of_value(known.engine.cut.bits))?.len())
+        let bits = self.cut(0)?.engine.cut.bits;
+        self.counted().map_err(|error| error.of_value(bits))
     }
 
     fn scaled_time(&self, time: &Rational) -> Fraction {

@@ -204,6 +204,15 @@ pub(crate) fn chosen<'a>(
         Err(SignalError::Followed(
             HistoryError::Refused(_) | HistoryError::TooManyCells { .. },
         )) => closed(),
+        // Where following takes too much memory, searching many sums takes too long.
+        Err(SignalError::Followed(error @ HistoryError::TooMuchMemory { .. }))
+            if purpose == Purpose::Search
+                && ClosedForm::of_nothing(network, window[1])
+                    .and_then(|form| form.order(window[1]))
+                    .is_ok_and(|order| order > MOST_SEARCHED) =>
+        {
+            Err(error.into())
+        }
         Err(_) if ClosedForm::foreseen(network, window[1]).is_ok() => closed(),
         followed => followed,
     }

@@ -315,13 +315,13 @@ impl Check<'_> {
         left: Option<(End, Part)>,
         right: Option<(End, Part)>,
     ) {
-        let fixed = [left, right].into_iter().flatten().find(|(end, _)| *end == End::Fixed);
+        let ends = [left, right].into_iter().flatten();
+        let fixed = ends.filter_map(|(end, part)| (end == End::Fixed).then_some(part));
+        let fixed: Vec<Part> = fixed.collect();
         let mut imposed = None;
         for position in here {
-            if let Some((_, end)) = fixed
-                && !self.may_leave(position, end)
-            {
-                self.fault(Mistake::Held, [Part::Position(position), end]);
+            if let Some(end) = fixed.iter().find(|end| !self.may_leave(position, **end)) {
+                self.fault(Mistake::Held, [Part::Position(position), *end]);
                 continue;
             }
             let Kind::Load(load) = self.kind_at(position) else { continue };

@@ -78,13 +78,15 @@ pub(crate) struct Window<'a> {
     pub marched: Option<MarchedPieces>,
     /// The precision that has done so far.
     bits: std::cell::Cell<u64>,
+    /// Whether the signal is known to be zero on all of the window.
+    vanishes: std::cell::Cell<bool>,
 }
 
 impl<'a> Window<'a> {
     /// All of a signal's window.
     pub(crate) fn new(signal: &'a dyn Signal) -> Window<'a> {
-        let (firsts, bits) = (OnceCell::new(), std::cell::Cell::new(0));
-        Window { signal, firsts, marched: None, bits }
+        let (firsts, bits, vanishes) = Default::default();
+        Window { signal, firsts, marched: None, bits, vanishes }
     }
 
     /// The smallest doubles of the stretches; refused where there are too many.
@@ -169,7 +171,9 @@ impl<'a> Window<'a> {
         }
         let count = self.count()?;
         let mut scale = Magnitude::ZERO;
-        for stretch in (0..count).step_by(count.div_ceil(SAMPLES)) {
+        // Something may arrive at the end of the window alone.
+        let last = count - 1;
+        for stretch in (0..last).step_by(count.div_ceil(SAMPLES)).chain([last]) {
             let between = self.between(stretch, (SAMPLES / count).max(1))?;
             let ends = [At::End(Limit::Right), At::End(Limit::Left)];
             for at in ends.into_iter().chain(between.iter().map(At::Time)) {
@@ -190,6 +194,31 @@ impl<'a> Window<'a> {
         Ok(scale)
     }
 
+    /// Whether the signal is zero on every stretch, also where waves cancel each other, as exact values prove.
+    fn is_zero(&self) -> Result<bool, EvaluateError> {
+        let (signal, zero) = (self.signal, Rational::default());
+        for stretch in 0..self.count()? {
+            if signal.is_zero(stretch) {
+                continue;
+            }
+            if signal.exact(stretch, At::End(Limit::Right))?.as_ref() != Some(&zero) {
+                return Ok(false);
+            }
+            if signal.is_instant(stretch) {
+                continue;
+            }
+            // Within the stretch: values there are what it is judged by.
+            let time = |end| signal.time(stretch, end, LOOK_BITS);
+            let [(_, from), (to, _)] =
+                [time(Limit::Right)?.endpoints(), time(Limit::Left)?.endpoints()];
+            let bounds = [Rational::from(&from), Rational::from(&to)];
+            if bounds[0] >= bounds[1] || !signal.equals(stretch, &zero, &bounds, LOOK_BITS)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
     /// What errors are compared with: the largest value, or where no value but zero was found, what the
     /// signal comes to a little later.
     pub(crate) fn scale_of_errors(&self) -> Result<Magnitude, EvaluateError> {
@@ -200,6 +229,7 @@ impl<'a> Window<'a> {
         if !scale.is_zero() {
             return Ok(scale);
         }
+        self.vanishes.set(self.is_zero()?);
         let (last, to) = (self.count()? - 1, self.signal.window()[1]);
         let mut size = Magnitude::ZERO;
         for later in LATER {
@@ -233,7 +263,8 @@ impl<'a> Window<'a> {
         // Stretches are much alike: each is first cut as often as its predecessor at least was.
         let mut depth = 0;
         let mut width = None;
-        let marched = self.marched.as_ref().filter(|marched| marched.serves(fit.error));
+        let serves = |marched: &&MarchedPieces| marched.serves(fit.error) && !self.vanishes.get();
+        let marched = self.marched.as_ref().filter(serves);
         for (stretch, doubles) in self.doubles()? {
             let all = &mut pieces.all;
             pieces.firsts.resize(stretch + 1, all.len());
@@ -317,6 +348,9 @@ impl<'a> Window<'a> {
         (middle, half): (f64, f64),
         fit: Fit,
     ) -> Result<Taylor, EvaluateError> {
+        if self.vanishes.get() {
+            return Ok(Taylor::polynomial(vec![Ball::zero(); fit.degree + 1]));
+        }
         let (middle, half) = (rational(middle), rational(half));
         let place = (&middle, &half);
         let mut taylor = match &self.marched {

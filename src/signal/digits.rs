@@ -4,7 +4,7 @@
 //! certain (Ziv). They never decide zero, nor a value half-way between two decimals: where these are
 //! suspected, exact arithmetic is asked once more, at whatever cost.
 
-use crate::ball::{Attempt, Precisions, Value};
+use crate::ball::{Attempt, NEGLIGIBLE_BITS, Precisions, Value};
 use crate::signal::error::EvaluateError;
 use crate::signal::signal::{Known, Limit, Point, Signal};
 use wavestep_polynomial::Rational;
@@ -112,7 +112,7 @@ impl Point<'_> {
             }
             Value::Enclosed(best) => {
                 if tie_bits == limit_bits
-                    && let Some(value) = Value::near_zero(&best, digits)
+                    && let Some(value) = Value::near_zero(&best, digits, NEGLIGIBLE_BITS)
                 {
                     return Ok(value);
                 }
@@ -132,7 +132,7 @@ impl Point<'_> {
         }
         let attempt = |bits| {
             let ball = (self.enclose)(bits)?;
-            let nothing = Value::near_zero(&ball, digits);
+            let nothing = Value::near_zero(&ball, digits, NEGLIGIBLE_BITS);
             let is_told = nothing.is_some() || !ball.contains_zero();
             Ok(Attempt::of(nothing, is_told))
         };

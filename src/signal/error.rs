@@ -35,7 +35,9 @@ pub enum EvaluateError {
     #[error("the time is after the prepared window")]
     AfterLast,
     /// Waves that are followed from event to event, where sums of echoes or steps of periods are asked for.
-    #[error("this method needs waves in closed form, and there are none")]
+    #[error(
+        "this method needs waves in closed form; those of this scene are followed from event to event"
+    )]
     NoClosedForm,
     #[error(transparent)]
     Division(#[from] NotAUnit),

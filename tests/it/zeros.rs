@@ -6,7 +6,7 @@ use wavestep::network::Network;
 use wavestep::planner::{Purpose, of_scene};
 use wavestep::problem::Simpler;
 use wavestep::scenes::SCENES;
-use wavestep::signal::{At, Limit};
+use wavestep::signal::{At, Compiled, Evaluator as _, Limit};
 use wavestep::{Error, Goal, Place, Problem, Root, Value};
 use wavestep_polynomial::Rational;
 
@@ -320,5 +320,91 @@ fn what_is_flat_vanishes() -> Result<(), Error> {
         }
     }
     assert!(flat > 100 && told > 500, "{flat} of {told}");
+    Ok(())
+}
+
+/// Two halves of a line that are mirror images: what one has, the other has.
+const MIRRORED: &str = "scene \"Mirrored\"\nmass one { mass = 1/3, velocity = 1 }\n\
+    bar a { impedance = 1, travel = 1, velocity = 1 }\nspring soft { stiffness = 2 }\n\
+    bar b { impedance = 1, travel = 1, velocity = -1 }\nmass other { mass = 1/3, velocity = -1 }\n\
+    line free - one - a - soft - b - other - free\n\
+    observe differ = energy(a) - energy(b)\nobserve carried = momentum(line)\n";
+
+/// Terms that cancel on every stretch are proven to; a little more of one of them, and they do not.
+#[test]
+fn energies_that_cancel_are_zero() -> Result<(), Error> {
+    let mirrored = read(MIRRORED)?;
+    let roots = mirrored.signal("differ")?.roots(0..=5, 9)?.all;
+    assert!(matches!(&roots[..], [Root::Interval { .. }]), "{roots:?}");
+    for goal in [Goal::Largest, Goal::Smallest] {
+        let extremum = mirrored.signal("differ")?.extremum(goal, 0..=5, 9)?;
+        assert_eq!(extremum.value, Value::Exact(Rational::default()));
+    }
+    let other = MIRRORED.replace("velocity = -1 }\nmass", "velocity = -1001/1000 }\nmass");
+    let extremum = read(&other)?.signal("differ")?.extremum(Goal::Smallest, 0..=5, 9)?;
+    assert!(extremum.value.to_f64() < -1e-3, "{:?}", extremum.value);
+    Ok(())
+}
+
+/// Polynomials of what is zero on all of a window are zero, with a bound that is.
+#[test]
+fn what_cancels_compiles_to_zero() -> Result<(), Error> {
+    let held = "scene \"Held\"\nload push { velocity = 1/5*exp(-5/7*t), from = 1/2, until = 5/2 }\n\
+        mass m { mass = 2, velocity = 5/7 }\nbar rod { impedance = 3, travel = 1, velocity = 2 }\n\
+        line free - push - m - rod - free\nobserve v = velocity(rod.left)\nobserve k = energy(m)\n";
+    for (text, name, window) in [
+        (held, "v", [3, 5]),
+        (held, "k", [3, 5]),
+        (MIRRORED, "differ", [0, 5]),
+        (MIRRORED, "carried", [0, 5]),
+    ] {
+        let problem = read(text)?;
+        let network = problem.network().unwrap();
+        let observed = network.observables().iter().find(|own| own.name == name).unwrap();
+        let [from, to] = window.map(|end: i32| Rational::from_integer(end.into()));
+        let signal = of_scene(network, observed, [&from, &to], Purpose::Polynomials).unwrap();
+        let compiled = Compiled::new(&*signal, None).unwrap();
+        assert_eq!(compiled.bound(), Some(0.0), "{name}");
+        let mut values = [1.0; 3];
+        compiled.values(&[3.0, 3.7, 4.9], &mut values).unwrap();
+        assert_eq!(values, [0.0; 3], "{name}");
+    }
+    Ok(())
+}
+
+/// A front that arrives at the last instant of a window counts: what vanishes before it is not zero there.
+#[test]
+fn what_arrives_at_the_end_is_not_left_out() -> Result<(), Error> {
+    let text = "scene \"Late\"\nload one { force = 1 }\nload extra { force = 1, from = 15 }\nload other { force = -1 }\n\
+        bar a { impedance = 1, travel = 1/2 }\nbar c { impedance = 2, travel = 1/3 }\n\
+        bar b { impedance = 1, travel = 1/2 }\nline free - one - extra - a - c - b - other - free\n\
+        observe differ = velocity(a.left) + velocity(b.right)\n";
+    let problem = read(text)?;
+    let network = problem.network().unwrap();
+    let observed = &network.observables()[0];
+    for (last, value) in [(14, 0.0), (15, 1.0)] {
+        let [from, to] = [0, last].map(|end: i32| Rational::from_integer(end.into()));
+        let signal = of_scene(network, observed, [&from, &to], Purpose::Polynomials).unwrap();
+        let compiled = Compiled::new(&*signal, None).unwrap();
+        let told = compiled.value(&to, Limit::Right).unwrap();
+        assert!((told - value).abs() <= compiled.bound().unwrap(), "{told} at {last}");
+        assert_eq!(compiled.bound() == Some(0.0), last == 14);
+    }
+    Ok(())
+}
+
+/// An exact zero that takes long formulas with several named rates is told as nothing, with a radius, and soon.
+#[test]
+fn zeros_of_many_named_rates_have_a_radius() -> Result<(), Error> {
+    let text = "scene \"Inches\"\nmass m { mass = 1/2 kg, velocity = 100 in/s }\n\
+        spring s { stiffness = 1000 lbf/in, damping = 2 lbf*s/in }\n\
+        bar r { modulus = 3e10 N/m^2, density = 7.8 g/cm^3, diameter = 1 in, length = 12 in }\n\
+        support q { damping = 1 kg/s, stiffness = 2 J/m^2 }\nline free - m - s - r - q - free\n\
+        observe mix = force(s)/2 - force(r.left)/2\n";
+    let problem = read(text)?;
+    let mix = problem.signal("mix")?;
+    assert_eq!(mix.at("0.4 ms", 6)?, Value::Exact(Rational::default()));
+    let late = mix.at("1.5 ms", 6)?.to_text(6);
+    assert!(late.starts_with("0 ± ") && late.contains("e-1"), "{late}");
     Ok(())
 }

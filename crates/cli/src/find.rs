@@ -149,7 +149,7 @@ fn quantity(options: &Find) -> Result<(&str, &str), Failure> {
     match name.contains(',') {
         true => {
             let message = format!("`{name}` are several quantities, and `find` takes one");
-            Err(Failure::usage(message, "ask for one after the other, or use `wavestep sweep`"))
+            Err(Failure::usage(message, "ask for one after the other"))
         }
         false => Ok((name, "0")),
     }

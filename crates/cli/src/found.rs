@@ -220,7 +220,7 @@ fn extremum_text(extremum: &Extremum, which: &str, told: &Told<'_>) -> String {
     text.extend(extremum.places.iter().map(|place| told.teller().place(place) + "\n"));
     if extremum.places.len() > 1 {
         text += match &extremum.value {
-            Value::Exact(_) => "tied: the value is exactly the same there\n",
+            Value::Exact(_) => "tied: the value is the same at all of them\n",
             _ => "tied: these places cannot be told apart\n",
         };
     }

@@ -147,7 +147,9 @@ fn unknown(scope: &Scope, name: &str, span: crate::language::Span) -> Diagnostic
     let lower = name.to_ascii_lowercase();
     let spelt = closest(&lower, SPELT.iter().map(|(word, _)| *word));
     let spelt = spelt.and_then(|spelt| SPELT.iter().find(|(word, _)| *word == spelt));
-    if scope.symbols.contains_key(name) || name == "t" {
+    if name == "t" {
+        error.with_remedy("a product with the time needs `*`, as in `2*t`; a tonne is `Mg`")
+    } else if scope.symbols.contains_key(name) {
         error.with_remedy(format!("no unit has this name; a product needs `*`, as in `2*{name}`"))
     } else if !digits.is_empty() && named(letters).is_some() {
         error.with_remedy(format!("write powers with `^`: `{letters}^{digits}`"))

@@ -42,8 +42,8 @@ const PATIENT_BITS: u64 = 1 << 12;
 /// A radius as a power of two that tells nothing.
 const WIDE: i64 = 1 << 20;
 
-/// The most echoes that are worked out exactly to see whether a value is zero, and where formulas hold
-/// named constants.
+/// The most echoes that are worked out exactly to see whether a value is zero, and where formulas hold a
+/// named constant. With more constants that limit is divided by their number.
 const MAX_EXACT_ECHOES: usize = 1_000;
 const MAX_EXACT_ECHOES_NAMED: usize = 100;
 
@@ -298,8 +298,10 @@ impl<'a> SceneEchoes<'a> {
         let echoes = match known {
             Some(known) => known,
             None => {
-                let named = !recurrence.constants().is_empty();
-                let most = if named { MAX_EXACT_ECHOES_NAMED } else { MAX_EXACT_ECHOES };
+                let most = match recurrence.constants().len() {
+                    0 => MAX_EXACT_ECHOES,
+                    constants => MAX_EXACT_ECHOES_NAMED / constants,
+                };
                 let other_than_zero = || self.work().is_some_and(|work| work.expanded <= most);
                 let feasible = !recurrence.has_named_rates() && other_than_zero();
                 let memory = Memory::of(size_of::<Expression>() as u64);

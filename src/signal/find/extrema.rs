@@ -30,6 +30,9 @@ fn comparisons() -> Precisions {
 /// Bits of balls beyond those of a value.
 const SPARE_BITS: u64 = 64;
 
+/// `−log₂` of an extremum that counts as zero. Where contacts part, a search has 640 bits, too few for the 1024 of single values.
+const NOTHING_BITS: i64 = 512;
+
 /// How near an end of a cell a change of sign is looked for: at parts of it of which each is the square of the one
 /// before.
 const NEAREST: usize = 9;
@@ -188,7 +191,11 @@ impl<'s> Search<'s> {
             Some(value) => Value::Exact(value),
             None => {
                 let limit = contenders.limit_bits;
-                Value::certify(digits, limit, |bits| contenders.enclose(bits))?.exact_if_known()
+                match Value::certify(digits, limit, |bits| contenders.enclose(bits))? {
+                    Value::Enclosed(ball) => Value::near_zero(&ball, digits, NOTHING_BITS)
+                        .unwrap_or(Value::Enclosed(ball)),
+                    told => told.exact_if_known(),
+                }
             }
         };
         Ok(Some(Extremum { value, places: contenders.places(digits)? }))

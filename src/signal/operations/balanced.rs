@@ -174,6 +174,24 @@ impl Rule for Balanced<'_> {
         Ok(vec![near.coefficients[0].widened(&near.tail(1))])
     }
 
+    /// The size of the flow's terms, or of the quantity's own: `terms` gives only their sum, in which they may cancel.
+    fn size(
+        &self,
+        places: &[usize],
+        order: usize,
+        (time, at): (&Rational, &Mark<'_>),
+        bits: u64,
+    ) -> Outcome<(Magnitude, Magnitude)> {
+        let Some(order) = order.checked_sub(1) else {
+            let stretch = locate(&*self.of, at, Limit::Right)?;
+            return self.of.size(stretch, 0, time, bits);
+        };
+        let stretch = self.stretch(places[0], Limit::Right);
+        let (size, error) = self.flow.size(stretch, order, time, bits)?;
+        let slowness = self.slowness(bits)?.magnitude();
+        Ok((size.multiply(&slowness), error.multiply(&slowness)))
+    }
+
     fn taylor(
         &self,
         places: &[usize],

@@ -285,6 +285,21 @@ pub(crate) trait Rule {
     fn terms(&self, places: &[usize], order: usize, at: &Mark<'_>, bits: u64)
     -> Outcome<Vec<Ball>>;
 
+    /// As [`Signal::size`], in the scale of the scene.
+    fn size(
+        &self,
+        places: &[usize],
+        order: usize,
+        (_, at): (&Rational, &Mark<'_>),
+        bits: u64,
+    ) -> Outcome<(Magnitude, Magnitude)> {
+        let (mut size, mut error) = (Magnitude::ZERO, Magnitude::ZERO);
+        for term in self.terms(places, order, at, bits)? {
+            (size, error) = (size.add(&term.midpoint().magnitude()), error.add(term.radius()));
+        }
+        Ok((size, error))
+    }
+
     /// As [`Signal::taylor`].
     fn taylor(
         &self,
@@ -338,6 +353,14 @@ fn taylor_by_rate(
 struct Step {
     begins: usize,
     places: Vec<usize>,
+    /// Whether the operation is known to be zero, once that is asked.
+    is_zero: OnceCell<bool>,
+}
+
+impl Step {
+    fn new(begins: usize, places: &[usize]) -> Step {
+        Step { begins, places: places.to_vec(), is_zero: OnceCell::new() }
+    }
 }
 
 /// The signal of a rule, in a unit, on a window of the user's time.
@@ -368,7 +391,7 @@ impl<'a, R: Rule> Operation<'a, R> {
             })
             .collect();
         let mut places: Vec<usize> = ranges.iter().map(|range| range.start).collect();
-        let mut steps = vec![Step { begins: 0, places: places.clone() }];
+        let mut steps = vec![Step::new(0, &places)];
         loop {
             // Those operands that come to a new place first, all at one time.
             let mut first: Vec<(usize, &Mark<'_>)> = Vec::new();
@@ -390,7 +413,7 @@ impl<'a, R: Rule> Operation<'a, R> {
             }
             let Some(begins) = first.first().map(|(operand, _)| *operand) else { break };
             first.iter().for_each(|(operand, _)| places[*operand] += 1);
-            steps.push(Step { begins, places: places.clone() });
+            steps.push(Step::new(begins, &places));
         }
         drop(marks);
         Ok(self.steps.get_or_init(|| steps))
@@ -409,7 +432,7 @@ impl<'a, R: Rule> Operation<'a, R> {
         match stretch {
             0 => self.scale.mark(&self.window[0]),
             _ => {
-                let Step { begins, places } = self.step(stretch);
+                let Step { begins, places, .. } = self.step(stretch);
                 self.rule.mark(*begins, places[*begins])
             }
         }
@@ -435,6 +458,28 @@ impl<'a, R: Rule> Operation<'a, R> {
     /// What is told of an exact value in the scale of the scene.
     fn told(&self, value: Option<Expression>) -> Known {
         Known::of(value, &self.unit)
+    }
+
+    /// Whether terms that are not zero add up to zero on a stretch: in numbers, and then exactly.
+    fn cancels(&self, stretch: usize) -> Outcome<bool> {
+        if self.is_instant(stretch) {
+            return Ok(false);
+        }
+        let end = |end| self.time(stretch, end, SUSPICION_BITS);
+        let [from, to] = [end(Limit::Right)?, end(Limit::Left)?];
+        let sum = Rational::from(from.add(&to, SUSPICION_BITS).midpoint());
+        let middle = sum / Rational::from_integer(2.into());
+        let (places, middle) = (&self.step(stretch).places, self.scale.mark(&middle));
+        for bits in [SUSPICION_BITS, 4 * SUSPICION_BITS] {
+            let terms = self.rule.terms(places, 0, &middle, bits)?;
+            let sum = terms.iter().fold(Ball::zero(), |sum, term| sum.add(term, bits));
+            if terms.len() < 2 || !sum.contains_zero() {
+                return Ok(false);
+            }
+        }
+        let time = Fraction::symbol(self.scale.clock);
+        let exact = self.rule.exact_at(places, &time, Effort::Much);
+        Ok(exact.is_some_and(|function| function.is_zero()))
     }
 
     /// What exact arithmetic tells of a limit at a time.
@@ -499,12 +544,14 @@ impl<R: Rule> Signal for Operation<'_, R> {
     }
 
     fn is_instant(&self, stretch: usize) -> bool {
-        let Step { begins, places } = self.step(stretch);
+        let Step { begins, places, .. } = self.step(stretch);
         places.get(*begins).is_some_and(|place| self.rule.is_instant(*begins, *place))
     }
 
     fn is_zero(&self, stretch: usize) -> bool {
-        self.rule.is_zero(&self.step(stretch).places)
+        let Step { places, is_zero, .. } = self.step(stretch);
+        let cancels = || self.cancels(stretch).unwrap_or(false);
+        *is_zero.get_or_init(|| self.rule.is_zero(places) || cancels())
     }
 
     fn square_of(&self) -> Option<(Ball, &dyn Signal)> {
@@ -560,13 +607,11 @@ impl<R: Rule> Signal for Operation<'_, R> {
         at: &Rational,
         bits: u64,
     ) -> Outcome<(Magnitude, Magnitude)> {
-        let (mark, places) = (self.scale.mark(at), &self.step(stretch).places);
-        let (mut size, mut error) = (Magnitude::ZERO, Magnitude::ZERO);
-        for term in self.rule.terms(places, order, &mark, bits)? {
-            let term = self.in_unit(term, bits)?;
-            (size, error) = (size.add(&term.midpoint().magnitude()), error.add(term.radius()));
-        }
-        Ok((size, error))
+        let (places, at) = (&self.step(stretch).places, (at, &self.scale.mark(at)));
+        let (size, error) = self.rule.size(places, order, at, bits)?;
+        let unit = self.in_unit(Ball::from_integer(&1.into()), bits)?;
+        let error = error.multiply(&unit.magnitude()).add(&size.multiply(unit.radius()));
+        Ok((size.multiply(&unit.magnitude()), error))
     }
 
     fn exact(&self, stretch: usize, at: At<'_>) -> Outcome<Option<Rational>> {

@@ -132,6 +132,19 @@ fn rigid_masses_that_hit_a_wall_are_refused() {
     assert_eq!(error(&mirrored).to_string(), refused);
 }
 
+/// What is joined to one wall cannot leave another.
+#[test]
+fn what_is_joined_to_a_wall_does_not_leave_the_other() {
+    for line in ["fixed | pull - m - fixed", "fixed - pull - m | fixed"] {
+        let text = format!(
+            "scene \"Between walls\"\nload pull {{ force = t }}\nmass m {{ mass = 1 }}\nobserve v = velocity(m)\n\
+             line {line}\ncontacts open"
+        );
+        let error = Problem::of_text("walls.wave", &text, &Values::new()).err().unwrap();
+        assert!(error.to_string().contains("has no effect at a fixed end"), "{line}: {error}");
+    }
+}
+
 #[test]
 fn imposed_velocities_are_refused() {
     let text = "scene \"Pushed\"\nload push { velocity = 1 }\nbar rod { impedance = 1, travel = 1 }\n\

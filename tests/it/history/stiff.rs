@@ -2,9 +2,11 @@
 //! they follow what arrives.
 
 use crate::history::{ball, is_zero, network_of, rational, values};
+use wavestep::ball::Magnitude;
 use wavestep::history::{EventKind, History};
-use wavestep::signal::Limit;
-use wavestep::{Goal, Problem};
+use wavestep::planner::{Origin, Purpose, of_origin};
+use wavestep::signal::{At, Limit};
+use wavestep::{Goal, Place, Problem};
 use wavestep_polynomial::Rational;
 
 /// What is followed is the closed form of the same scene with closed contacts, as long as these would not open.
@@ -103,4 +105,28 @@ fn extrema_of_stiff_scenes_are_found_at_any_precision() {
     let signal = problem.signal("f").unwrap();
     let largest = signal.extremum(Goal::Largest, "0"..="8e-6", 20).unwrap();
     assert_eq!(largest.value.to_string(), "1500000000");
+}
+
+/// A light mass on a spring loses bits at each return of a wave: stretches of a long window are counted with more.
+#[test]
+fn long_windows_of_light_masses_have_extrema() -> Result<(), wavestep::Error> {
+    let text = "scene \"A light sensor\"\nmass block { mass = 20, velocity = 1 }\n\
+        spring pad { stiffness = 1, damping = 1/10 }\nmass sensor { mass = 1/100 }\n\
+        bar rod { impedance = 1, travel = 1 }\nline free - block - pad - sensor - rod - fixed\n\
+        observe s = strain(rod.right)\n";
+    let network = network_of(text, &[]);
+    let [zero, to] = [0, 120].map(|time| rational(time, 1));
+    let observed = &network.observables()[0];
+    let signal =
+        of_origin(Origin::Followed, &network, observed, [&zero, &to], Purpose::Search).unwrap();
+    assert!(signal.count().unwrap() > 1000 && signal.ready_bits() > 192);
+    let end = signal.enclose(signal.count().unwrap() - 1, 0, At::Time(&to), 64).unwrap();
+    assert!(*end.radius() < Magnitude::power_of_two(-90), "{end}");
+    // The value there by the closed form.
+    let problem = Problem::read("scene", text)?;
+    let largest = problem.signal("s")?.extremum(Goal::Largest, 0..=120, 12)?;
+    let [Place::Critical(time)] = &largest.places[..] else { panic!("{:?}", largest.places) };
+    let [at, _] = time.bounds();
+    assert_eq!(problem.signal("s")?.at(at, 12)?.to_text(12), largest.value.to_text(12));
+    Ok(())
 }

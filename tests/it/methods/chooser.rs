@@ -126,7 +126,7 @@ fn tolerances_are_kept() {
 /// more waves costs more.
 #[test]
 fn costs_follow_what_is_done() {
-    let size = Size { order: 200, points: 1, marches: false };
+    let size = Size { order: 200, points: 1, marches: false, followed: false };
     let costs = Costs::default();
     let cost = |name: &str| Cost::of(name.parse().unwrap(), size, &costs).unwrap();
     let (certified, compiled) = (cost("certified"), cost("compiled"));
@@ -209,7 +209,7 @@ fn every_method_is_named_as_it_is_read() {
         assert_eq!(method.name(), bare);
         assert_eq!(method.to_string().parse::<Method>(), Ok(method));
         assert_eq!(method.setting().is_empty(), !name.contains(':'), "{name}");
-        let size = Size { order: 50, points: 10, marches: true };
+        let size = Size { order: 50, points: 10, marches: true, followed: false };
         let cost = Cost::of(method, size, &Costs::default());
         assert_eq!(cost.is_none(), about.starts_with("model: "), "{name}");
     }

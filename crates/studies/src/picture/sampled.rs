@@ -114,7 +114,8 @@ impl Sampler<'_> {
             let ball = self.function.enclose(stretch, 0, at, bits)?;
             let (value, bound) = ball.to_double();
             let bound = bound.to_double();
-            if bound > 1e-12 * value.abs().max(1e-60) && bound < 1e-30 && ball.contains_zero() {
+            // A ball around zero with a radius below 1e-30 is drawn as zero.
+            if bound < 1e-30 && ball.contains_zero() {
                 return Ok(Attempt::Done(0.0));
             }
             Ok::<_, EvaluateError>(Attempt::of(value, bound <= 1e-12 * value.abs().max(1e-60)))
