@@ -331,7 +331,7 @@ class Motion:
         line = self.line
         need(all(0 <= contact < len(line.contacts) for contact, *_ in self.claims), "an event without a contact")
         self.instants, self.now, self.marks, self.past, self.events = [ZERO], START, [], [], []
-        self.open = {i: {"rests": False, "idle": None, "pressed": False} for i in line.contacts}
+        self.open = {i: {"flat": 0, "idle": None, "pressed": False} for i in line.contacts}
         self.closed = set(line.contacts)
         springs = [i for i, link in enumerate(line.links) if link["is"] == "spring"]
         self.state = {
@@ -424,8 +424,9 @@ class Motion:
 
     def change(self, changes, by_itself):
         """Opens and closes contacts now. Where one opens by itself, or where both sides have inertia, the velocities on both
-        sides are equal at first, unless the end of a spring comes loose."""
-        before, was_flush = self.system, {i: own["rests"] for i, own in self.open.items()}
+        sides are equal at first, unless the end of a spring comes loose. Where one opens by itself between masses or walls, its
+        force has just come to zero, so their accelerations are equal too."""
+        before, was_flush = self.system, {i: own["flat"] for i, own in self.open.items()}
         for i in changes:
             closes, own, idle = i not in self.closed, self.open[i], self.open[i]["idle"]
             if not closes and idle is not None and idle != self.now:
@@ -444,10 +445,12 @@ class Motion:
             for r in own:
                 self.state["v"][r] = ZERO if self.system.fixed[g] else self.state["v"][self.system.mover[g]]
         for own in self.open.values():
-            own["rests"] = False  # velocities may jump
+            own["flat"] = 0  # velocities may jump
         for i in changes:
-            inert = all(self.system.moved[self.system.group[r]] for r in (i, i + 1))
-            self.open[i]["rests"] = i not in self.closed and not loosened and (inert or by_itself)
+            groups = [self.system.group[r] for r in (i, i + 1)]
+            inert, rigid = all(self.system.moved[g] for g in groups), all(self.system.moved[g] or self.system.fixed[g] for g in groups)
+            if i not in self.closed and not loosened:
+                self.open[i]["flat"] = int(inert or by_itself) + int(by_itself and rigid and len(changes) == 1)
 
     def is_rigid_impact(self, i):
         """Whether masses or walls on both sides of a contact, with nothing elastic between, have different velocities."""
@@ -464,8 +467,8 @@ class Motion:
         if i in self.closed:
             return [self.system.contact_force(i, one) for one in solved["forces"]]
         series = [one[i] for one in solved["gap"]]
-        if self.open[i]["rests"] and len(series) > 1:
-            series[1] = ZERO
+        for k in range(1, min(len(series), 1 + self.open[i]["flat"])):
+            series[k] = ZERO
         return series[: len(solved["forces"])]
 
     def enclosed(self, waves, loads, reach):
@@ -524,7 +527,7 @@ class Motion:
             "gap": {i: ZERO if i in self.closed else value(guards[i], place) for i in line.contacts},
         }
         for own in self.open.values():
-            own["rests"] = False
+            own["flat"] = 0
         if due:
             self.instants.append(self.instant(self.now) + place.times(self.step))
             self.now = (len(self.instants) - 1, Duration({}))

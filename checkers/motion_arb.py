@@ -405,7 +405,7 @@ class Story:
             need(not before or before[-1] <= self.told[-1][2], "two events of a contact are in one interval")
         self.origins, self.now = [arb(0)], START
         self.begins, self.past, self.happened = [], [], []
-        self.closed, self.idle, self.flush, self.pressed = set(parts.contacts), {}, set(), set()
+        self.closed, self.idle, self.flush, self.pressed = set(parts.contacts), {}, {}, set()
         heavy = [r for r, m in enumerate(parts.mass) if sign(m) == 1 and not parts.fixed[r]]
         self.state = {("v", r): short(parts.momentum[r] / parts.mass[r]) for r in heavy}
         self.state |= {("alpha", i): NIL for i, link in enumerate(parts.links) if link["is"] == "spring"}
@@ -495,8 +495,8 @@ class Story:
             return [own[self.laws.place["X", i]] for own in solutions]
         speeds = [self.laws.velocity(s, z, i + 1) - self.laws.velocity(s, z, i) for s, z in zip(states, solutions)]
         series = [self.gaps[i]] + [short(c * self.step / (k + 1)) for k, c in enumerate(speeds)]
-        if i in self.flush:
-            series[1] = NIL
+        for k in range(1, min(len(series), 1 + self.flush.get(i, 0))):
+            series[k] = NIL
         return series[: len(solutions)]
 
     def last(self, i, wide, solutions):
@@ -550,11 +550,13 @@ class Story:
         for i in freed:
             need(sign(self.state["alpha", i]) in (0, None), "a compressed spring comes loose")
             self.state["alpha", i] = NIL
-        self.flush = set()
+        # How many derivatives of a gap are zero at first: that of the second order too where masses or walls part, whose force has
+        # just come to zero.
+        self.flush = {}
         for i in contacts:
             both = heavy[i] and heavy[i + 1]
             if i not in self.closed and not freed and (both or smoothly):
-                self.flush.add(i)
+                self.flush[i] = 1 + int(smoothly and len(contacts) == 1 and self.laws.rigid(i))
 
     def largest(self, start, waves, loads, share):
         """Bounds of y' on a share of a step, where y'' = A y' + b': |y'| <= (|y'(0)| + h |b'|) / (1 - h |A|)."""
@@ -657,7 +659,7 @@ class Story:
         need(len(self.begins) < 8000, "there are too many steps")
         self.state = {key: horner(motion[key], place) for key in self.state}
         self.gaps = {i: NIL if i in self.closed else horner(guards[i], place) for i in self.gaps}
-        self.flush = set()
+        self.flush = {}
         if change is None:
             self.now = end
             return

@@ -44,8 +44,9 @@ pub(crate) struct Happening {
 pub(crate) struct Contact {
     pub closed: bool,
     pub gap: Number,
-    /// Whether the gap begins to open with velocity zero, exactly.
-    pub rests: bool,
+    /// How many derivatives of the gap are zero, exactly, when it begins to open: its velocity, and its acceleration where a force
+    /// that holds two masses together has fallen to zero.
+    pub flat: usize,
     /// Since when the force is exactly zero, after it was positive.
     pub idle: Option<Moment>,
     pub pressed: bool,
@@ -218,9 +219,7 @@ impl Engine {
             for (k, (less, more)) in (1..).zip(less.iter().zip(more)) {
                 starts.push(more.subtract(less, bits).over(k, bits));
             }
-            if own.rests {
-                starts[1] = Number::zero();
-            }
+            starts.iter_mut().skip(1).take(own.flat).for_each(|start| *start = Number::zero());
             let kept = match known {
                 Some((_, force)) => Kept::Compression(rate, input[force].clone()),
                 None => Kept::Gap(rate),
@@ -375,8 +374,11 @@ impl Engine {
             let own = &mut self.open[*contact];
             // The end of a spring that comes loose leaves with a velocity of its own.
             let is_local = self.nodes[node].local_contact(*contact).is_some();
-            own.rests =
-                !own.closed && !loosened && !is_local && (inert || cause == Cause::Crossing);
+            own.flat = match cause {
+                _ if own.closed || loosened || is_local => 0,
+                Cause::Crossing => 1 + usize::from(inert),
+                _ => usize::from(inert),
+            };
         }
         let passivity = Passivity::at(&self.nodes[node], &system, (&next, self.cut.bits))?;
         let state = &mut self.states[node];

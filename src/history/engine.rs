@@ -325,13 +325,8 @@ impl Engine {
     /// The nodes at the start, all contacts closed.
     fn begin(&mut self) -> Outcome<()> {
         let start = Moment::at(Fraction::zero());
-        let contact = || Contact {
-            closed: true,
-            gap: Number::zero(),
-            rests: false,
-            idle: None,
-            pressed: false,
-        };
+        let contact =
+            || Contact { closed: true, gap: Number::zero(), flat: 0, idle: None, pressed: false };
         self.open = self.layout.contacts.iter().map(|_| contact()).collect();
         for (number, node) in self.nodes.iter().enumerate() {
             let bits = self.cut.bits;
@@ -727,7 +722,7 @@ impl Engine {
         let now = self.states[node].now.clone();
         for (guard, (contact, _)) in guards.iter().zip(own.contacts()) {
             let contact = &mut self.open[contact];
-            contact.rests = false;
+            contact.flat = 0;
             contact.gap = guard.gap_after(length, cut.bits);
             if contact.closed {
                 match guard.has_no_force() {

@@ -324,6 +324,11 @@ impl Check<'_> {
                 self.fault(Mistake::Held, [Part::Position(position), *end]);
                 continue;
             }
+            if let (Some(end), Kind::Mass(mass)) = (fixed.first(), self.kind_at(position))
+                && !mass.velocity.is_zero()
+            {
+                self.fault(Mistake::MovesAtWall, [Part::Position(position), *end]);
+            }
             let Kind::Load(load) = self.kind_at(position) else { continue };
             if load.drive == Drive::Velocity {
                 match imposed {

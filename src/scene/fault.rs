@@ -116,6 +116,9 @@ pub enum Mistake {
     /// A lumped element or a load at a place that is fixed.
     #[error("this place is fixed and cannot move")]
     Held,
+    /// A mass behind a contact at a fixed end, that moves at the start.
+    #[error("a rigid mass at a wall has to begin at rest")]
+    MovesAtWall,
     /// A spring with nothing between it and a free end.
     #[error("this spring has nothing to press against")]
     Idle,

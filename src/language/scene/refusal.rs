@@ -132,6 +132,13 @@ impl Lowering<'_> {
                 &["cannot move", "fixed here"],
                 format!("remove `{name}`, or put a bar or a spring between it and the fixed end"),
             ),
+            Mistake::MovesAtWall => (
+                format!("the mass `{name}` touches a wall, and has to begin at rest"),
+                &["moves at the start", "fixed here"],
+                format!(
+                    "let `{name}` begin at rest, or put a spring or a bar between it and the wall"
+                ),
+            ),
             Mistake::Idle => (
                 format!("this {} has nothing to press against", noun()),
                 &["can do nothing", "nothing to press against"],

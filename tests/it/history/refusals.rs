@@ -114,22 +114,57 @@ fn a_load_pulls_a_mass_off_a_wall() {
     assert!((signal.at("3", 17).unwrap().to_f64() - moved).abs() < 1e-15);
 }
 
+/// A release at an irrational time needs no assumption: with `p = t² − 1/2` the gap begins as `τ³`, since what pressed the mass on
+/// the wall, or on another mass, has just come to nothing. Then `v' = p − v`.
+#[test]
+fn a_mass_leaves_at_an_irrational_time() {
+    let text = PULLED.replace("force = t - 1/2", "force = t*t - 1/2");
+    let until = wavestep::language::parse_number("2").unwrap();
+    let history = History::of(&network_of(&text, &[]), Some(&until), 12).unwrap();
+    assert_eq!(history.assumptions, [""; 0]);
+    assert_eq!(kinds(&history.events), [EventKind::Impact, EventKind::Opening]);
+    let left = 0.5_f64.sqrt();
+    assert!((history.events[1].time.to_f64() - left).abs() < 1e-12);
+    // v = (t − 1)² + 1/2 + c exp(−t), and zero at the release.
+    let moved = |t: f64| (t - 1.0).powi(2) + 0.5;
+    let expected = moved(2.0) - moved(left) * (left - 2.0).exp();
+    let problem = Problem::of_text("wall.wave", &text, &Values::new()).unwrap();
+    let told = problem.signal("v").unwrap().at("2", 15).unwrap().to_f64();
+    assert!((told - expected).abs() < 1e-14, "{told} {expected}");
+    // Two masses that a load presses together, until it pulls.
+    let masses = "scene \"Two masses\"\nload p { force = 1 - t*t*t }\nmass a { mass = 1 }\nmass b { mass = 2 }\n\
+        bar rod { impedance = 1 }\nline free - p - a | b - rod - endless\ncontacts open";
+    let history = History::of(&network_of(masses, &[]), Some(&until), 12).unwrap();
+    assert_eq!(history.assumptions, [""; 0]);
+    assert_eq!(kinds(&history.events), [EventKind::Impact, EventKind::Opening]);
+}
+
 #[test]
 fn rigid_masses_that_hit_a_wall_are_refused() {
     let until = wavestep::language::parse_number("4").unwrap();
     let error = |text: &str| History::of(&network_of(text, &[]), Some(&until), 9).err().unwrap();
     let refused = "the rigid mass `m` hits a wall: put a spring or a bar between them";
-    let begins = PULLED.replace("mass = 1 }", "mass = 1, velocity = -1 }");
-    assert_eq!(error(&begins).to_string(), refused);
-    // It is refused before anything is followed.
-    let problem = Problem::of_text("wall.wave", &begins, &Values::new()).unwrap();
-    assert_eq!(problem.check().unwrap_err().to_string(), refused);
     let comes_back = PULLED.replace("t - 1/2", "1 - 2*t");
     assert_eq!(error(&comes_back).to_string(), refused);
-    let mirrored = begins.replace("velocity = -1", "velocity = 1");
     let mirrored =
-        mirrored.replace("fixed | pull - m - rod - endless", "endless - rod - m - pull | fixed");
+        comes_back.replace("fixed | pull - m - rod - endless", "endless - rod - m - pull | fixed");
+    let mirrored = mirrored.replace("1 - 2*t", "2*t - 1");
     assert_eq!(error(&mirrored).to_string(), refused);
+    // One that moves at the start is refused when it is read, whichever way it goes.
+    for velocity in ["1", "-1", "V"] {
+        let begins =
+            PULLED.replace("mass = 1 }", &format!("mass = 1, velocity = {velocity} }}\nsymbol V"));
+        let error = Problem::of_text("wall.wave", &begins, &Values::new()).err().unwrap();
+        assert!(
+            error.to_string().contains("the mass `m` touches a wall, and has to begin at rest"),
+            "{error}"
+        );
+    }
+    // So are two masses that meet at once, by `check`.
+    let meet = "scene \"Two masses\"\nmass a { mass = 1, velocity = 1 }\nmass b { mass = 1 }\n\
+        bar rod { impedance = 1 }\nline free - a | b - rod - endless\ncontacts open";
+    let problem = Problem::of_text("meet.wave", meet, &Values::new()).unwrap();
+    assert!(problem.check().unwrap_err().to_string().contains("the rigid masses `a` and `b` meet"));
 }
 
 /// What is joined to one wall cannot leave another.

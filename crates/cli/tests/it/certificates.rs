@@ -270,6 +270,9 @@ fn events_beside_all_elements_are_verified() {
         "bar a { impedance = 1, travel = 1, velocity = 1 }\nspring s { stiffness = 2, damping = 1/3 }\n\
          bar b { impedance = 2, travel = 3/2 }\nbar c { impedance = 1, travel = 2/5 }\n\
          line free - a | s - b | c - free\n",
+        "load p { force = t*t - 1/2 }\nmass m { mass = 1 }\nbar r { impedance = 1 }\nline fixed | p - m - r - endless\n",
+        "load p { force = 1 - t*t*t }\nmass m { mass = 1 }\nmass h { mass = 2 }\nbar r { impedance = 1, travel = 1 }\n\
+         line free - p - m | h - r - free\n",
         "mass m { mass = 1/2, velocity = 1 }\nspring s { stiffness = 3 }\nbar b { impedance = 1, travel = 1 }\n\
          support u { stiffness = 2, damping = 1/2 }\nline free - m - s | b - u - free\n",
         "load p { force = 2*exp(-t)*sin(3*t), until = 3 }\nmass m { mass = 1, velocity = 1/2 }\n\
