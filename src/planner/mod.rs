@@ -125,7 +125,7 @@ pub fn origin(network: &Network, to: &Rational, purpose: Purpose) -> Origin {
         Purpose::Polynomials => {
             let is_lattice = network.lattice().periods().len() > 1;
             let most = if is_lattice { MOST_LEFT_OUT } else { MOST_SEARCHED };
-            ClosedForm::of_nothing(network, to).and_then(|form| Ok(form.order(to)? <= most))
+            has_few_arrivals(network, to, most)
         }
         _ => return Origin::Closed,
     };
@@ -134,6 +134,11 @@ pub fn origin(network: &Network, to: &Rational, purpose: Purpose) -> Origin {
         Err(error) if !error.is_too_much() => Origin::Closed,
         _ => Origin::Followed,
     }
+}
+
+/// Whether a closed form until a time has so many pieces or arrivals at most.
+fn has_few_arrivals(network: &Network, to: &Rational, most: usize) -> Result<bool, EvaluateError> {
+    Ok(ClosedForm::of_nothing(network, to)?.order(to)? <= most)
 }
 
 /// An observable of a scene on a window of the user's time.
@@ -207,9 +212,7 @@ pub(crate) fn chosen<'a>(
         // Where following takes too much memory, searching many sums takes too long.
         Err(SignalError::Followed(error @ HistoryError::TooMuchMemory { .. }))
             if purpose == Purpose::Search
-                && ClosedForm::of_nothing(network, window[1])
-                    .and_then(|form| form.order(window[1]))
-                    .is_ok_and(|order| order > MOST_SEARCHED) =>
+                && has_few_arrivals(network, window[1], MOST_SEARCHED).is_ok_and(|few| !few) =>
         {
             Err(error.into())
         }

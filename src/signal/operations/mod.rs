@@ -477,9 +477,13 @@ impl<'a, R: Rule> Operation<'a, R> {
                 return Ok(false);
             }
         }
+        Ok(self.function(stretch).is_some_and(|function| function.is_zero()))
+    }
+
+    /// The exact function of time on a stretch.
+    fn function(&self, stretch: usize) -> Option<Expression> {
         let time = Fraction::symbol(self.scale.clock);
-        let exact = self.rule.exact_at(places, &time, Effort::Much);
-        Ok(exact.is_some_and(|function| function.is_zero()))
+        self.rule.exact_at(&self.step(stretch).places, &time, Effort::Much)
     }
 
     /// What exact arithmetic tells of a limit at a time.
@@ -647,8 +651,6 @@ impl<R: Rule> Signal for Operation<'_, R> {
 
     /// Known where the exact function of the stretch is the constant.
     fn equals(&self, stretch: usize, value: &Rational, _: &[Rational; 2], _: u64) -> Outcome<bool> {
-        let time = Fraction::symbol(self.scale.clock);
-        let own = self.rule.exact_at(&self.step(stretch).places, &time, Effort::Much);
-        Ok(self.told(own) == Known::Rational(value.clone()))
+        Ok(self.told(self.function(stretch)) == Known::Rational(value.clone()))
     }
 }

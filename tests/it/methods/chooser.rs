@@ -134,6 +134,12 @@ fn costs_follow_what_is_done() {
     assert!(compiled.seconds(1_000_000) < certified.seconds(1_000_000));
     let (stable, pairs) = (cost("stable"), cost("double-double"));
     assert!(pairs.point > stable.point && stable.setup == 0.0 && pairs.setup == 0.0);
+    // What has been followed needs no echoes: values cost the same however many arrivals there are.
+    let followed = |order| {
+        let size = Size { order, followed: true, ..size };
+        Cost::of("certified".parse().unwrap(), size, &costs).unwrap()
+    };
+    assert!(followed(5000) == followed(50) && followed(5000).setup == 0.0);
     assert!(Cost::of_waves(size, 2, &costs).setup < Cost::of_waves(size, 20, &costs).setup);
     assert_eq!(Cost { setup: 1.0, point: 0.5 }.seconds(4), 3.0);
 }

@@ -401,6 +401,22 @@ fn what_cannot_be_computed_is_explained() {
     }
 }
 
+/// A search that memory does not suffice for says so: neither an enclosure that tells nothing, nor sums without end.
+#[test]
+fn searches_name_the_memory_that_they_lack() {
+    let folder = folder("memory-of-searches");
+    let text = "scene \"A light sensor\"\nmass block { mass = 20, velocity = 1 }\n\
+        spring pad { stiffness = 1, damping = 1/10 }\nmass sensor { mass = 1/100 }\n\
+        bar rod { impedance = 1, travel = 1 }\nline free - block - pad - sensor - rod - fixed\n\
+        observe s = strain(rod.right)\n";
+    std::fs::write(folder.join("light.wave"), text).unwrap();
+    let (code, stdout, told) =
+        run(&folder, &words("find light.wave --max s --to 150 --memory 5MB"));
+    assert_eq!((code, stdout.as_str()), (1, ""));
+    assert!(told.contains("would take more than 5 MB of memory"), "{told}");
+    assert!(told.contains("raise --memory"), "{told}");
+}
+
 /// What has passed is forgotten where one late value is asked for; a window from the start on takes more, as the snapshot
 /// `memory-of-echoes` tells.
 #[test]

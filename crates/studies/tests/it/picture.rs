@@ -79,3 +79,16 @@ fn units_take_prefixes_and_plain_numbers_powers_of_ten() {
     assert_eq!((strain.unit.as_str(), strain.factor), ("10⁻⁶", 1e6));
     assert_eq!(Prefixed::of("", 0.3), Prefixed { unit: String::new(), factor: 1.0 });
 }
+
+/// What is zero but for what no enclosure tells is drawn as zero: the energy of a mass that an imposed velocity held.
+#[test]
+fn nothing_is_drawn_as_zero() {
+    let text = "scene \"Held\"\nload push { velocity = 1/5*exp(-5/7*t), from = 1/2, until = 5/2 }\n\
+        mass m { mass = 2, velocity = 5/7 }\nbar rod { impedance = 3, travel = 1, velocity = 2 }\n\
+        line free - push - m - rod - free\nobserve k = energy(m)\n";
+    let network = network(text, &[]);
+    let window = [rational(3, 1), rational(7, 1)];
+    let drawn = sampled(&*signal(&network, "k", &window)).unwrap();
+    assert!(drawn.points.iter().all(|(_, value)| *value == 0.0), "{:?}", drawn.points);
+    assert_eq!(drawn.jumps, []);
+}
