@@ -54,7 +54,7 @@ pub fn roots(roots: &Roots, told: &Told<'_>) -> String {
     let rows: Vec<Json> = roots.all.iter().map(root_json).collect();
     match told.options.format {
         Format::Json => document(told, json!({ "level": told.level, "roots": rows })),
-        Format::Csv => columns(&rows),
+        Format::Csv => columns(&rows, None),
         _ => {
             roots.all.iter().map(|root| root_line(root, told)).collect::<String>()
                 + &summary(roots, told)
@@ -70,7 +70,7 @@ pub fn extremum(extremum: &Extremum, goal: Goal, told: &Told<'_>) -> String {
             let value = number(&extremum.value);
             document(told, json!({ "goal": which, "value": value, "places": rows }))
         }
-        Format::Csv => columns(&rows),
+        Format::Csv => columns(&rows, Some((&number(&extremum.value), told))),
         _ => extremum_text(extremum, which, told),
     }
 }
@@ -315,15 +315,25 @@ fn document(told: &Told<'_>, body: Json) -> String {
 }
 
 /// A heading, then a line of columns each: the time, or the first and last one of an interval, as a fraction
-/// where it is exact; else the digits, or a midpoint, and the radius of an enclosure.
-fn columns(rows: &[Json]) -> String {
+/// where it is exact; else the digits, or a midpoint, and the radius of an enclosure. Of an extremum the same for its
+/// value follows, with its unit.
+fn columns(rows: &[Json], value: Option<(&Json, &Told<'_>)>) -> String {
     let text = |value: &Json| value.as_str().unwrap_or_default().to_owned();
     let written = |time: &Json| table::number(time).unwrap_or_default().to_owned();
+    let (mut heading, mut last) = (String::new(), String::new());
+    if let Some((value, told)) = value {
+        heading += ",value,value_radius";
+        last = format!(",{},{}", written(value), text(&value["radius"]));
+        if told.problem.has_units() {
+            heading += ",unit";
+            last += &format!(",{}", told.wanted.unit());
+        }
+    }
     let line = |body: &Json| {
         let time = if body["time"].is_null() { &body["from"] } else { &body["time"] };
         let (kind, first, until) = (text(&body["kind"]), written(time), written(&body["to"]));
         let (radius, exact) = (text(&time["radius"]), !time["exact"].is_null());
-        format!("{kind},{first},{until},{radius},{exact}\n")
+        format!("{kind},{first},{until},{radius},{exact}{last}\n")
     };
-    "kind,time,until,radius,exact\n".to_owned() + &rows.iter().map(line).collect::<String>()
+    format!("kind,time,until,radius,exact{heading}\n") + &rows.iter().map(line).collect::<String>()
 }

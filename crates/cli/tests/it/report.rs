@@ -280,7 +280,11 @@ fn contrast_is_enough_in_light_and_dark() {
 #[test]
 fn the_command_makes_the_page_again() {
     let folder = folder("report-again");
-    for scene in [&["rigid-mass", "--set", "mu=1/4"][..], &["stepped-striker"]] {
+    for scene in [
+        &["rigid-mass", "--set", "mu=1/4"][..],
+        &["stepped-striker"],
+        &["mass-that-bounces", "--to", "5/2"],
+    ] {
         let first = page(&folder, scene);
         let (_, rest) = first.split_once("<footer>").unwrap();
         let line =
@@ -302,6 +306,22 @@ fn the_command_makes_the_page_again() {
         let (_, stdout, _) = run(&folder, &[&["report"], scene, &["-o", "-"]].concat());
         assert_eq!(stdout, first.replace(&format!("&#39;{FILE}&#39;"), "-"));
     }
+}
+
+/// Plots, events and extrema end where it is asked.
+#[test]
+fn the_last_time_is_that_asked_for() {
+    let folder = folder("report-until");
+    let [all, part] = [&[][..], &["--to", "5/2"]]
+        .map(|to| page(&folder, &[&["mass-that-bounces"][..], to].concat()));
+    let section = |page: &str, id: &str| {
+        let (_, rest) = page.split_once(&format!("<section aria-labelledby=\"{id}\">")).unwrap();
+        rest.split_once("</section>").unwrap().0.to_owned()
+    };
+    let events = [&all, &part].map(|page| section(page, "events").matches("<li>t = ").count());
+    assert!(events[0] > events[1] && events[1] > 0, "{events:?}");
+    assert!(section(&part, "energies").contains("at t = 2.5<"), "{}", section(&part, "energies"));
+    assert!(part.contains("Followed until t = 2.5"), "{}", section(&part, "events"));
 }
 
 /// What has no meaning is left out with its reason.
@@ -346,6 +366,8 @@ fn errors_leave_no_file() {
         (&["report", "rigid-mass", "-o", "."], "does not end in .html"),
         (&["report", "wrong.wave", "-o", "page.html"], "wrong.wave"),
         (&["report", "rest.wave", "-o", "page.html"], "rest.wave"),
+        (&["report", "rigid-mass", "--to", "0", "-o", "page.html"], "a time after 0"),
+        (&["report", "rigid-mass", "--to", "-1", "-o", "page.html"], "before the start"),
         (&["report", "rigid-mass"], "--output"),
     ] {
         let (code, stdout, stderr) = run(&folder, arguments);

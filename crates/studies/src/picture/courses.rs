@@ -53,7 +53,7 @@ pub fn courses(
     }
     let course = |name: &str| -> Result<Course, PictureError> {
         let wanted = problem.wanted(name)?;
-        course(problem, &wanted, &*problem.signal_on(&wanted, window, Purpose::Search)?)
+        course(problem, &wanted, &*problem.signal_on(&wanted, window, Purpose::Polynomials)?)
     };
     names.into_iter().map(course).collect()
 }

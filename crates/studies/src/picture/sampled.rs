@@ -1,5 +1,6 @@
 //! Observables sampled for a line: more densely where they bend, from both sides where they jump.
 
+use std::cell::Cell;
 use wavestep::ball::{Attempt, Ball, Precisions};
 use wavestep::signal::{At, EvaluateError, Limit, Signal};
 use wavestep_polynomial::Rational;
@@ -15,6 +16,9 @@ const MAX_DEPTH: u32 = 7;
 /// How far a line may be from what it shows, and how small a jump is none: parts of the range.
 const FLAT: f64 = 1e-3;
 const CONTINUOUS: f64 = 1e-9;
+
+/// How exact values are: a part of their size, or of the largest one before.
+const EXACT: f64 = 1e-12;
 
 /// A quantity on a window of time as points of a line and jumps.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -39,7 +43,7 @@ pub fn sampled(function: &dyn Signal) -> Result<Sampled, EvaluateError> {
     let count = function.count()?;
     let ends: Result<Vec<Ends>, _> =
         (0..count).map(|stretch| Ends::of(function, stretch)).collect();
-    let sampler = Sampler { function, ends: ends? };
+    let sampler = Sampler { function, ends: ends?, largest: Cell::new(0.0) };
     let [first, last] = [sampler.ends.first(), sampler.ends.last()].map(|ends| {
         let ends = ends.expect("a window has a stretch");
         [double(&ends.from), double(&ends.to)]
@@ -98,6 +102,8 @@ fn double(time: &Rational) -> f64 {
 struct Sampler<'a> {
     function: &'a dyn Signal,
     ends: Vec<Ends>,
+    /// The largest absolute value so far.
+    largest: Cell<f64>,
 }
 
 impl Sampler<'_> {
@@ -114,13 +120,15 @@ impl Sampler<'_> {
             let ball = self.function.enclose(stretch, 0, at, bits)?;
             let (value, bound) = ball.to_double();
             let bound = bound.to_double();
-            // A ball around zero with a radius below 1e-30 is drawn as zero.
-            if bound < 1e-30 && ball.contains_zero() {
+            let is_near = bound <= EXACT * self.largest.get();
+            // A ball around zero that is narrow or has a radius below 1e-30 is drawn as zero.
+            if ball.contains_zero() && (is_near || bound < 1e-30) {
                 return Ok(Attempt::Done(0.0));
             }
-            Ok::<_, EvaluateError>(Attempt::of(value, bound <= 1e-12 * value.abs().max(1e-60)))
+            Ok::<_, EvaluateError>(Attempt::of(value, is_near || bound <= EXACT * value.abs()))
         };
         let value = Precisions::doubling(FIRST_BITS, MAX_BITS).raise(attempt)?.best();
+        self.largest.set(self.largest.get().max(value.abs()));
         Ok((double(&time), value, share))
     }
 

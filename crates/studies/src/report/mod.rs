@@ -49,6 +49,8 @@ pub struct Request<'a> {
     pub version: &'a str,
     /// The command that makes the page again.
     pub command: &'a str,
+    /// The last time that is shown, where it is not the usual one.
+    pub to: Option<&'a Rational>,
     /// A certificate of the derived pieces, or why there is none.
     pub certificate: &'a dyn Fn() -> Result<String, String>,
     /// Is told what is worked out.
@@ -65,7 +67,7 @@ struct Observed<'a> {
 pub fn page(problem: &Problem, request: &Request<'_>) -> String {
     let open = contacts_open(problem);
     let zero = Rational::default();
-    let end = usual_end(problem, &zero);
+    let end = request.to.map_or_else(|| usual_end(problem, &zero), |to| Ok(to.clone()));
     let observed = end.as_ref().ok().map(|to| observed(problem, [&zero, to]));
     let seen =
         |show: &dyn Fn(&[Observed<'_>], &Rational) -> Outcome<String>| match (&end, &observed) {
@@ -83,7 +85,7 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
     };
     add("scene", "The scene", &|| scene(problem));
     add("derivation", "Derivation", &|| derivation(problem));
-    add("events", "Events at contacts", &|| told::events(problem, open == Some(false)));
+    add("events", "Events at contacts", &|| told::events(problem, request.to, open == Some(false)));
     add("signals", "Observables against time", &|| seen(&|all, to| signals(problem, all, to)));
     add("diagrams", "Space–time diagrams", &|| match &end {
         Ok(to) => diagrams(problem, to).unwrap_or_else(|error| left_out(&error)),

@@ -22,8 +22,8 @@ fn teller(problem: &Problem) -> Teller<'_> {
 }
 
 /// The events of contacts in their order, and what became of each contact.
-pub fn events(problem: &Problem, kept_closed: bool) -> String {
-    let history = match problem.history(None, DIGITS) {
+pub fn events(problem: &Problem, until: Option<&Rational>, kept_closed: bool) -> String {
+    let history = match problem.history(until, DIGITS) {
         Ok(history) => history,
         Err(error) => return left_out(&error),
     };
