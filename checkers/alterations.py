@@ -23,7 +23,7 @@ except ImportError:
     CHECKERS = [check]
 
 
-MOTIONS = ("events", "reading")
+MOTIONS = ("events", "reading", "readings", "extreme")
 
 
 def places(node, path=()):

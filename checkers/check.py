@@ -2,7 +2,7 @@
 """Checks certificates of wavestep with nothing but the standard library; docs/certificates.md says what is claimed.
 
 It chooses the check for each kind. laws.py derives the laws of a line, pieces.py proves pieces, general.py formulas for every n,
-windows.py values, zeros and extrema, motion.py with series.py events; exact.py is the arithmetic.
+windows.py values, zeros and extrema, motion.py with series.py events, readings.py what is read of motions; exact.py is the arithmetic.
 """
 
 import json
@@ -12,9 +12,10 @@ from fractions import Fraction
 
 from exact import ROOTS
 from general import check_general
-from motion import check_events, check_reading
+from motion import check_events
 from pieces import check_pieces
 from reading import main, need
+from readings import check_extreme, check_reading, check_readings
 from windows import check_doubles, check_extremum, check_roots, check_value
 
 
@@ -38,6 +39,7 @@ def check(cert):
     read_roots(cert)
     kinds = {"pieces": check_pieces, "general": check_general, "value": check_value, "doubles": check_doubles}
     kinds |= {"roots": check_roots, "extremum": check_extremum, "events": check_events, "reading": check_reading}
+    kinds |= {"readings": check_readings, "extreme": check_extreme}
     need(type(cert["title"]) is str and cert["title"].encode(), "a title is missing")
     need(cert["kind"] in kinds, f"unknown kind {json.dumps(cert['kind'])}")
     need("minus" not in cert or "observed" in cert["minus"] and cert["kind"] not in ("pieces", "general"), "a second scene for nothing")

@@ -16,7 +16,8 @@ try:
     import flint
     from flint import acb, acb_series, arb, fmpq, fmpq_mat, fmpq_mpoly_ctx
 
-    from motion_arb import check_motion, check_reading
+    from motion_arb import check_motion
+    from readings_arb import check_extreme, check_reading, check_readings
     from series_arb import rational
 except ImportError:
     if __name__ != "__main__":
@@ -1043,13 +1044,14 @@ def check(cert):
     need(type(version) is int and version == 1, "a certificate of another version")
     need(isinstance(cert["title"], str) and cert["title"].encode(), "a title is missing")
     kinds = {"pieces": lambda *_: None, "general": check_general, "value": check_value, "doubles": check_doubles}
-    kinds |= {"roots": check_roots, "extremum": check_extremum, "events": check_motion, "reading": check_reading}
-    need(cert["kind"] in kinds, f"unknown kind {json.dumps(cert['kind'])}")
+    kinds |= {"roots": check_roots, "extremum": check_extremum}
+    motions = {"events": check_motion, "reading": check_reading, "readings": check_readings, "extreme": check_extreme}
+    need(cert["kind"] in kinds | motions, f"unknown kind {json.dumps(cert['kind'])}")
     need("minus" not in cert or "observed" in cert["minus"] and cert["kind"] not in ("pieces", "general"), "a second scene for nothing")
-    if cert["kind"] in ("events", "reading"):
+    if cert["kind"] in motions:
         squares = [Ring.prime(text) for text in cert["roots"].values()]
         need(len(set(squares)) == len(squares) <= 16, "two roots of one number, or too many")
-        kinds[cert["kind"]](cert)
+        motions[cert["kind"]](cert)
         return
     claim = Claim(cert, Ring(cert))
     claim.check()

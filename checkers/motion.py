@@ -7,8 +7,8 @@ adds and multiplies these.
 from fractions import Fraction
 from math import comb, isqrt
 
-from exact import MINUS, ROOTS, Ball, accumulate, coefficients, decimal, frozen, is_zero, number, put, rational, read, read_function, thawed
-from reading import Undecided, Wrong, decided, need
+from exact import MINUS, ROOTS, Ball, accumulate, coefficients, frozen, is_zero, number, put, rational, read, read_function, thawed
+from reading import Undecided, decided, need
 from series import ONE, PRECISION, ZERO, Duration, Number, begins, interval, is_positive, shifted, slope, total, value
 
 KEYS = {kind: {"is"} for kind in ("free", "fixed", "endless", "contact")}
@@ -30,7 +30,6 @@ CLAIMS = {
     "terms",
     "bits",
 }
-READS = CLAIMS | {"quantity", "observed", "unit", "at", "value", "last_place"}
 MOST_CELLS, MOST_BITS, MOST_TERMS, MOST_RUNS = 8000, 4096, 400, 64
 
 
@@ -593,69 +592,6 @@ class Motion:
             if self.open[i]["idle"] is not None:
                 self.events.append(("release", i, self.open[i]["idle"]))
 
-    def cell_at(self, time):
-        """The number of the cell that holds a time, and how far in it the time is, in steps."""
-        for n in range(len(self.marks) - 1, -1, -1):
-            after = time - self.instant(self.marks[n])
-            decided(after.sign() is not None, "it is not decided on which side of an arrival a time is")
-            if after.sign() >= 0:
-                return n, after.times(1 / self.step)
-        raise Wrong("a time before the start")
-
-    def known(self, key, time, is_sum=False):
-        """A function, or its integral from the start on, at a time; nothing was before the start."""
-        decided(time.sign() is not None, "it is not decided whether a wave has arrived")
-        if time.sign() == -1:
-            return ZERO
-        n, x = self.cell_at(time)
-        if not is_sum:
-            return value(self.past[n][key], x)
-        sums = [self.integral(m, key, self.since(self.marks[m + 1], self.marks[m]).times(1 / self.step)) for m in range(n)]
-        return total(sums) + self.integral(n, key, x)
-
-    def integral(self, n, key, x):
-        return value([ZERO] + [c.times(self.step / (k + 1)) for k, c in enumerate(self.past[n][key])], x)
-
-    def seen(self, rows, time):
-        """A sum of coefficients times what is read of elements."""
-        line, sums = self.line, []
-        for coefficient, what, name, *of in rows:
-            need(name in line.places, f"there is no {name}")
-            kind, n = line.places[name]
-            need((kind, what) in READINGS and len(of) == READINGS[kind, what], f"{what} of {name} cannot be read")
-            link = line.links[n] if kind in ("bar", "spring") else {}
-            if kind == "bar":
-                is_sum = what == "displacement"
-                right, left = (
-                    ZERO if own is None else self.known(key, time - line.number(own), is_sum)
-                    for key, own in zip((("right", n), ("left", n)), of)
-                )
-                at_rest = link["force"] if what == "force" else link["velocity"] * (time if is_sum else ONE)
-                read = link["impedance"] * (right - left) if what == "force" else right + left
-                sums.append(line.number(coefficient) * (at_rest + read))
-                continue
-            if what in ("velocity", "displacement"):
-                need(kind != "spring" or of[0] in ("left", "right"), "a side is missing")
-                run = n + (of[0] == "right") if kind == "spring" else line.supports[n][0] if kind == "support" else n
-                read = self.known(("v", run), time, what == "displacement")
-            else:
-                key = ("alpha", n) if kind == "spring" else ("u", n)
-                read = self.known(key, time)
-                if what == "force":
-                    stiffness, damping = (link["stiffness"], link["damping"]) if link else line.supports[n][1:]
-                    runs = (n, n + 1) if link else (line.supports[n][0],)
-                    speeds = [self.known(("v", r), time) for r in runs]
-                    read = stiffness * read + damping * (speeds[0] - speeds[1] if link else speeds[0])
-            sums.append(line.number(coefficient) * read)
-        return total(sums)
-
-
-# What can be read of elements, and how much more has to be said: delays of both waves, a side.
-READINGS = {("bar", what): 2 for what in ("velocity", "displacement", "force")}
-READINGS |= {("spring", what): 1 for what in ("velocity", "displacement")}
-READINGS |= {(kind, what): 0 for kind in ("mass", "support", "force") for what in ("velocity", "displacement")}
-READINGS |= {(kind, what): 0 for kind in ("spring", "support") for what in ("compression", "force")}
-
 
 START = 0, Duration({})
 
@@ -680,9 +616,9 @@ def read_claims(cert):
     return claims
 
 
-def check_events(cert):
+def check_events(cert, more=()):
     """The contacts of the line close, open and lose their force in this order, and no other ones do before the end."""
-    need(cert.keys() == (CLAIMS if cert["kind"] == "events" else READS), "a claim lacks something, or has too much")
+    need(cert.keys() == CLAIMS.union(more), "a claim lacks something, or has too much")
     for key, most in (("bits", MOST_BITS), ("terms", MOST_TERMS)):
         need(type(cert[key]) is int and 4 <= cert[key] <= most, f"{key} are too few, or too many")
     PRECISION["bits"] = cert["bits"]
@@ -700,12 +636,3 @@ def check_events(cert):
     for a, b in zip(times, times[1:]):
         decided(motion.since(b, a).sign() in (0, 1), "events are not in the order of time")
     return motion
-
-
-def check_reading(cert):
-    """What is read at a time is the decimal, correctly rounded, for all times and units of the two intervals."""
-    motion, (claim, slack) = check_events(cert), decimal(cert)
-    time, unit = interval(cert["at"]), interval(cert["unit"])
-    low, high = (motion.seen(cert["observed"], time) * unit).ends()
-    need(time.ends()[0] >= 0 and time.ends()[1] < motion.to, "the time is outside the window")
-    need(claim - slack <= low and high <= claim + slack, f"the value is between {float(low)} and {float(high)}")

@@ -693,55 +693,6 @@ class Story:
             place = newton.intersection(place)
         return place
 
-    def reading(self, key, time, over=False):
-        """What something is at a time, or its integral from the start on."""
-        order = sign(time)
-        decided(order is not None, "it is not decided what is there")
-        if order == -1:
-            return NIL
-        sum_ = NIL
-        for n, begin in enumerate(self.begins):
-            after = self.begins[n + 1] if n + 1 < len(self.begins) else self.now
-            passed, left = (time - (own[1].value() if own[0] == 0 else self.when(own)) for own in (begin, after))
-            decided(sign(left) is not None, "it is not decided in which step a time is")
-            is_here, series = sign(left) == -1, self.past[n][key]
-            if over:
-                place = passed if is_here else self.between(after, begin)
-                grown = [NIL] + [c / (k + 1) for k, c in enumerate(series)]
-                sum_ = sum_ + horner(grown, short(place / self.step)) * self.step
-            if is_here:
-                return sum_ if over else horner(series, short(passed / self.step))
-        raise Undecided("a time after the end")
-
-    def observed(self, rows, time):
-        """The sum of what is read of elements by their names."""
-        parts, result = self.parts, NIL
-        for factor, what, name, *of in rows:
-            kind, n = parts.named[name]
-            if kind == "bar":
-                need(what in ("velocity", "force", "displacement") and len(of) == 2, "a bar is read in another way")
-                link, over = parts.links[n], what == "displacement"
-                both = zip("fg", of)
-                f, g = (NIL if own is None else self.reading((way, n), time - parts.number(own), over) for way, own in both)
-                read = link["velocity"] * (time if over else 1) + f + g
-                if what == "force":
-                    read = link["force"] + link["impedance"] * (f - g)
-            elif what in ("velocity", "displacement"):
-                need(of in (["left"], ["right"]) if kind == "spring" else not of, "a spring has two sides, others have none")
-                run = n + (of == ["right"]) if kind == "spring" else parts.supports[n][0] if kind == "support" else n
-                read = self.reading(("speed", run), time, what == "displacement")
-            else:
-                need(what in ("compression", "force") and kind in ("spring", "support") and not of, "this cannot be read")
-                read = self.reading(("alpha" if kind == "spring" else "u", n), time)
-                if what == "force":
-                    run, stiffness, damping = (
-                        (n, parts.links[n]["stiffness"], parts.links[n]["damping"]) if kind == "spring" else parts.supports[n]
-                    )
-                    beyond = self.reading(("speed", n + 1), time) if kind == "spring" else NIL
-                    read = stiffness * read + damping * (self.reading(("speed", run), time) - beyond)
-            result = result + parts.number(factor) * read
-        return result
-
     def run(self):
         while self.now != at(self.end):
             self.cell()
@@ -757,9 +708,8 @@ def rational_below(ball):
     return -rational_above(-ball)
 
 
-def check_motion(cert):
-    names = "wavestep_certificate kind title constants time line numbers roots to events step terms bits"
-    names += " quantity observed unit at value last_place" if cert["kind"] == "reading" else ""
+def check_motion(cert, more=""):
+    names = "wavestep_certificate kind title constants time line numbers roots to events step terms bits " + more
     need(set(cert) == set(names.split()), "a certificate has other keys")
     bits, terms = cert["bits"], cert["terms"]
     need(all(type(own) is int for own in (bits, terms)) and 4 <= bits <= 4096 and 4 <= terms <= 400, "bits or terms")
@@ -783,16 +733,3 @@ def check_motion(cert):
     for earlier, later in zip(times, times[1:]):
         decided(sign(story.between(later, earlier)) in (0, 1), "events are not in the order of time")
     return story
-
-
-def check_reading(cert):
-    """The decimal is what is read, correctly rounded, whatever the time and the unit are within their intervals."""
-    story = check_motion(cert)
-    place = cert["last_place"]
-    need(type(place) is int and abs(place) <= 20000, "a place is no number, or too large")
-    value, unit = rational(cert["value"]), fmpq(10) ** place
-    need(int((value / unit).q) == 1, "the decimal has more digits than it says")
-    time = interval(cert["at"])
-    need(sign(time) in (0, 1) and sign(story.end - time) == 1, "the time is outside the window")
-    error = abs(story.observed(cert["observed"], time) * interval(cert["unit"]) - value)
-    need(bool(arb(error) <= arb(unit / 2)) if isinstance(error, arb) else error <= unit / 2, "the value is another one")

@@ -13,6 +13,7 @@ use super::input;
 use super::progress;
 use num_bigint::BigInt;
 use num_rational::BigRational;
+use reading::Read;
 use serde_json::{Map, Value as Json, json};
 use wavestep::answer::Accuracy;
 use wavestep::ball::Decimal;
@@ -30,6 +31,9 @@ use writer::Writer;
 
 /// The version of the layout, which docs/certificates.md describes.
 const VERSION: u32 = 1;
+
+/// Significant digits of a double.
+const DOUBLE_DIGITS: usize = 17;
 
 /// The most doubles in one certificate.
 const MOST_DOUBLES: usize = 10_000;
@@ -202,8 +206,8 @@ fn value(
         Ok(seen) => seen,
         // What is no sum of pieces may be read off a motion.
         Err(refusal) => {
-            let at = (at, &found.values[0]);
-            return reading::certificate(problem, &wanted.name, at, digits)?.ok_or(refusal);
+            let read = Read::of(problem, &wanted.name, [at, at], digits)?.ok_or(refusal)?;
+            return Ok(read.value(&found.values[0]));
         }
     };
     document.insert("kind".into(), json!("value"));
@@ -232,7 +236,7 @@ fn doubles(problem: &Problem, name: &str, options: &Certify) -> Result<Map<Strin
     let [from, to] = input::window(problem, &options.from, options.to.as_deref())?;
     let times = evenly_spaced(&from, &to, count);
     let found = problem.doubles(name, &times, Limit::Right, accuracy)?;
-    let (mut document, _) = Quantity { problem, minus: None, name }.seen(&to)?;
+    let seen = Quantity { problem, minus: None, name }.seen(&to);
     let bound = found.bound.and_then(BigRational::from_float).ok_or_else(|| {
         let message = format!("the errors of {} have no proven bound", found.method);
         Failure::usage(message, "leave --method out, or give `certified` or `compiled`")
@@ -243,6 +247,13 @@ fn doubles(problem: &Problem, name: &str, options: &Certify) -> Result<Map<Strin
         let off = &bound + unit.expect("it is finite") / BigRational::from_integer(2.into());
         json!([exact.to_string(), off.to_string()])
     });
+    let mut document = match seen {
+        Ok((document, _)) => document,
+        Err(refusal) => {
+            let read = Read::of(problem, name, [&from, &to], DOUBLE_DIGITS)?.ok_or(refusal)?;
+            return Ok(read.values(rows.collect()));
+        }
+    };
     document.insert("kind".into(), json!("doubles"));
     document.insert("from".into(), json!(from.to_string()));
     document.insert("to".into(), json!(to.to_string()));

@@ -50,7 +50,9 @@ pub fn events(
     let [low, high] = line.in_units(to, precision.bits)?;
     let end =
         if low == high { low } else { Decimal::bound(&low, digits, Bound::Lower).to_rational() };
-    line.document("events", &end, to, digits, &precision, &mut Writer::default())
+    let mut document = line.document(&end, to, digits, &precision, &mut Writer::default())?;
+    document.insert("kind".into(), json!("events"));
+    Ok(document)
 }
 
 fn refused(reason: &str) -> Failure {
@@ -89,11 +91,10 @@ impl<'a> Line<'a> {
         Ok(line)
     }
 
-    /// What is claimed of all motions: the line, and what its contacts do until an end, which is at most `until` in the user's
+    /// What is claimed of all motions but their kind: the line, and what its contacts do until an end, which is at most `until` in the user's
     /// unit.
     pub fn document(
         &self,
-        kind: &str,
         end: &BigRational,
         until: &BigRational,
         digits: usize,
@@ -114,7 +115,6 @@ impl<'a> Line<'a> {
         }
         let mut document = Map::new();
         let mut insert = |key: &str, value: Json| document.insert(key.into(), value);
-        insert("kind", json!(kind));
         insert("title", json!(self.problem.title()));
         insert("constants", json!(self.problem.constants(None)?));
         insert("time", json!(self.network.scene().time.name()));

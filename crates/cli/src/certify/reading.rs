@@ -1,8 +1,9 @@
-//! Certificates of values that are no sums of pieces: where contacts open, in scenes with units, where rates have no formula, and
+//! Certificates of values and extrema that are no sums of pieces: where contacts open, in scenes with units, where rates have no formula, and
 //! of displacements. A checker follows the line, and reads the value off its elements.
 
-use super::motion::{Line, written};
+use super::motion::{Line, Precision, written};
 use super::rounded;
+use super::window::taken;
 use super::writer::Writer;
 use crate::failure::Failure;
 use num_rational::BigRational;
@@ -11,46 +12,116 @@ use wavestep::ball::{Bound, Decimal};
 use wavestep::expression::Fraction;
 use wavestep::network::{Contacts, Face, Field, Lump, MeasuredValue, Reading, Term};
 use wavestep::problem::Problem;
-use wavestep::signal::Value;
+use wavestep::signal::{Place, Value};
 
 /// The bits of times that are not claimed.
 const SPARE_BITS: u64 = 64;
 
-/// A value of an observable at a time; `None` where it is no sum of readings.
-pub fn certificate(
-    problem: &Problem,
-    name: &str,
-    (at, value): (&BigRational, &Value),
+/// How much later or earlier a time is told, in tenths of a unit to this power for each digit, so that it is on one side of an
+/// arrival.
+const ASIDE: i32 = 2;
+
+/// What is read off a motion in a window, in the unit of an observable.
+pub struct Read<'a> {
+    line: Line<'a>,
+    precision: Precision,
+    /// The first and the last time, between two numbers each.
+    ends: [[BigRational; 2]; 2],
     digits: usize,
-) -> Result<Option<Map<String, Json>>, Failure> {
-    let Ok(network) = problem.network() else { return Ok(None) };
-    let line = Line::of(problem, Contacts::of(network.scene()))?;
-    let measured = network.as_ref().measures.iter().find(|measured| measured.name == name);
-    let Some((measured, MeasuredValue::Linear(terms))) = measured.map(|own| (own, &own.value))
-    else {
-        return Ok(None);
-    };
-    let mut writer = Writer::default();
-    let rows: Option<Vec<Json>> = terms.iter().map(|term| read(&line, term, &mut writer)).collect();
-    let Some(rows) = rows else { return Ok(None) };
-    // The motion is followed a little further, so that it is known from this time on.
-    let end = &line.in_units(at, SPARE_BITS)?[1] + BigRational::new(1.into(), 8.into());
-    let end = Decimal::bound(&end, 6, Bound::Upper).to_rational();
-    let unit = line.unit(&line.network.model().scale.time, SPARE_BITS)?;
-    let until = &end * &Value::of(&unit, 1).bounds()[1];
-    let precision = line.precision(&until, digits)?;
-    let at = line.in_units(at, precision.bits)?;
-    let places = precision.bits as usize / 3;
-    let unit = Value::of(&line.unit(&measured.unit, precision.bits)?, 1).bounds();
-    let (decimal, last_place) = rounded(value, digits);
-    let mut document = line.document("reading", &end, &until, digits, &precision, &mut writer)?;
-    document.insert("quantity".into(), json!(name));
-    document.insert("observed".into(), json!(rows));
-    document.insert("unit".into(), json!(written(unit, places)));
-    document.insert("at".into(), json!(written(at, places)));
-    document.insert("value".into(), json!(decimal.to_string()));
-    document.insert("last_place".into(), json!(last_place));
-    Ok(Some(document))
+    document: Map<String, Json>,
+}
+
+impl<'a> Read<'a> {
+    /// An observable on a window; `None` where it is no sum of readings.
+    pub fn of(
+        problem: &'a Problem,
+        name: &str,
+        [from, to]: [&BigRational; 2],
+        digits: usize,
+    ) -> Result<Option<Read<'a>>, Failure> {
+        let Ok(network) = problem.network() else { return Ok(None) };
+        let line = Line::of(problem, Contacts::of(network.scene()))?;
+        let measured = network.as_ref().measures.iter().find(|measured| measured.name == name);
+        let Some((measured, MeasuredValue::Linear(terms))) = measured.map(|own| (own, &own.value))
+        else {
+            return Ok(None);
+        };
+        let mut writer = Writer::default();
+        let rows: Option<Vec<Json>> =
+            terms.iter().map(|term| read(&line, term, &mut writer)).collect();
+        let Some(rows) = rows else { return Ok(None) };
+        // The motion is followed a little further, so that it is known from the last time on.
+        let end = &line.in_units(to, SPARE_BITS)?[1] + BigRational::new(1.into(), 8.into());
+        let end = Decimal::bound(&end, 6, Bound::Upper).to_rational();
+        let unit = line.unit(&line.network.model().scale.time, SPARE_BITS)?;
+        let until = &end * &Value::of(&unit, 1).bounds()[1];
+        let precision = line.precision(&until, digits)?;
+        let ends = [line.in_units(from, precision.bits)?, line.in_units(to, precision.bits)?];
+        let unit = Value::of(&line.unit(&measured.unit, precision.bits)?, 1).bounds();
+        let mut document = line.document(&end, &until, digits, &precision, &mut writer)?;
+        document.insert("quantity".into(), json!(name));
+        document.insert("observed".into(), json!(rows));
+        document.insert("unit".into(), json!(written(unit, precision.bits as usize / 3)));
+        Ok(Some(Read { line, precision, ends, digits, document }))
+    }
+
+    fn claiming(mut self, kind: &str, claims: Json) -> Map<String, Json> {
+        let Json::Object(claims) = claims else { unreachable!("claims have names") };
+        self.document.insert("kind".into(), json!(kind));
+        self.document.extend(claims);
+        self.document
+    }
+
+    fn told(&self, time: &[BigRational; 2]) -> Json {
+        json!(written(time.clone(), self.precision.bits as usize / 3))
+    }
+
+    /// The value at the last time.
+    pub fn value(self, value: &Value) -> Map<String, Json> {
+        let (decimal, last_place) = rounded(value, self.digits);
+        let at = self.told(&self.ends[1]);
+        let value = decimal.to_string();
+        self.claiming("reading", json!({ "at": at, "value": value, "last_place": last_place }))
+    }
+
+    /// Values at evenly spaced times, each with a bound of its error.
+    pub fn values(self, values: Vec<Json>) -> Map<String, Json> {
+        let [from, until] = self.ends.each_ref().map(|end| self.told(end));
+        let points = values.len();
+        let claims = json!({ "from": from, "until": until, "points": points, "values": values });
+        self.claiming("readings", claims)
+    }
+
+    /// A largest or smallest value that is taken at the first place of these, with the times that cut the window.
+    pub fn extreme(
+        self,
+        mut claims: Json,
+        times: &[BigRational],
+        place: &Place,
+    ) -> Result<Map<String, Json>, Failure> {
+        let [from, until] = &self.ends;
+        let aside = BigRational::from_integer(10.into()).pow(-ASIDE * self.digits as i32);
+        let cut = |time: &BigRational| -> Result<String, Failure> {
+            let [low, high] = self.line.in_units(time, self.precision.bits)?;
+            let digits = (1 + ASIDE as usize) * self.digits;
+            Ok(written([low, high], digits)[0].clone())
+        };
+        let times: Vec<String> = times.iter().map(cut).collect::<Result<_, _>>()?;
+        let (time, before) = taken(place)?;
+        let [low, high] = time.bounds();
+        let [low, high] = [
+            self.line.in_units(&low, self.precision.bits)?[0].clone(),
+            self.line.in_units(&high, self.precision.bits)?[1].clone(),
+        ];
+        let after = |[low, high]: [BigRational; 2]| if low == high { high } else { high + &aside };
+        let time = if before { low - &aside } else { after([low, high]) };
+        let time = time.max(after(from.clone())).min(&until[0] - &aside);
+        claims["from"] = self.told(from);
+        claims["until"] = self.told(until);
+        claims["times"] = json!(times);
+        claims["attained"] = json!(time.to_string());
+        Ok(self.claiming("extreme", claims))
+    }
 }
 
 /// `[coefficient, what, element, …]`: of bars with the delays of both waves, of springs with a side.

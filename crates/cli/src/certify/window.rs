@@ -1,5 +1,6 @@
 //! Certificates of all roots of a quantity in a window, or of its largest or smallest value there.
 
+use super::reading::Read;
 use super::{Quantity, rounded};
 use crate::failure::{ACCURACY, Failure};
 use crate::progress;
@@ -46,18 +47,41 @@ pub fn certificate(
         None => of.problem.signal_on(&wanted, ends, Purpose::Search)?,
         Some(other) => of.problem.difference_on(other, &wanted, ends, Purpose::Search)?,
     };
-    let (mut document, begins) = of.seen(&window[1])?;
+    let seen = of.seen(&window[1]);
     let _progress = progress::spinner("searching");
     let search = Search::new(&*signal)?.half_open();
     let mut cover = Cover::of(&*signal, digits);
-    let cuts = cuts(&*signal, begins)?;
-    let claimed = match asked {
-        Asked::Roots => roots(&search, &mut cover, &cuts, digits)?,
-        Asked::Extremum(goal) => extremum(&search, Some(goal), &mut cover, &cuts, digits)?,
-        Asked::Distance => extremum(&search, None, &mut cover, &cuts, digits)?,
+    let (mut document, begins) = match (seen, asked, of.minus) {
+        (Ok(seen), ..) => seen,
+        // What is no sum of pieces may be read off a motion.
+        (Err(refusal), Asked::Extremum(goal), None) => {
+            let read = Read::of(of.problem, &wanted.name, ends, digits)?.ok_or(refusal)?;
+            let (claims, found) = extremum(&search, Some(goal), &mut cover, None, digits)?;
+            let times: Vec<BigRational> = cover.cells.into_iter().map(|cell| cell.to).collect();
+            return read.extreme(claims, &times, &found.places[0]);
+        }
+        (Err(refusal), ..) => return Err(refusal),
     };
-    let Json::Object(claimed) = claimed else { unreachable!("claims have names") };
-    document.extend(claimed);
+    let cuts = cuts(&*signal, begins)?;
+    let goal = match asked {
+        Asked::Roots => None,
+        Asked::Extremum(goal) => Some(Some(goal)),
+        Asked::Distance => Some(None),
+    };
+    match goal {
+        None => {
+            let zeros = roots(&search, &mut cover, &cuts, digits)?;
+            document.insert("kind".into(), json!("roots"));
+            document.insert("zeros".into(), zeros);
+        }
+        Some(goal) => {
+            let (claims, found) = extremum(&search, goal, &mut cover, Some(&cuts), digits)?;
+            let Json::Object(claims) = claims else { unreachable!("claims have names") };
+            document.insert("kind".into(), json!("extremum"));
+            document.extend(claims);
+            document.insert("attained".into(), cover.attained(&found, digits)?);
+        }
+    }
     document.insert("from".into(), json!(window[0].to_string()));
     document.insert("to".into(), json!(window[1].to_string()));
     let told = |cell: &Cell| json!([cell.from.to_string(), cell.to.to_string(), cell.order]);
@@ -76,18 +100,17 @@ fn roots(
     let places: Vec<Option<Window>> =
         found.all.iter().map(|root| place(root, digits)).collect::<Result<_, Failure>>()?;
     let told = |[from, to]: Window| json!([from.to_string(), to.to_string()]);
-    let zeros: Json = places.into_iter().flatten().map(told).collect();
-    Ok(json!({ "kind": "roots", "zeros": zeros }))
+    Ok(places.into_iter().flatten().map(told).collect())
 }
 
-/// The largest or smallest value; without a goal the largest size.
+/// What is claimed of the largest or smallest value, and where it is; without a goal of the largest size.
 fn extremum(
     search: &Search<'_>,
     goal: Option<Goal>,
     cover: &mut Cover<'_>,
-    cuts: &[BigRational],
+    cuts: Option<&[BigRational]>,
     digits: usize,
-) -> Result<Json, Failure> {
+) -> Result<(Json, Extremum), Failure> {
     let beyond = |goal, least: Option<&BigRational>| {
         let Some(found) = search.extremum_beyond(goal, least, digits, SEARCH_BITS)? else {
             return Ok(None);
@@ -118,12 +141,11 @@ fn extremum(
         }
     };
     cover.levels = levels;
-    cover.run(cuts)?;
-    let attained = cover.attained(&found, digits)?;
-    Ok(json!({
-        "kind": "extremum", "goal": goal, "value": told, "last_place": last_place,
-        "attained": attained,
-    }))
+    match cuts {
+        Some(cuts) => cover.run(cuts)?,
+        None => cover.run_nearly()?,
+    }
+    Ok((json!({ "goal": goal, "value": told, "last_place": last_place }), found))
 }
 
 fn undecided(what: &str) -> Failure {
@@ -201,6 +223,23 @@ impl<'a> Cover<'a> {
         Ok(())
     }
 
+    /// The same for a checker that finds the times at which waves arrive itself: those are as near as it takes.
+    fn run_nearly(&mut self) -> Result<(), Failure> {
+        let [first, last] = self.signal.window();
+        for stretch in 0..self.signal.count()? {
+            let near = |end| match self.signal.exact_time(stretch, end) {
+                Some(time) => Ok(time),
+                None => self.signal.time(stretch, end, self.bits).map(|own| own.midpoint().into()),
+            };
+            let [from, to] = [near(Limit::Right)?, near(Limit::Left)?];
+            let (from, to) = (from.max(first.clone()), to.min(last.clone()));
+            if from < to {
+                self.descend(stretch, from, to, 0)?;
+            }
+        }
+        Ok(())
+    }
+
     fn descend(
         &mut self,
         stretch: usize,
@@ -271,13 +310,7 @@ impl<'a> Cover<'a> {
 
     /// The number of a cell and a time there, at which the extremum is taken or approached.
     fn attained(&self, found: &Extremum, digits: usize) -> Result<Json, Failure> {
-        let (time, before) = match &found.places[0] {
-            Place::Critical(time) | Place::End(time) | Place::Plateau { from: time, .. } => {
-                (time, false)
-            }
-            Place::Arrival { time, after, .. } => (time, !after),
-            Place::Undecided { .. } => return Err(undecided("the time of the extremum")),
-        };
+        let (time, before) = taken(&found.places[0])?;
         let decimal = || rounded(time, digits).0.to_rational();
         let time = time.exact().cloned().unwrap_or_else(decimal);
         let begins = |cell: &Cell| !before && cell.from == time;
@@ -285,5 +318,16 @@ impl<'a> Cover<'a> {
         let cell = self.cells.iter().position(begins).or(self.cells.iter().position(holds));
         let cell = cell.ok_or_else(|| undecided("the time of the extremum"))?;
         Ok(json!([cell, time.to_string()]))
+    }
+}
+
+/// When an extremum is taken, and whether it is only just before.
+pub fn taken(place: &Place) -> Result<(&Value, bool), Failure> {
+    match place {
+        Place::Critical(time) | Place::End(time) | Place::Plateau { from: time, .. } => {
+            Ok((time, false))
+        }
+        Place::Arrival { time, after, .. } => Ok((time, !after)),
+        Place::Undecided { .. } => Err(undecided("the time of the extremum")),
     }
 }

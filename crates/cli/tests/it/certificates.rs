@@ -77,6 +77,26 @@ const READINGS: [&str; 4] = [
     "mass-that-bounces --quantity displacement --at 4",
 ];
 
+/// Doubles and extrema of the same.
+const EXTREMES: [&str; 3] = [
+    "hopkinson --quantity force --to 400us --points 5",
+    "saint-venant --set mu=1 --max velocity --to 3 --digits 9",
+    "bars-that-part --set r=1/2 --min force --to 5/2",
+];
+
+/// The same at critical points and arrivals, in limits, between jumps, at both ends of the window.
+const MORE_EXTREMES: [&str; 9] = [
+    "hopkinson --max force",
+    "hopkinson --min gauge_output --digits 25",
+    "percussive-drill --min rock_force",
+    "mass-that-bounces --max velocity --to 6",
+    "mass-that-bounces --min strain_fixed --to 6",
+    "cushion-with-release --set mu=1 --max force",
+    "incommensurate --max contact_force",
+    "incommensurate --quantity wall_force --points 7 --tol 1e-3",
+    "pi.wave --max v --to 4",
+];
+
 /// The same later, between jumps, with more digits.
 const MORE_READINGS: [&str; 8] = [
     "incommensurate --quantity contact_force --at 200us",
@@ -193,7 +213,8 @@ fn certificates(folder: &Path) -> Vec<String> {
         .chain(DISTANCES)
         .chain(DOUBLES)
         .chain(EVENTS)
-        .chain(READINGS);
+        .chain(READINGS)
+        .chain(EXTREMES);
     let asked = asked.map(str::to_owned);
     let lines = pieces.chain(ratios).chain(general).chain(asked).enumerate();
     let written = lines.map(|(i, line)| {
@@ -254,7 +275,8 @@ fn exponents_with_denominators_are_verified() {
 fn motions_of_shipped_scenes_are_verified() {
     let folder = folder("certificates-of-events");
     std::fs::write(folder.join("pi.wave"), PI).unwrap();
-    let files = MORE_EVENTS.iter().chain(&MORE_READINGS).enumerate().map(|(i, line)| {
+    let lines = MORE_EVENTS.iter().chain(&MORE_READINGS).chain(&MORE_EXTREMES);
+    let files = lines.enumerate().map(|(i, line)| {
         certify(&folder, line, &format!("{i}.json"));
         format!("{i}.json")
     });
@@ -370,7 +392,19 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     type Change = fn(&mut serde_json::Value);
     let (bounced, strained) = (ask(READINGS[0]), ask(READINGS[1]));
     let (events, unequal) = (ask(EVENTS[0]), ask(EVENTS[1]));
-    let cases: [(&serde_json::Value, Change, &str); 87] = [
+    let (sampled, fastest, lowest) = (ask(EXTREMES[0]), ask(EXTREMES[1]), ask(EXTREMES[2]));
+    let cases: [(&serde_json::Value, Change, &str); 98] = [
+        (&sampled, |own| own["values"][3][1] = "0".into(), "value 3 is between"),
+        (&sampled, |own| own["until"] = own["from"].clone(), "is between"),
+        (&sampled, |own| own["points"] = 4.into(), "a value is missing"),
+        (&sampled, |own| own["until"] = json!(["9", "9"]), "outside the window"),
+        (&fastest, |own| own["value"] = "0.99999998".into(), "a value is beyond"),
+        (&fastest, |own| own["value"] = "1.00000001".into(), "not taken where it is said"),
+        (&fastest, |own| own["attained"] = "1/2".into(), "not taken where it is said"),
+        (&fastest, |own| own["attained"] = "4".into(), "outside the window"),
+        (&lowest, |own| own["goal"] = "largest".into(), "a value is beyond"),
+        (&lowest, |own| own["value"] = "0.1".into(), "a value is beyond"),
+        (&lowest, |own| own["until"] = own["from"].clone(), "outside the window"),
         (&events, |own| drop(own["events"].as_array_mut().unwrap().pop()), "no event is claimed"),
         (
             &events,
@@ -597,7 +631,7 @@ fn what_has_no_certificate_is_told() {
     std::fs::write(folder.join("rings.wave"), rings).unwrap();
     std::fs::write(folder.join("pi.wave"), PI).unwrap();
     for (line, message) in [
-        ("certify pi.wave --max v --to 4", "hold the number"),
+        ("certify pi.wave --zero v --to 4", "hold the number"),
         ("certify mass-on-fixed-bar --max velocity --to 1", "mu has no value"),
         (
             "certify mass-on-fixed-bar --set mu=1/4 --zero velocity --to 3 --digits 2000",
@@ -615,8 +649,9 @@ fn what_has_no_certificate_is_told() {
         ("certify hertz-striker", "local contact"),
         ("certify mass-on-fixed-bar --set mu=1 --quantity energy --at 1", "not linear"),
         ("certify mass-on-fixed-bar --set mu=1 --quantity momentum --at 1", "integrals of waves"),
-        ("certify saint-venant --set mu=1 --max velocity --to 5", "where contacts open"),
-        ("certify hopkinson --max force --to 1ms", "with units"),
+        ("certify saint-venant --set mu=1 --zero velocity --to 5", "where contacts open"),
+        ("certify hopkinson --zero force --to 1ms", "with units"),
+        ("certify hopkinson --max energy --to 1ms", "with units"),
         ("certify rigid-mass --quantity f --at 1", "mu"),
         ("certify pile --general", "no closed form in n"),
         ("certify rigid-mass --at 1", "--quantity"),

@@ -1,0 +1,163 @@
+"""What is read of a motion: values at times, and largest and smallest values, with nothing but the standard library."""
+
+from fractions import Fraction
+from functools import cmp_to_key
+from itertools import zip_longest
+
+from exact import decimal, is_count, rational
+from motion import check_events, exactly, moved
+from reading import Wrong, decided, need
+from series import ONE, ZERO, Duration, Number, interval, is_positive, shifted, total, value
+
+READS = {"quantity", "observed", "unit"}
+
+# What can be read of elements, and how much more has to be said: delays of both waves, a side.
+READINGS = {("bar", what): 2 for what in ("velocity", "displacement", "force")}
+READINGS |= {("spring", what): 1 for what in ("velocity", "displacement")}
+READINGS |= {(kind, what): 0 for kind in ("mass", "support", "force") for what in ("velocity", "displacement")}
+READINGS |= {(kind, what): 0 for kind in ("spring", "support") for what in ("compression", "force")}
+
+class Reader:
+    """Reads a motion that has been followed."""
+
+    def __init__(self, motion):
+        self.motion, self.sums = motion, {}
+
+    def cell_at(self, time):
+        """The number of the cell that holds a time, and how far in it the time is, in steps."""
+        for n in range(len(self.motion.marks) - 1, -1, -1):
+            after = time - self.motion.instant(self.motion.marks[n])
+            decided(after.sign() is not None, "it is not decided on which side of an arrival a time is")
+            if after.sign() >= 0:
+                return n, after.times(1 / self.motion.step)
+        raise Wrong("a time before the start")
+
+    def integral(self, n, key):
+        """The integral from the start on as a series on a cell."""
+        over = lambda m: [c.times(self.motion.step / (k + 1)) for k, c in enumerate(self.motion.past[m][key])]
+        while len(self.sums.setdefault(key, [ZERO])) <= n:
+            m = len(self.sums[key]) - 1
+            length = self.motion.since(self.motion.marks[m + 1], self.motion.marks[m]).times(1 / self.motion.step)
+            self.sums[key].append(value([self.sums[key][m], *over(m)], length))
+        return [self.sums[key][n], *over(n)]
+
+    def at(self, time):
+        """What is known at a time: a function of what, how long before, and whether its integral from the start on is meant."""
+
+        def known(key, delay, is_sum):
+            there = time - self.motion.line.number(delay) if delay else time
+            decided(there.sign() is not None, "it is not decided whether a wave has arrived")
+            if there.sign() == -1:  # nothing was before the start
+                return [ZERO]
+            n, x = self.cell_at(there)
+            return [value(self.integral(n, key) if is_sum else self.motion.past[n][key], x)]
+
+        return [time], known
+
+    def on(self, begin, end):
+        """The same between two times between which nothing arrives, as series about the first one."""
+
+        def known(key, delay, is_sum):
+            delay = self.motion.line.duration(delay) if delay else Duration({})
+            is_past = lambda n: n < len(self.motion.marks) and self.motion.later(moved(self.motion.marks[n], delay), begin) <= 0
+            n = next(n for n in range(-1, len(self.motion.marks)) if not is_past(n + 1))
+            need(n + 1 == len(self.motion.marks) or self.motion.later(moved(self.motion.marks[n + 1], delay), end) >= 0, "something arrives between")
+            if n < 0:
+                return [ZERO]
+            after = self.motion.since(begin, moved(self.motion.marks[n], delay)).times(1 / self.motion.step)
+            return shifted(self.integral(n, key) if is_sum else self.motion.past[n][key], after)
+
+        return [self.motion.instant(begin), Number(self.motion.step)], known
+
+    def seen(self, rows, where):
+        """A sum of coefficients times what is read of elements, as a value or a series."""
+        line, sums, (time, known) = self.motion.line, [[ZERO]], where
+        for coefficient, what, name, *of in rows:
+            need(name in line.places, f"there is no {name}")
+            kind, n = line.places[name]
+            need((kind, what) in READINGS and len(of) == READINGS[kind, what], f"{what} of {name} cannot be read")
+            factor, link = line.number(coefficient), line.links[n] if kind in ("bar", "spring") else {}
+            if kind == "bar":
+                is_sum, (right, left) = what == "displacement", of
+                at_rest = scaled(link["velocity"], time if is_sum else [ONE])
+                size, way = (link["impedance"], -link["impedance"]) if what == "force" else (ONE, ONE)
+                sums.append(scaled(factor, [link["force"]] if what == "force" else at_rest))
+                for key, own, amount in ((("right", n), right, size), (("left", n), left, way)):
+                    sums += [] if own is None else [scaled(factor * amount, known(key, own, is_sum))]
+                continue
+            if what in ("velocity", "displacement"):
+                need(kind != "spring" or of[0] in ("left", "right"), "a side is missing")
+                run = n + (of[0] == "right") if kind == "spring" else line.supports[n][0] if kind == "support" else n
+                sums.append(scaled(factor, known(("v", run), None, what == "displacement")))
+                continue
+            read = known(("alpha", n) if kind == "spring" else ("u", n), None, False)
+            if what == "compression":
+                sums.append(scaled(factor, read))
+                continue
+            stiffness, damping = (link["stiffness"], link["damping"]) if link else line.supports[n][1:]
+            sums.append(scaled(factor * stiffness, read))
+            for r, way in ((n, damping), (n + 1, -damping)) if link else ((line.supports[n][0], damping),):
+                sums.append(scaled(factor * way, known(("v", r), None, False)))
+        return list(map(total, zip_longest(*sums, fillvalue=ZERO)))
+
+    def parts(self, rows, begin, end, times):
+        """Times in order, from one to another, between which nothing that is read arrives; these ones are among them, but for
+        those of which it is not decided whether they are before an arrival."""
+        later = self.motion.later
+        delays = [Duration({})] + [self.motion.line.duration(own) for row in rows for own in row[3:] if type(own) is list]
+        cuts = {moved(mark, delay) for mark in self.motion.marks for delay in delays}
+        cuts |= {time for time in times if all(time == cut or self.motion.since(time, cut).sign() for cut in cuts)}
+        inside = [cut for cut in cuts if later(begin, cut) < 0 < later(end, cut)]
+        found = [begin, *sorted(inside, key=cmp_to_key(later)), end]
+        return [(a, b) for a, b in zip(found, found[1:]) if later(a, b)]
+
+
+def scaled(factor, series):
+    return [factor * own for own in series]
+
+
+def within(motion, begin, end):
+    """The least and the greatest time that an interval of times holds, where the motion is known."""
+    first, last = begin.ends()[0], end.ends()[1]
+    need(0 <= first <= last < motion.to, "the time is outside the window")
+    return first, last
+
+
+def check_reading(cert):
+    """What is read at a time is the decimal, correctly rounded, for all times and units of the two intervals."""
+    reader = Reader(check_events(cert, READS | {"at", "value", "last_place"}))
+    (claim, slack), time = decimal(cert), interval(cert["at"])
+    within(reader.motion, time, time)
+    [read] = reader.seen(cert["observed"], reader.at(time))
+    low, high = (read * interval(cert["unit"])).ends()
+    need(claim - slack <= low and high <= claim + slack, f"the value is between {float(low)} and {float(high)}")
+
+
+def check_readings(cert):
+    """What is read at evenly spaced times is off by the bound at most, for all times and units of the intervals."""
+    reader = Reader(check_events(cert, READS | {"from", "until", "points", "values"}))
+    begin, end, unit = (interval(cert[key]) for key in ("from", "until", "unit"))
+    within(reader.motion, begin, end)
+    need(is_count(cert["points"]) and cert["points"] == len(cert["values"]) > 0, "a value is missing, or there is one too many")
+    for i, (claim, off) in enumerate([rational(own) for own in row] for row in cert["values"]):
+        [read] = reader.seen(cert["observed"], reader.at(begin + (end - begin).times(Fraction(i, max(cert["points"] - 1, 1)))))
+        low, high = (read * unit).ends()
+        need(claim - off <= low and high <= claim + off, f"value {i} is between {float(low)} and {float(high)}")
+
+
+def check_extreme(cert):
+    """Nothing that is read in the window is beyond the decimal by more than half a unit of its last place, and at one time it is
+    as near."""
+    way, (claim, slack) = {"largest": 1, "smallest": -1}[cert["goal"]], decimal(cert)
+    motion = check_events(cert, READS | {"from", "until", "goal", "value", "last_place", "times", "attained"})
+    reader, rows, (begin, end, unit) = Reader(motion), cert["observed"], (interval(cert[key]) for key in ("from", "until", "unit"))
+    first, last = within(motion, begin, end)
+    left = lambda read, by: scaled(Number(Fraction(-way)), [read[0] * unit - Number(claim + by), *scaled(unit, read[1:])])
+    for a, b in reader.parts(rows, exactly(first), exactly(last), [exactly(rational(own)) for own in cert["times"]]):
+        below, reach = left(reader.seen(rows, reader.on(a, b)), way * slack), motion.since(b, a).ends()[1] / motion.step
+        need(below[0].sign() == 1, f"a value is beyond the extremum at {float(motion.instant(a).ends()[0])}")
+        decided(is_positive(below, Fraction(0), reach, 40), "between two times there may be an extremum")
+    time = rational(cert["attained"])
+    need(begin.ends()[1] <= time <= end.ends()[0], "the extremum is taken outside the window")
+    [near] = left(reader.seen(rows, reader.at(Number(time))), -way * slack)
+    decided(near.sign() in (0, -1), "the extremum is not taken where it is said")

@@ -1,0 +1,155 @@
+"""What is read of a motion, over Arb: values at times, and bounds of all values in a window."""
+
+from flint import arb, fmpq
+
+from motion_arb import at, check_motion, rational_above, rational_below
+from reading import decided, need
+from series_arb import NIL, Length, horner, interval, is_nil, moved, rational, short, sign, stays_positive
+
+READ = "quantity observed unit "
+
+
+def plus(a, b):
+    a, b = sorted((a, b), key=len)
+    return [short(x + y) for x, y in zip(a, b)] + b[len(a) :]
+
+
+def times(factor, series):
+    return [NIL if is_nil(c) else short(factor * c) for c in series]
+
+
+class Place:
+    """Where a motion is read: from a time on until another one, as Taylor coefficients in steps, or only at a time."""
+
+    def __init__(self, story, begin, end):
+        self.story, self.begin, self.end, self.integrals = story, begin, end, {}
+
+    def time(self):
+        return [self.story.when(self.begin), self.story.step]
+
+    def delayed(self, rows):
+        delay = self.story.parts.length(rows)
+        return lambda time: (time[0], time[1].plus(delay))
+
+    def series(self, key, later, over):
+        """Something in the last cell that begins no later, counted from there; where `over`, its integral from the start on."""
+        story, found = self.story, None
+        for n, begin in enumerate(story.begins):
+            if story.is_later(later(begin), self.begin):
+                need(self.end is None or not story.is_later(self.end, later(begin)), "something arrives there")
+                break
+            found = n
+        if found is None:
+            return [NIL]
+        own = self.integral(key, found) if over else story.past[found][key]
+        gone = short(story.between(self.begin, later(story.begins[found])) / story.step)
+        return moved(own, gone) if self.end else [horner(own, gone)]
+
+    def integral(self, key, n):
+        story = self.story
+        grown = lambda m: times(story.step, [NIL] + [c / (k + 1) for k, c in enumerate(story.past[m][key])])
+        lengths = [short(story.between(b, a) / story.step) for a, b in zip(story.begins, story.begins[1 : n + 1])]
+        before = sum((horner(grown(m), length) for m, length in enumerate(lengths)), NIL)
+        return plus([before], grown(n))
+
+    def observed(self, rows):
+        """The sum of what is read of elements by their names."""
+        parts, result = self.story.parts, [NIL]
+        now = lambda time: time
+        for factor, what, name, *of in rows:
+            kind, n = parts.named[name]
+            if kind == "bar":
+                need(what in ("velocity", "force", "displacement") and len(of) == 2, "a bar is read in another way")
+                link, over = parts.links[n], what == "displacement"
+                f, g = (
+                    [NIL] if own is None else self.series((way, n), self.delayed(own), over) for way, own in zip("fg", of)
+                )
+                read = plus(times(link["velocity"], self.time() if over else [fmpq(1)]), plus(f, g))
+                if what == "force":
+                    read = plus([link["force"]], times(link["impedance"], plus(f, times(-1, g))))
+            elif what in ("velocity", "displacement"):
+                need(of in (["left"], ["right"]) if kind == "spring" else not of, "a spring has two sides, others have none")
+                run = n + (of == ["right"]) if kind == "spring" else parts.supports[n][0] if kind == "support" else n
+                read = self.series(("speed", run), now, what == "displacement")
+            else:
+                need(what in ("compression", "force") and kind in ("spring", "support") and not of, "this cannot be read")
+                read = self.series(("alpha" if kind == "spring" else "u", n), now, False)
+                if what == "force":
+                    run, stiffness, damping = (
+                        (n, parts.links[n]["stiffness"], parts.links[n]["damping"]) if kind == "spring" else parts.supports[n]
+                    )
+                    beyond = self.series(("speed", n + 1), now, False) if kind == "spring" else [NIL]
+                    rate = plus(self.series(("speed", run), now, False), times(-1, beyond))
+                    read = plus(times(stiffness, read), times(damping, rate))
+            result = plus(result, times(parts.number(factor), read))
+        return result
+
+
+def read(story, cert, time):
+    """The value at a time that may be an interval, in its unit."""
+    need(sign(time) in (0, 1) and sign(story.end - time) == 1, "the time is outside the window")
+    begin = at(time) if isinstance(time, fmpq) else (len(story.origins), Length())
+    story.origins += [] if isinstance(time, fmpq) else [time]
+    return Place(story, begin, None).observed(cert["observed"])[0] * interval(cert["unit"])
+
+
+def is_within(value, error):
+    return bool(arb(abs(value)) <= arb(error)) if isinstance(value, arb) else abs(value) <= error
+
+
+def decimal(cert):
+    place = cert["last_place"]
+    need(type(place) is int and abs(place) <= 20000, "a place is no number, or too large")
+    value, unit = rational(cert["value"]), fmpq(10) ** place
+    need(int((value / unit).q) == 1, "the decimal has more digits than it says")
+    return value, unit / 2
+
+
+def check_reading(cert):
+    """The decimal is what is read, correctly rounded, whatever the time and the unit are within their intervals."""
+    story, (value, half) = check_motion(cert, READ + "at value last_place"), decimal(cert)
+    need(is_within(read(story, cert, interval(cert["at"])) - value, half), "the value is another one")
+
+
+def check_readings(cert):
+    """Each value is as near to what is read at its time as its bound says."""
+    story, count = check_motion(cert, READ + "from until points values"), cert["points"]
+    begin, end = (interval(cert[key]) for key in ("from", "until"))
+    need(type(count) is int and len(cert["values"]) == count > 0, "there are more or fewer values than points")
+    need(sign(end - begin) in (0, 1) or count == 1, "the window runs backwards")
+    for i, (value, error) in enumerate(cert["values"]):
+        share = fmpq(i, max(count - 1, 1))
+        time = begin * (1 - share) + end * share
+        need(is_within(read(story, cert, time) - rational(value), rational(error)), f"value {i} is another one")
+
+
+def check_extreme(cert):
+    """What is read stays on one side of a bound, half a unit in the last place beyond the decimal, and comes as near once."""
+    story = check_motion(cert, READ + "from until goal value last_place times attained")
+    (value, half), (begin, end, unit) = decimal(cert), (interval(cert[key]) for key in ("from", "until", "unit"))
+    way = {"largest": 1, "smallest": -1}[cert["goal"]]
+    first, last = (own if isinstance(own, fmpq) else rational_(own) for own, rational_ in ((begin, rational_below), (end, rational_above)))
+    need(0 <= first < last < story.end, "the window is empty, or outside what is followed")
+    lags = [Length()] + [story.parts.length(own) for row in cert["observed"] for own in row[3:] if type(own) is list]
+    cuts = [at(first)]
+    arrivals = [(n, s.plus(lag)) for n, s in story.begins for lag in lags]
+    # Hints that are not known to be before or after an arrival are none.
+    hints = [at(rational(time)) for time in cert["times"]]
+    arrivals += [time for time in hints if all(time == own or sign(story.between(time, own)) for own in arrivals)]
+    while cuts[-1] != at(last):
+        following = at(last)
+        for time in arrivals:
+            if story.is_later(time, cuts[-1]) and story.is_later(following, time):
+                following = time
+        cuts.append(following)
+    for a, b in zip(cuts, cuts[1:]):
+        left = times(-way * unit, Place(story, a, b).observed(cert["observed"]))
+        length = short(story.between(b, a) / story.step)
+        until = length if isinstance(length, fmpq) else rational_above(length)
+        left = plus([way * value + half], left)
+        decided(sign(left[0]) == 1 and stays_positive(left, NIL, until, 40), "a value is beyond the extremum, or may be")
+    time = rational(cert["attained"])
+    is_inside = arb(begin) <= arb(time) <= arb(end) if not (begin == time or end == time) else True
+    need(is_inside, "the extremum is taken outside the window")
+    left = way * (value - read(story, cert, time))
+    need(sign(half - left) in (0, 1), "the extremum is not taken where it is said")
