@@ -282,8 +282,9 @@ impl Assumptions {
         let mut bounds = BTreeMap::new();
         for symbol in p.symbols() {
             let condition = self.conditions.get(symbol).and_then(Option::as_ref);
-            if let Some(between) = self.bounds.get(symbol).cloned().or_else(|| root_bounds(symbol))
-            {
+            let is_pi = symbol.name() == PI && !self.conditions.contains_key(symbol);
+            let of_number = || if is_pi { Some(pi_bounds()) } else { root_bounds(symbol) };
+            if let Some(between) = self.bounds.get(symbol).cloned().or_else(of_number) {
                 bounds.insert(symbol.clone(), between);
             } else if let Some(half_line) = condition.and_then(|known| known.half_line(symbol)) {
                 in_distances = in_distances.substitute(symbol, &half_line);
@@ -311,6 +312,15 @@ impl Assumptions {
         least.values().all(|coefficient| !coefficient.is_negative())
             && least.iter().any(|(free, c)| c.is_positive() && cannot_vanish(free))
     }
+}
+
+/// The name of the number π, where it is not declared as a symbol.
+pub const PI: &str = "pi";
+
+/// Rational numbers 2⁻⁶¹ apart between which π lies.
+fn pi_bounds() -> (Rational, Rational) {
+    let at = |numerator: i64| Rational::new(numerator.into(), Integer::from(1) << 61_u32);
+    (at(7_244_019_458_077_122_842), at(7_244_019_458_077_122_843))
 }
 
 /// Numbers between which a real square root lies, less than 2⁻⁶⁴ apart.

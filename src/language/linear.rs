@@ -575,24 +575,27 @@ impl<'a> Lowering<'a> {
                 .error("this divisor contains too many square roots", span, "divided by here")
                 .with_remedy("introduce a symbol for it, or divide by fewer roots at a time"));
         }
-        if self.place == Place::Formula {
-            let refused =
-                |reason: NotAUnit| self.error(reason.to_string(), span, "cannot be divided by");
-            if let Some(inverse) = value.inverse_of_term() {
-                return inverse.map_err(refused);
-            }
+        let zero = || {
+            self.error("division by zero", span, "this is zero")
+                .with_remedy("check the signs of what is divided by, and the values given")
+        };
+        let without_factors = || {
+            self.error("this cannot be a divisor", span, "its factors were not found")
+                .with_remedy("divide by its factors one by one")
+        };
+        if self.place == Place::Formula
+            && let Some(inverse) = value.inverse_of_term()
+        {
+            return inverse
+                .map_err(|NotAUnit(of)| if of.is_zero() { zero() } else { without_factors() });
         }
         self.scope.assumptions.invert(value).map_err(|reason| match reason {
-            NotInvertible::Zero => self
-                .error("division by zero", span, "this is zero")
-                .with_remedy("check the signs of what is divided by, and the values given"),
+            NotInvertible::Zero => zero(),
             NotInvertible::Undeclared(factor) => match Fraction::reciprocal(&factor) {
                 Ok(_) => self
                     .error(format!("`{factor}` may be zero"), span, "divided by here")
                     .with_remedy(format!("state that it is not zero, with `nonzero {factor}`")),
-                Err(_) => self
-                    .error("this cannot be a divisor", span, "its factors were not found")
-                    .with_remedy("divide by its factors one by one"),
+                Err(_) => without_factors(),
             },
             NotInvertible::SumOfExponentials => self
                 .error("division by a sum of exponentials", span, "a sum of exponentials")

@@ -6,11 +6,12 @@
 
 use crate::enclosure::Numbers;
 use crate::expression::{
-    Assumptions, Condition, Constant, Definition, Expression, Fraction, NotAUnit, Relation, Root,
+    Assumptions, Condition, Constant, Definition, Expression, Fraction, NotAUnit, PI, Relation,
+    Root,
 };
 use crate::network::error::NetworkError;
 use crate::network::node::ElementLaw;
-use crate::scene::{Body, Dimension, Drive, ElementIndex, Kind, PI, Scene, Spring};
+use crate::scene::{Body, Dimension, Drive, ElementIndex, Kind, Scene, Spring};
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -230,12 +231,7 @@ impl Model {
     /// Whether a value is certainly positive.
     fn is_positive(&self, value: &Fraction) -> bool {
         let order = Numbers::new(&self.constants).compare(value, &Fraction::zero());
-        let by_number = order == Ok(Ordering::Greater);
-        let mut known = self.assumptions.clone();
-        let three = Rational::from_integer(3.into());
-        let above = Condition { relation: Relation::Greater, bound: three };
-        known.declare_symbol(Symbol::new(PI).expect("a name"), Some(above));
-        by_number || known.is_positive(value)
+        order == Ok(Ordering::Greater) || self.assumptions.is_positive(value)
     }
 
     /// Names a constant, and declares it positive where it is known to be.

@@ -25,11 +25,12 @@ mod validity;
 mod wanted;
 
 use crate::answer::Costs;
+use crate::expression::PI;
 use crate::language::{self, Source, Stated};
 use crate::network::{Network, NetworkError, ScaledScene};
 use crate::planner;
 use crate::recurrence::{Recurrence, Statement};
-use crate::scene::{PI, Scene};
+use crate::scene::Scene;
 use crate::solution::Solution;
 use std::cell::OnceCell;
 use std::collections::BTreeMap;

@@ -1,26 +1,21 @@
 //! Checks of a scene: signs of its properties, ends and lengths that agree, elements that can do something
 //! where they stand, and measures that fit their places.
 
-use wavestep_polynomial::{Integer, Rational, Symbol};
+use wavestep_polynomial::{Rational, Symbol};
 
 use crate::expression::{Assumptions, Condition, Fraction};
 use crate::limits::MAX_CONTACT_EXPONENT;
 use crate::scene::fault::{Fault, Mistake, Part, Property};
 use crate::scene::{
     Bar, Body, Drive, ElementIndex, End, Hertz, Ideal, Joint, Kind, LEAST_EXPONENT_INVERSE, Load,
-    Measure, PI, Place, Position, Scene, Seen, Spring,
+    Measure, Place, Position, Scene, Seen, Spring,
 };
 
 impl Scene {
-    /// The assumptions of the scene, and between which numbers `pi` lies.
-    pub fn known(&self) -> Assumptions {
-        with_pi(self.assumptions.clone())
-    }
-
     /// Everything that makes the scene impossible: first the elements, then the line, then the
     /// observables. A scene with faults in elements or line is not asked about its observables.
     pub fn faults(&self) -> Vec<Fault> {
-        let mut check = Check { scene: self, known: self.known(), faults: Vec::new() };
+        let mut check = Check { scene: self, known: self.assumptions.clone(), faults: Vec::new() };
         if !check.is_well_formed() {
             check.fault(Mistake::IllFormed, [Part::Line]);
             return check.faults;
@@ -41,20 +36,10 @@ impl Scene {
     }
 }
 
-/// The assumptions, with `pi` between two rational numbers that are 2⁻⁶¹ apart.
-pub(crate) fn with_pi(mut assumptions: Assumptions) -> Assumptions {
-    let pi = Symbol::new(PI).expect("a plain name");
-    let [lower, upper] = [7_244_019_458_077_122_842_i64, 7_244_019_458_077_122_843]
-        .map(|numerator| Rational::new(numerator.into(), Integer::from(1) << 61_u32));
-    assumptions.declare_symbol(pi.clone(), Some(Condition::above(3)));
-    assumptions.declare_bounds(pi, lower, upper);
-    assumptions
-}
-
 impl Scene {
     /// Why a measure cannot be taken at its place; none where it can.
     pub(crate) fn refusal(&self, seen: &Seen) -> Option<Mistake> {
-        Check { scene: self, known: self.known(), faults: Vec::new() }.observed(seen)
+        Check { scene: self, known: self.assumptions.clone(), faults: Vec::new() }.observed(seen)
     }
 }
 

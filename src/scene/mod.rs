@@ -13,7 +13,6 @@ mod observable;
 use crate::expression::Assumptions;
 use wavestep_polynomial::Symbol;
 
-pub(crate) use check::with_pi;
 pub use dimension::Dimension;
 pub use element::{
     Bar, Body, Drive, Element, ElementIndex, Hertz, Kind, LEAST_EXPONENT_INVERSE, Load, Mass,
@@ -22,9 +21,6 @@ pub use element::{
 pub use fault::{Fault, Mistake, Part, Property};
 pub use ideal::Ideal;
 pub use observable::{Measure, Observable, Place, Position, Seen};
-
-/// The name of the number π in the expressions of a scene.
-pub const PI: &str = "pi";
 
 /// A line of bars and lumped elements with what is known and observed of it.
 ///

@@ -148,6 +148,24 @@ fn what_may_vanish_is_not_inverted() {
     assert!((&known.invert(&value).unwrap() * &value).is_one());
 }
 
+/// π is a number between two others, unless a recurrence has a symbol of that name.
+#[test]
+fn pi_is_known_by_its_bounds() {
+    let known = Assumptions::default();
+    for text in ["pi", "pi^2 + 4", "1000*pi - 3141", "pi - 22/7", "pi*sqrt(2) - 4"] {
+        let value = expression(text);
+        assert!((&known.invert(&value).unwrap() * &value).is_one(), "{text}");
+    }
+    assert!(
+        known.is_positive(&fraction("22/7 - pi")) && !known.is_positive(&fraction("pi - 22/7"))
+    );
+    // Within 10⁻²⁰ of π.
+    assert!(known.invert(&expression("pi - 3.14159265358979323846")).is_err());
+    let mut known = Assumptions::default();
+    known.declare_symbol(Symbol::new("pi").unwrap(), None);
+    assert!(known.invert(&expression("pi - 22/7")).is_err());
+}
+
 #[test]
 fn a_rationalised_denominator_cancels() {
     // (x² − 2)/(x + √2) = x − √2.

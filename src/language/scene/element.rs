@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::{Lowering, Meaning, Outcome};
-use crate::expression::Fraction;
+use crate::expression::{Fraction, PI};
 use crate::language::diagnostic::Diagnostic;
 use crate::language::scope::{symbol, with_likely};
 use crate::language::syntax::{Declaration, Declared, Node, Property, SceneStatementKind, Span};
-use crate::scene::{Bar, Body, Dimension, Drive, Ideal, Kind, Load, Mass, PI, Spring};
+use crate::scene::{Bar, Body, Dimension, Drive, Ideal, Kind, Load, Mass, Spring};
 use wavestep_polynomial::Rational;
 
 /// What a value has to be at least.

@@ -19,9 +19,9 @@ use super::diagnostic::Diagnostic;
 use super::parameters;
 use super::scope::{Scope, symbol, with_likely};
 use super::syntax::{self, Declaration, Declared, Name, SceneStatementKind, Section, Span};
-use crate::expression::Assumptions;
+use crate::expression::PI;
 use crate::limits::MAX_MISTAKES;
-use crate::scene::{self, ElementIndex, Kind, PI};
+use crate::scene::{self, ElementIndex, Kind};
 use element::Material;
 use value::NEEDS_UNIT;
 
@@ -62,7 +62,7 @@ pub(super) fn scene(
     });
     let scene = scene::Scene {
         title: tree.title.value.clone(),
-        assumptions: lowering.plain.clone(),
+        assumptions: lowering.scope.assumptions.clone(),
         dimensional: lowering.unit.is_some(),
         elements: elements.collect(),
         line,
@@ -102,10 +102,8 @@ enum Meaning {
 struct Lowering<'a> {
     tree: &'a syntax::Scene,
     values: &'a BTreeMap<String, Rational>,
-    /// Symbols, `pi` and the time; its assumptions know of `pi`.
+    /// Symbols, `pi` and the time.
     scope: Scope,
-    /// The assumptions without `pi`.
-    plain: Assumptions,
     /// The first unit of the text, which makes the scene dimensional.
     unit: Option<Span>,
     /// Where each name was declared, and as what.
@@ -124,7 +122,6 @@ impl<'a> Lowering<'a> {
             tree,
             values,
             scope,
-            plain: Assumptions::default(),
             unit: first_unit(tree),
             declared: BTreeMap::new(),
             materials: BTreeMap::new(),
@@ -214,15 +211,12 @@ impl<'a> Lowering<'a> {
         let title = self.tree.title.span;
         let outcome = parameters::all_known(&self.scope, self.values, "scene", title);
         self.keep(outcome);
-        self.plain = self.scope.assumptions.clone();
         self.scope.symbols.insert(PI.to_owned(), None);
-        self.scope.assumptions = scene::with_pi(self.plain.clone());
         for statement in self.statements() {
             let SceneStatementKind::Nonzero(tree) = statement else { continue };
             let outcome = parameters::nonzero(&self.scope, tree, self.values);
             if let Some(Some(unit)) = self.keep(outcome) {
                 self.scope.assumptions.declare_factors(&unit);
-                self.plain.declare_factors(&unit);
             }
         }
     }

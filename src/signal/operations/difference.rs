@@ -5,9 +5,9 @@
 
 use super::{Mark, Outcome, Rule, Scale, flatness_of, value_at};
 use crate::ball::{Arithmetic as _, Ball};
+use crate::expression::PI;
 use crate::expression::{Expression, Fraction};
 use crate::network::Network;
-use crate::scene::PI;
 use crate::signal::{
     At, EchoCount, Effort, Enclosure, Instant, Known, Limit, Signal, Taylor, later, zeros_of,
 };
