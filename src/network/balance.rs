@@ -14,7 +14,7 @@ use crate::network::node::ElementLaw;
 use crate::network::observed::{ObservedValue, Squared, Window};
 use crate::network::reading::{Face, Field, Lump, Reading, section};
 use crate::network::scaled::ScaledScene;
-use crate::scene::{ElementIndex, End, Kind, Measure, Observable, Scene};
+use crate::scene::{ElementIndex, End, Joint, Kind, Measure, Observable, Scene};
 
 /// A coefficient times the product of one or two readings.
 pub(super) type Flow = (Fraction, Vec<Reading>);
@@ -91,7 +91,7 @@ impl Balance<'_> {
     /// What dampers take from the energy of the line; none where loads act, or where a mass may meet another
     /// or a wall with nothing between them that gives way.
     fn losses(&self) -> Option<Vec<Flow>> {
-        if is_rigid(&self.scaled.scene) {
+        if has_hard_contacts(&self.scaled.scene) {
             return None;
         }
         let mut terms = Vec::new();
@@ -183,34 +183,43 @@ impl Balance<'_> {
     }
 }
 
-/// Whether two masses, or a mass and a wall, have nothing between them that gives way: where they meet,
-/// energy is lost at once.
-fn is_rigid(scene: &Scene) -> bool {
-    let is_wall = |end| usize::from(end == End::Fixed);
-    let mut met = is_wall(scene.line.left);
-    for element in &scene.line.elements {
-        match &scene.elements[*element].kind {
-            Kind::Bar(_) | Kind::Spring(_) | Kind::Hertz(_) => met = 0,
-            Kind::Mass(_) => met += 1,
-            Kind::Support(_) | Kind::Load(_) => {}
-        }
-        if met > 1 {
+/// Whether two masses, or a mass and a wall, may hit each other with nothing between them that gives way: energy is lost
+/// at once then.
+fn has_hard_contacts(scene: &Scene) -> bool {
+    let line = &scene.line;
+    // Whether a mass or a wall comes before, with nothing that gives way since; whether a contact that opens does.
+    let (mut meets, mut opens) = (line.left == End::Fixed, false);
+    let kinds = line.elements.iter().map(|element| Some(&scene.elements[*element].kind));
+    for (joint, kind) in line.joints.iter().zip(kinds.chain([None])) {
+        opens |= scene.contacts_open && *joint == Joint::Contact;
+        let is_hard = match kind {
+            Some(Kind::Bar(_) | Kind::Spring(_) | Kind::Hertz(_)) => {
+                (meets, opens) = (false, false);
+                continue;
+            }
+            Some(Kind::Support(_) | Kind::Load(_)) => continue,
+            Some(Kind::Mass(_)) => true,
+            None => line.right == End::Fixed,
+        };
+        if is_hard && meets && opens {
             return true;
         }
+        (meets, opens) = (true, false);
     }
-    met + is_wall(scene.line.right) > 1
+    false
 }
 
-/// A momentum or an energy at the start, when springs are relaxed.
+/// A momentum or an energy at the start, when springs are relaxed; `None` where the velocity of masses that begin together
+/// cannot be given.
 pub(super) fn at_start(
     scaled: &ScaledScene,
     value: &MeasuredValue,
     parts: &ObservedValue,
-) -> Fraction {
+) -> Option<Fraction> {
     let mut sum = Fraction::zero();
     if let MeasuredValue::Linear(terms) = value {
         for term in terms {
-            sum = &sum + &(&term.coefficient * &reading_at_start(scaled, &term.of));
+            sum = &sum + &(&term.coefficient * &reading_at_start(scaled, &term.of)?);
         }
     }
     if let ObservedValue::Energy(parts) = parts {
@@ -219,30 +228,47 @@ pub(super) fn at_start(
                 (Window::Last(travel), _) => &part.before.pow(2) * travel,
                 // A local contact is not compressed.
                 (Window::Now, Squared::Reading(own)) if part.times.is_none() => {
-                    reading_at_start(scaled, own).pow(2)
+                    reading_at_start(scaled, own)?.pow(2)
                 }
                 (Window::Now | Window::Always, _) => Fraction::zero(),
             };
             sum = &sum + &(&part.coefficient * &square);
         }
     }
-    sum
+    Some(sum)
 }
 
-fn reading_at_start(scaled: &ScaledScene, reading: &Reading) -> Fraction {
-    match reading {
+fn reading_at_start(scaled: &ScaledScene, reading: &Reading) -> Option<Fraction> {
+    Some(match reading {
         Reading::Momentum(bar) => {
             let bar = &scaled.model.bars[&scaled.layout.bars[*bar]];
             let held = bar.travel.as_ref().map(|travel| &bar.impedance * travel);
             held.map_or_else(Fraction::zero, |held| &held * &bar.velocity)
         }
-        Reading::Velocity(face) => {
-            let lump = face.lump();
-            match &scaled.layout.nodes[lump.node].elements[lump.place].law {
-                ElementLaw::Mass { velocity, .. } => velocity.clone(),
-                _ => Fraction::zero(),
-            }
-        }
+        Reading::Velocity(face) => velocity_at_start(&scaled.layout, *face)?,
         _ => Fraction::zero(),
+    })
+}
+
+/// That of the masses of a run, which begin with the momentum that they have together.
+fn velocity_at_start(layout: &Layout, face: Face) -> Option<Fraction> {
+    let node = &layout.nodes[face.lump().node];
+    let run = node.run_beside(face);
+    if node.is_held(run) {
+        return Some(Fraction::zero());
+    }
+    let (mut total, mut momentum, mut velocities) =
+        (Fraction::zero(), Fraction::zero(), Vec::new());
+    for own in node.attached(run) {
+        if let ElementLaw::Mass { mass, velocity } = &own.law {
+            total = &total + mass;
+            momentum = &momentum + &(mass * velocity);
+            velocities.push(velocity);
+        }
+    }
+    match velocities.split_first() {
+        None => Some(Fraction::zero()),
+        Some((first, others)) if others.iter().all(|own| own == first) => Some((*first).clone()),
+        Some(_) => Some(&momentum * &total.inverse().ok()?),
     }
 }

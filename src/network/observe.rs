@@ -41,7 +41,9 @@ impl Network {
             };
             let at_start = at_start(&self.scaled, &measured.value, &value);
             let flow = flow(&self.scaled, &self.scaled.scene.observables[place]);
-            let balance = flow.map(|flow| Balance { at_start, flow: self.flowing(flow) });
+            let balance = flow
+                .zip(at_start)
+                .map(|(flow, at_start)| Balance { at_start, flow: self.flowing(flow) });
             let readings = match measured.value {
                 MeasuredValue::Linear(terms) => terms,
                 MeasuredValue::Energy(_) => Vec::new(),

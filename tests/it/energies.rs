@@ -338,21 +338,51 @@ fn extrema_of_what_begins_flat_are_decided() {
 /// between them may strike each other.
 #[test]
 fn masses_that_may_strike_each_other_are_not_taken_for_conserved() {
-    let scene = |middle: &str| {
+    let scene = |middle: &str, more: &str| {
         network(&format!(
             "scene \"Masses\"\nmass a {{ mass = 1, velocity = 1 }}\nmass b {{ mass = 2, velocity = 1 }}\n\
              spring k {{ stiffness = 3 }}\nbar rod {{ impedance = 1, travel = 1 }}\n\
-             line free - {middle} - rod - fixed\nobserve all = energy(line)\n"
+             line free - {middle} - rod - fixed\nobserve all = energy(line)\n{more}"
         ))
     };
-    for (middle, is_conserved) in [("a | b - k", false), ("a - k - b", true)] {
-        let network = scene(middle);
+    let open = "contacts open\n";
+    for (middle, more, is_conserved) in [
+        ("a | b - k", open, false),
+        ("a | b - k", "", true),
+        ("a - b | k", open, true),
+        ("a - k | b", open, true),
+        ("a - k - b", "", true),
+    ] {
+        let network = scene(middle, more);
         let window = [&Rational::default(), &rational(4, 1)];
         let signal =
             of_scene(&network, &network.observables()[0], window, Purpose::Search).unwrap();
         assert_eq!(signal.count().unwrap() == 1, is_conserved, "{middle}");
         let now = derivative(&*signal, 0, &rational(5, 2));
         assert_same(&now, &Ball::from_rational(&rational(3, 2), BITS), 1.0, middle);
+    }
+}
+
+/// Masses that are joined begin with the momentum that they have together; what is lost then is lost before the start.
+#[test]
+fn masses_that_are_joined_begin_together() {
+    for (joint, more) in [("-", ""), ("|", ""), ("-", "contacts open\n")] {
+        let network = network(&format!(
+            "scene \"Joined\"\nmass a {{ mass = 1, velocity = 3 }}\nmass b {{ mass = 2 }}\n\
+             spring k {{ stiffness = 3 }}\nmass c {{ mass = 1, velocity = 5 }}\nmass d {{ mass = 1, velocity = 5 }}\n\
+             line free - a {joint} b - k - c - d - free\nobserve all = energy(line)\n{more}"
+        ));
+        let window = [&Rational::default(), &rational(4, 1)];
+        let signal =
+            of_scene(&network, &network.observables()[0], window, Purpose::Search).unwrap();
+        assert_eq!(signal.count().unwrap(), 1, "{joint} {more}");
+        let now = derivative(&*signal, 0, &rational(5, 2));
+        assert_same(&now, &Ball::from_rational(&rational(53, 2), BITS), 1.0, joint);
+        // The same by the motion.
+        let asked = Purpose::Values { digits: 15 };
+        let signal = of_scene(&network, &network.observables()[0], window, asked).unwrap();
+        let now = derivative(&*signal, 0, &rational(5, 2));
+        assert_same(&now, &Ball::from_rational(&rational(53, 2), BITS), 1.0, joint);
     }
 }
 
