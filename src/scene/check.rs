@@ -156,7 +156,9 @@ impl Check<'_> {
     }
 
     fn spring(&mut self, index: ElementIndex, Spring { stiffness, damping }: &Spring) {
-        if stiffness.is_zero() && damping.is_zero() {
+        // A support without both resists nothing; a spring would be no link.
+        let is_link = matches!(self.scene.elements[index].kind, Kind::Spring(_));
+        if is_link && stiffness.is_zero() && damping.is_zero() {
             return self.fault(Mistake::NoStiffness, [Part::Element(index)]);
         }
         // What is given is positive; what is left out is zero.

@@ -344,3 +344,33 @@ fn long_scenes_take_little_time() {
     let unit = format!("scene \"Long\"\nmass ram {{ mass = 1 kg{} }}", "*km^9/mm^9".repeat(50_000));
     assert_eq!(meaning(&unit, &[]).unwrap_err().last().unwrap().label(), "too large");
 }
+
+/// A support without stiffness and damping resists nothing; so a range of dampers may begin at zero.
+#[test]
+fn a_support_may_resist_nothing() {
+    let read = |damping: &str, support: &str, more: &str| {
+        let text = format!(
+            "scene \"Toe\"\nsymbol d >= 0\nmass ram {{ mass = 2 + d, velocity = 1 }}\n\
+             bar pile {{ impedance = 1, travel = 1 }}\n{damping}line free - ram | pile {support}- free\n\
+             observe x = displacement(pile.right)\nobserve force = force(pile.left)\n{more}"
+        );
+        let problem =
+            wavestep::Problem::read("toe.wave", &text).unwrap_or_else(|error| panic!("{error}"));
+        problem.with("d", 0).unwrap_or_else(|error| panic!("{error}"))
+    };
+    for more in ["", "contacts open\n"] {
+        let with = read("support toe { damping = d }\n", "- toe ", more);
+        let without = read("", "", more);
+        for name in ["x", "force"] {
+            for time in ["1/2", "7/2", "23/4"] {
+                let [with, without] = [&with, &without]
+                    .map(|own| own.signal(name).unwrap().at(time, 20).unwrap().to_string());
+                assert_eq!(with, without, "{name}({time}) {more}");
+            }
+        }
+    }
+    let text = "scene \"Gap\"\nbar a { impedance = 1, travel = 1, velocity = 1 }\nspring s { damping = 0 }\n\
+                bar b { impedance = 1, travel = 1 }\nline free - a - s - b - free\n";
+    let error = wavestep::Problem::read("gap.wave", text).err().expect("no link");
+    assert!(error.to_string().contains("neither stiffness nor damping"), "{error}");
+}
