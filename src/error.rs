@@ -408,7 +408,8 @@ fn remedy_of_history(error: &HistoryError) -> &'static str {
         HistoryError::Undecided { .. } => "change a value slightly, or choose an earlier end",
         HistoryError::TooManyEvents { .. } => "choose an earlier end",
         HistoryError::TooManyCells { .. } => {
-            "choose an earlier end; if a light mass or a stiff spring rings, leave it out"
+            "choose an earlier end; there are fewer echoes where travel times are multiples of one of them, and where no light \
+             mass or stiff spring rings"
         }
         HistoryError::TooMuchMemory { .. } => "choose an earlier end, or raise --memory",
         HistoryError::Refused(_) => {

@@ -16,7 +16,7 @@ use crate::history::history::{
     Body, ContactSummary, Ending, Event, EventKind, History, precisions,
 };
 use crate::history::moment::Moment;
-use crate::limits::{MAX_HISTORY_BITS, memory};
+use crate::limits::{MAX_HISTORY_BITS, MAX_HISTORY_CELLS, memory};
 use crate::network::Network;
 use crate::scene::{Dimension, Kind};
 use crate::signal::Limit;
@@ -29,6 +29,10 @@ pub const PATIENCE: u32 = 100;
 
 /// The same beside a local contact, which takes some seconds for each time that it is pressed.
 const PATIENCE_WITH_LOCAL_CONTACTS: u32 = 10;
+
+/// How many cells are followed where no end is given, until the next multiple of that time: echoes of travel times without a
+/// common measure are ever more.
+const MANY_CELLS: usize = MAX_HISTORY_CELLS / 4;
 
 /// Events are told on the way where what is kept takes more than this share of the memory.
 const MUCH: u64 = 64;
@@ -167,7 +171,7 @@ impl Story<'_> {
         loop {
             count += if count < patience { 1 } else { patience };
             let next = match until {
-                None if count > patience => return Ok(()),
+                None if count > patience || self.engine.count() > MANY_CELLS => return Ok(()),
                 None => times(count),
                 Some(until) => self.engine.clock.earlier(until.clone(), times(count))?,
             };

@@ -4,6 +4,7 @@
 //! there are.
 
 use crate::picture::{self, PictureError};
+use crate::told::Teller;
 use crate::validity;
 use serde_json::{Map, Value as Json, json};
 use std::collections::BTreeMap;
@@ -11,7 +12,7 @@ use std::str::FromStr;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::sync_channel;
 use std::thread;
-use wavestep::history::ContactSummary;
+use wavestep::history::{ContactSummary, Ending};
 use wavestep::language;
 use wavestep::limits::{SEARCH_BITS, VALUE_BITS, count_nothing_here};
 use wavestep::planner::Purpose;
@@ -358,6 +359,11 @@ impl Sweep<'_> {
             let until = asked.to.as_ref().map(|to| to.of(&problem)).transpose()?;
             let history = problem.history(until.as_ref(), DIGITS)?;
             history.contacts.iter().for_each(|contact| put_contact(row, contact));
+            if let Ending::Followed(time) = &history.ending {
+                let teller = Teller { problem: &problem, digits: DIGITS, longest_fraction: DIGITS };
+                let time = teller.time(time);
+                notes.push(format!("followed until t = {time}; later contacts are not known"));
+            }
         }
         notes.extend(problem.assumptions().into_iter().map(|one| format!("assuming that {one}")));
         notes.extend(validity::pulling(&problem, &last));

@@ -39,7 +39,8 @@ pub struct Sweep {
     /// The first time of the window
     #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
     pub from: String,
-    /// The last time of the window [default: four periods, or twice the way along the line]
+    /// The last time of the window [default: four periods, or twice the way along the line; of
+    /// contacts, until nothing can meet again, at most a hundred of the longest travel times]
     #[arg(long, alias = "until", value_name = "T", allow_hyphen_values = true)]
     pub to: Option<String>,
     /// The number of threads [default: one per core]
