@@ -20,7 +20,7 @@ fn answers_look_as_recorded() {
         ("silence", "rigid-mass --set mu=1 --zero strain_fixed --from 0 --to 6 --digits 9"),
         ("level", "hopkinson --level force=10kN --from 0 --to 350us"),
         ("csv", "rigid-mass --set mu=1 --level velocity=1/2 --from 0 --to 6 --format csv"),
-        ("csv-largest", "hopkinson --max force --digits 8 --format csv"),
+        ("csv-largest", "hopkinson --max force --to 500us --digits 8 --format csv"),
         ("side", "rigid-mass --set mu=1 --max strain_impact --from 2 --to 4 --digits 8"),
         ("critical", "cushioned-impact --set mu=1 --max force --from 0 --to 8"),
         ("plateau", "pushed-bar --max velocity --from 0 --to 9"),

@@ -320,8 +320,8 @@ fn the_last_time_is_that_asked_for() {
     };
     let events = [&all, &part].map(|page| section(page, "events").matches("<li>t = ").count());
     assert!(events[0] > events[1] && events[1] > 0, "{events:?}");
-    assert!(section(&part, "energies").contains("at t = 2.5<"), "{}", section(&part, "energies"));
-    assert!(part.contains("Followed until t = 2.5"), "{}", section(&part, "events"));
+    assert!(section(&part, "energies").contains("at t = 5/2<"), "{}", section(&part, "energies"));
+    assert!(part.contains("later events are not known"), "{}", section(&part, "events"));
 }
 
 /// What has no meaning is left out with its reason.
