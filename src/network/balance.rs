@@ -10,14 +10,25 @@
 use crate::expression::Fraction;
 use crate::network::layout::Layout;
 use crate::network::measures::{MeasuredValue, vanishes};
-use crate::network::node::ElementLaw;
+use crate::network::node::{ElementLaw, Lumped};
 use crate::network::observed::{ObservedValue, Squared, Window};
 use crate::network::reading::{Face, Field, Lump, Reading, section};
 use crate::network::scaled::ScaledScene;
-use crate::scene::{ElementIndex, End, Joint, Kind, Measure, Observable, Scene};
+use crate::scene::{Drive, ElementIndex, End, Joint, Kind, Measure, Observable, Scene};
 
 /// A coefficient times the product of one or two readings.
-pub(super) type Flow = (Fraction, Vec<Reading>);
+pub(super) struct Flow {
+    pub coefficient: Fraction,
+    pub factors: Vec<Reading>,
+    /// When it is not zero, where that is known: while one of these loads acts.
+    pub loads: Option<Vec<ElementIndex>>,
+}
+
+impl Flow {
+    fn new(coefficient: Fraction, factors: Vec<Reading>) -> Flow {
+        Flow { coefficient, factors, loads: None }
+    }
+}
 
 /// The terms of the derivative of an observable with respect to time, in the scales of the scene, where it
 /// is an energy or a momentum whose balance is known.
@@ -67,7 +78,8 @@ pub(super) fn flow(scaled: &ScaledScene, observable: &Observable) -> Option<Vec<
 }
 
 fn times(terms: Vec<Flow>, coefficient: &Fraction) -> Vec<Flow> {
-    terms.into_iter().map(|(own, factors)| (&own * coefficient, factors)).collect()
+    let times = |own: Flow| Flow { coefficient: &own.coefficient * coefficient, ..own };
+    terms.into_iter().map(times).collect()
 }
 
 struct Balance<'a> {
@@ -88,8 +100,8 @@ impl Balance<'_> {
         })
     }
 
-    /// What dampers take from the energy of the line; none where loads act, or where a mass may meet another
-    /// or a wall with nothing between them that gives way.
+    /// What loads add to the energy of the line, and what dampers take from it; none where a load acts on a mass, or where a
+    /// mass may meet another or a wall with nothing between them that gives way.
     fn losses(&self) -> Option<Vec<Flow>> {
         if has_hard_contacts(&self.scaled.scene) {
             return None;
@@ -98,23 +110,80 @@ impl Balance<'_> {
         for (lump, law) in self.lumps() {
             let [left, right] = [Face::Left(lump), Face::Right(lump)].map(Reading::Velocity);
             match law {
-                ElementLaw::Load(_) => return None,
+                ElementLaw::Load(_) => {
+                    for mut power in self.pushed(lump)? {
+                        power.factors.push(left.clone());
+                        terms.push(power);
+                    }
+                }
                 ElementLaw::Support { damping, .. } => {
-                    terms.push((-damping, vec![left.clone(), left]));
+                    terms.push(Flow::new(-damping, vec![left.clone(), left]));
                 }
                 ElementLaw::Spring { damping, .. } => {
-                    terms.push((-damping, vec![left.clone(), left.clone()]));
-                    terms.push((damping + damping, vec![left, right.clone()]));
-                    terms.push((-damping, vec![right.clone(), right]));
+                    terms.push(Flow::new(-damping, vec![left.clone(), left.clone()]));
+                    terms.push(Flow::new(damping + damping, vec![left, right.clone()]));
+                    terms.push(Flow::new(-damping, vec![right.clone(), right]));
                 }
                 ElementLaw::Mass { .. } | ElementLaw::LocalContact { .. } => {}
             }
         }
-        terms.retain(|(coefficient, _)| !coefficient.is_zero());
+        terms.retain(|term| !term.coefficient.is_zero());
         Some(terms)
     }
 
-    /// The forces of walls and supports on the line; none where loads act.
+    /// The forces that loads, by the balance beside them, the total force of those of a place: what the bars and springs there, and
+    /// supports, take up.
+    ///
+    /// `None` where a mass takes up some of it, or where one may do so across a contact.
+    fn pushed(&self, lump: Lump) -> Option<Vec<Flow>> {
+        let node = &self.layout().nodes[lump.node];
+        let own: Vec<(usize, &Lumped<Fraction>)> = (0..)
+            .zip(&node.elements)
+            .filter(|(_, other)| other.run == node.elements[lump.place].run && !other.law.is_link())
+            .collect();
+        let is_load = |law: &ElementLaw<Fraction>| matches!(law, ElementLaw::Load(_));
+        let mut loads = own.iter().filter(|(_, other)| is_load(&other.law));
+        // Those of a place are counted once.
+        if loads.clone().next().is_some_and(|(first, _)| *first != lump.place) {
+            return Some(Vec::new());
+        }
+        let mut forces = Vec::new();
+        for (place, other) in &own {
+            match &other.law {
+                ElementLaw::Load(_) => {}
+                ElementLaw::Support { .. } => {
+                    forces.push((Fraction::one(), Reading::Force(Lump { place: *place, ..lump })));
+                }
+                _ => return None,
+            }
+        }
+        let line = &self.scaled.scene.line;
+        let place_of = |element| line.elements.iter().position(|other| *other == element);
+        let places: Vec<usize> =
+            own.iter().map(|(_, other)| place_of(other.element)).collect::<Option<_>>()?;
+        let (first, last) = (*places.iter().min()?, *places.iter().max()?);
+        let beside = [(first.checked_sub(1), line.left), (Some(last + 1), line.right)];
+        for (side, (next, end)) in (0..).zip(beside) {
+            match next.and_then(|next| line.elements.get(next)) {
+                // The right side of what is at the left, and the other way round.
+                Some(element) => {
+                    let sign = if side == 0 { -&Fraction::one() } else { Fraction::one() };
+                    forces.push((sign, self.force_at_end(*element, 1 - side)?));
+                }
+                None if end == End::Free => {}
+                None => return None,
+            }
+        }
+        let loads: Vec<ElementIndex> = loads.by_ref().map(|(_, other)| other.element).collect();
+        let flow = |(coefficient, force)| Flow {
+            coefficient,
+            factors: vec![force],
+            loads: Some(loads.clone()),
+        };
+        Some(forces.into_iter().map(flow).collect())
+    }
+
+    /// The forces of walls, supports and loads on the line; none where a load acts on a mass, or imposes a velocity.
     fn outer_forces(&self) -> Option<Vec<Flow>> {
         let line = &self.scaled.scene.line;
         let mut terms = Vec::new();
@@ -123,14 +192,16 @@ impl Balance<'_> {
         {
             if end == End::Fixed {
                 let sign = if side == 0 { Fraction::one() } else { -&Fraction::one() };
-                terms.push((sign, vec![self.force_at_end(*element?, side)?]));
+                terms.push(Flow::new(sign, vec![self.force_at_end(*element?, side)?]));
             }
         }
         for (lump, law) in self.lumps() {
             match law {
-                ElementLaw::Load(_) => return None,
+                // What imposes a velocity holds its place before and after.
+                ElementLaw::Load(Drive::Velocity) => return None,
+                ElementLaw::Load(Drive::Force) => terms.extend(self.pushed(lump)?),
                 ElementLaw::Support { .. } => {
-                    terms.push((-&Fraction::one(), vec![Reading::Force(lump)]));
+                    terms.push(Flow::new(-&Fraction::one(), vec![Reading::Force(lump)]));
                 }
                 _ => {}
             }
@@ -176,7 +247,7 @@ impl Balance<'_> {
             };
             if !factors.iter().any(is_zero) {
                 let sign = if side == 0 { Fraction::one() } else { -&Fraction::one() };
-                terms.push((sign, factors));
+                terms.push(Flow::new(sign, factors));
             }
         }
         Some(terms)

@@ -48,9 +48,8 @@ impl Network {
                 MeasuredValue::Linear(terms) => terms,
                 MeasuredValue::Energy(_) => Vec::new(),
             };
-            let all = &self.scaled.model.loads;
-            let time = |load| (all[&load].from.clone(), all[&load].until.clone());
-            let acts = measured.loads.map(|loads| loads.into_iter().map(time).collect());
+            let acts =
+                measured.loads.map(|loads| loads.into_iter().map(|load| self.acts(load)).collect());
             let (name, unit, dimension) = (measured.name, measured.unit, measured.dimension);
             let observed = Observed { name, value, readings, balance, acts, unit, dimension };
             self.observables.push(observed);
@@ -58,15 +57,22 @@ impl Network {
         Ok(())
     }
 
+    /// When a load begins to act, and when it ends.
+    fn acts(&self, load: ElementIndex) -> (Fraction, Option<Fraction>) {
+        let load = &self.scaled.model.loads[&load];
+        (load.from.clone(), load.until.clone())
+    }
+
     fn flowing(&mut self, flow: Vec<Flow>) -> Vec<FlowTerm> {
         let mut terms = Vec::new();
-        for (coefficient, readings) in flow {
+        for Flow { coefficient, factors, loads } in flow {
             let with_waves = |reading| {
                 let waves = self.reading(&reading);
                 (reading, waves)
             };
-            let factors = readings.into_iter().map(with_waves).collect();
-            terms.push(FlowTerm { coefficient, factors });
+            let factors = factors.into_iter().map(with_waves).collect();
+            let acts = loads.map(|loads| loads.into_iter().map(|load| self.acts(load)).collect());
+            terms.push(FlowTerm { coefficient, factors, acts });
         }
         terms
     }

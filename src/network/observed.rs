@@ -99,6 +99,8 @@ pub(crate) struct Balance {
 pub(crate) struct FlowTerm {
     pub coefficient: Fraction,
     pub factors: Vec<(Reading, Observation)>,
+    /// From when until when it is not zero, where that is known.
+    pub acts: Option<Vec<(Fraction, Option<Fraction>)>>,
 }
 
 /// The time over which the square of a wave is integrated.

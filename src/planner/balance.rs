@@ -19,7 +19,7 @@ pub(super) fn of_scene<'a>(
     let scale = Scale::of(network);
     let unit = observed.unit.clone();
     if flow.is_empty() {
-        let rule = Constant { scale: Rc::clone(&scale), value: at_start.clone() };
+        let rule = Constant::new(&scale, at_start.clone());
         return Ok(Box::new(Operation::new(&scale, rule, unit, window)));
     }
     let one = Root::from(Fraction::one());
@@ -29,15 +29,21 @@ pub(super) fn of_scene<'a>(
         ObservedValue::Linear(value) => sources.signal(value, &observed.readings, window)?,
     };
     let factors = flow.iter().flat_map(|term| &term.factors);
-    let operands = sources.signals(
+    let mut operands = sources.signals(
         factors.map(|(reading, waves)| (waves, Squared::Reading(reading.clone()), window)),
     )?;
     let mut places = 0..operands.len();
-    let product = |term: &FlowTerm| Product {
-        coefficient: term.coefficient.clone(),
-        factors: places.by_ref().take(term.factors.len()).collect(),
-    };
-    let products = flow.iter().map(product).collect();
+    let mut products = Vec::new();
+    for FlowTerm { coefficient, factors, acts } in flow {
+        let mut factors: Vec<usize> = places.by_ref().take(factors.len()).collect();
+        if let Some(acts) = acts {
+            // What is known to be zero before and after is a product with zero there.
+            let acting = Constant::within(&scale, acts, window)?;
+            factors.push(operands.len());
+            operands.push(Rc::new(Operation::new(&scale, acting, one.clone(), window)));
+        }
+        products.push(Product { coefficient: coefficient.clone(), factors });
+    }
     let flow = Combination { scale: Rc::clone(&scale), operands, products };
     let flow = Box::new(Operation::new(&scale, flow, one, window));
     let rule = Balanced::new(&scale, of, flow);

@@ -256,6 +256,14 @@ const PISTON: &str = "scene \"Piston\"\nbar a { impedance = 2, travel = 1, veloc
     observe both = energy(a) + energy(b)\nobserve some = energy(a) + energy(b)/2 + energy(c)/2\n\
     observe push = momentum(b) + momentum(c)\n";
 
+/// Loads beside bars, a spring and a support, which begin late, end, overlap, oscillate, and impose a velocity.
+const PULSES: &str = "scene \"Pulses\"\nload p { force = 1 + t, from = 1/3, until = 3/2 }\n\
+    load q { force = -2*exp(-t), from = 1 }\nsupport u { stiffness = 2, damping = 1/3 }\n\
+    bar a { impedance = 1, travel = 1 }\nbar b { impedance = 2, travel = 3/2 }\n\
+    spring s { stiffness = 3, damping = 1/4 }\nload w { DRIVE = sin(2*t), until = 5/2 }\n\
+    line free - p - q - u - a JOINT b - s - w - free\n\
+    observe all = energy(line)\nobserve momentum = momentum(line)\n";
+
 /// What is searched, by its flow, is what is evaluated: values and derivatives agree, also with what is
 /// conserved.
 #[test]
@@ -264,7 +272,15 @@ fn what_flows_in_is_the_derivative() {
     let parting = || network(&(PILE.replace("JOINT", "|") + "contacts open\n"));
     let piston = network(&PISTON.replace("JOINT", "-"));
     let leaving = network(&(PISTON.replace("JOINT", "|") + "contacts open\n"));
-    let scenes: [(Network, &[&str], Rational); 7] = [
+    let pulses = |joint: &str, drive: &str| PULSES.replace("JOINT", joint).replace("DRIVE", drive);
+    let scenes: [(Network, &[&str], Rational); 10] = [
+        (network(&pulses("-", "force")), &["all", "momentum"], rational(6, 1)),
+        (network(&pulses("-", "velocity")), &["all", "momentum"], rational(6, 1)),
+        (
+            network(&(pulses("|", "force") + "contacts open\n")),
+            &["all", "momentum"],
+            rational(6, 1),
+        ),
         (piston, &["both", "some", "push"], rational(6, 1)),
         (leaving, &["both", "some", "push"], rational(6, 1)),
         (pile(), &["all", "momentum", "bars", "above"], rational(6, 1)),
@@ -310,7 +326,7 @@ fn what_flows_in_is_the_derivative() {
             }
         }
     }
-    assert_eq!(compared, 1035 + 2 * 3 * 3 * 23);
+    assert_eq!(compared, 1035 + (2 * 3 + 6) * 3 * 23);
     assert!(flat >= 10, "{flat} derivatives");
 }
 
@@ -360,6 +376,33 @@ fn masses_that_may_strike_each_other_are_not_taken_for_conserved() {
         assert_eq!(signal.count().unwrap() == 1, is_conserved, "{middle}");
         let now = derivative(&*signal, 0, &rational(5, 2));
         assert_same(&now, &Ball::from_rational(&rational(3, 2), BITS), 1.0, middle);
+    }
+}
+
+/// What no load pushes any more is conserved, and its largest value is found at once; beside a mass it is searched.
+#[test]
+fn energies_stay_after_a_pulse() {
+    for (line, joint) in [("p - a - b - fixed", ""), ("p - a | b - free", "contacts open\n")] {
+        let network = network(&format!(
+            "scene \"Pulse\"\nload p {{ force = 3*sin(pi*t), until = 1 }}\n\
+             bar a {{ impedance = 2, travel = 1 }}\nbar b {{ impedance = 2, travel = 3/2 }}\n\
+             line free - {line}\nobserve all = energy(line)\nobserve push = momentum(line)\n{joint}"
+        ));
+        let window = [&Rational::default(), &rational(9, 2)];
+        let all = network.observables().iter().find(|own| own.name == "all").unwrap();
+        let signal = of_scene(&network, all, window, Purpose::Search).unwrap();
+        // `∫ F²/Z dt`
+        let search = Search::new(&*signal).unwrap();
+        let found = search.extremum(Goal::Largest, 15, 1 << 12).unwrap();
+        assert_eq!(found.value.to_text(15), "2.25000000000000", "{line}");
+        let stays = |place: &Place| matches!(place, Place::Plateau { .. });
+        assert!(found.places.iter().any(stays), "{line}: {:?}", found.places);
+        let push = network.observables().iter().find(|own| own.name == "push").unwrap();
+        let signal = of_scene(&network, push, window, Purpose::Search).unwrap();
+        // One stretch after the last break of the load, where no wall pushes.
+        let last = stretch_of(&*signal, &rational(5, 4));
+        let stays = last + 1 == signal.count().unwrap();
+        assert_eq!(stays, line.ends_with("free"), "{line}");
     }
 }
 
