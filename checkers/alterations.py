@@ -119,6 +119,10 @@ def same_claims(one, other):
     times = () if one.get("kind") in MOTIONS else ("at", "from", "to")
     if any(one.get(key) != other.get(key) and Fraction(one[key]) != Fraction(other[key]) for key in times):
         return False
+    if one.get("kind") in MOTIONS:
+        spans = [[list(map(Fraction, document[key])) for key in ("at", "from", "until") if key in document] for document in (one, other)]
+        if len(spans[0]) != len(spans[1]) or not all(a[0] <= b[1] and b[0] <= a[1] for a, b in zip(*spans)):
+            return False
     if one.get("goal") != other.get("goal"):
         return False
     values = [exact.decimal(document) for document in (one, other) if "value" in document]

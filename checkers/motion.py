@@ -106,7 +106,7 @@ class Line:
         need(type(cert["time"]) is str, "the time has no name")
         is_end = [element["is"] in ("free", "fixed", "endless") for element in elements]
         need(len(elements) > 2 and is_end == [True] + [False] * (len(elements) - 2) + [True], "a line has two ends")
-        self.links, runs, self.places, supports = [], [[]], {}, 0
+        self.links, self.travels, runs, self.places, supports = [], [], [[]], {}, 0
         for element in elements:
             if "name" in element:
                 need(type(element["name"]) is str and element["name"] not in self.places, "a name stands twice")
@@ -116,6 +116,7 @@ class Line:
                 supports += kind == "support"
             if element["is"] in ("bar", "spring", "contact"):
                 self.links.append(self.link(element))
+                self.travels.append(element.get("travel"))
                 runs.append([])
             else:
                 runs[-1].append(element)

@@ -404,7 +404,7 @@ class Story:
             before = [own[3] for own in self.told[:-1] if own[0] == self.told[-1][0]]
             need(not before or before[-1] <= self.told[-1][2], "two events of a contact are in one interval")
         self.origins, self.now = [arb(0)], START
-        self.begins, self.past, self.happened = [], [], []
+        self.begins, self.past, self.integrals, self.happened = [], [], {}, []
         self.closed, self.idle, self.flush, self.pressed = set(parts.contacts), {}, {}, set()
         heavy = [r for r, m in enumerate(parts.mass) if sign(m) == 1 and not parts.fixed[r]]
         self.state = {("v", r): short(parts.momentum[r] / parts.mass[r]) for r in heavy}

@@ -4,7 +4,7 @@ from fractions import Fraction
 from functools import cmp_to_key
 from itertools import zip_longest
 
-from exact import decimal, is_count, rational
+from exact import MINUS, accumulate, decimal, is_count, is_zero, rational, read_function
 from motion import check_events, exactly, moved
 from reading import Wrong, decided, need
 from series import ONE, ZERO, Duration, Number, interval, is_positive, shifted, total, value
@@ -79,6 +79,7 @@ class Reader:
             factor, link = line.number(coefficient), line.links[n] if kind in ("bar", "spring") else {}
             if kind == "bar":
                 is_sum, (right, left) = what == "displacement", of
+                self.need_section(n, right, left)
                 at_rest = scaled(link["velocity"], time if is_sum else [ONE])
                 size, way = (link["impedance"], -link["impedance"]) if what == "force" else (ONE, ONE)
                 sums.append(scaled(factor, [link["force"]] if what == "force" else at_rest))
@@ -100,6 +101,16 @@ class Reader:
                 sums.append(scaled(factor * way, known(("v", r), None, False)))
         return list(map(total, zip_longest(*sums, fillvalue=ZERO)))
 
+    def need_section(self, n, right, left):
+        """Two delays are those of one section of a bar: from an endless side comes nothing, else they add up to the travel time."""
+        line, delays = self.motion.line, [own for own in (right, left) if own is not None]
+        need((right is None, left is None) == (line.endless[n], line.endless[n + 1]), "a wave is left out, or comes from an endless side")
+        for own in delays:
+            decided(line.number(own).sign() in (0, 1), "a delay may be negative")
+        if len(delays) == 2:
+            rest = accumulate({(): read_function(right)}, {(): read_function(left)})
+            need(is_zero(accumulate(rest, {(): read_function(line.travels[n])}, MINUS)), "the delays do not add up to the travel time")
+
     def parts(self, rows, begin, end, times):
         """Times in order, from one to another, between which nothing that is read arrives; these ones are among them, but for
         those of which it is not decided whether they are before an arrival."""
@@ -116,10 +127,10 @@ def scaled(factor, series):
     return [factor * own for own in series]
 
 
-def within(motion, begin, end):
-    """The least and the greatest time that an interval of times holds, where the motion is known."""
-    first, last = begin.ends()[0], end.ends()[1]
-    need(0 <= first <= last < motion.to, "the time is outside the window")
+def within(motion, time):
+    """The least and the greatest time of an interval, where the motion is known."""
+    first, last = time.ends()
+    need(0 <= first and last < motion.to, "the time is outside the window")
     return first, last
 
 
@@ -127,7 +138,7 @@ def check_reading(cert):
     """What is read at a time is the decimal, correctly rounded, for all times and units of the two intervals."""
     reader = Reader(check_events(cert, READS | {"at", "value", "last_place"}))
     (claim, slack), time = decimal(cert), interval(cert["at"])
-    within(reader.motion, time, time)
+    within(reader.motion, time)
     [read] = reader.seen(cert["observed"], reader.at(time))
     low, high = (read * interval(cert["unit"])).ends()
     need(claim - slack <= low and high <= claim + slack, f"the value is between {float(low)} and {float(high)}")
@@ -137,10 +148,12 @@ def check_readings(cert):
     """What is read at evenly spaced times is off by the bound at most, for all times and units of the intervals."""
     reader = Reader(check_events(cert, READS | {"from", "until", "points", "values"}))
     begin, end, unit = (interval(cert[key]) for key in ("from", "until", "unit"))
-    within(reader.motion, begin, end)
+    within(reader.motion, begin)
+    within(reader.motion, end)
     need(is_count(cert["points"]) and cert["points"] == len(cert["values"]) > 0, "a value is missing, or there is one too many")
     for i, (claim, off) in enumerate([rational(own) for own in row] for row in cert["values"]):
-        [read] = reader.seen(cert["observed"], reader.at(begin + (end - begin).times(Fraction(i, max(cert["points"] - 1, 1)))))
+        share = Fraction(i, max(cert["points"] - 1, 1))
+        [read] = reader.seen(cert["observed"], reader.at(begin.times(1 - share) + end.times(share)))
         low, high = (read * unit).ends()
         need(claim - off <= low and high <= claim + off, f"value {i} is between {float(low)} and {float(high)}")
 
@@ -151,13 +164,14 @@ def check_extreme(cert):
     way, (claim, slack) = {"largest": 1, "smallest": -1}[cert["goal"]], decimal(cert)
     motion = check_events(cert, READS | {"from", "until", "goal", "value", "last_place", "times", "attained"})
     reader, rows, (begin, end, unit) = Reader(motion), cert["observed"], (interval(cert[key]) for key in ("from", "until", "unit"))
-    first, last = within(motion, begin, end)
+    (first, after), (before, last) = within(motion, begin), within(motion, end)
+    need(after < before, "the window is empty")
     left = lambda read, by: scaled(Number(Fraction(-way)), [read[0] * unit - Number(claim + by), *scaled(unit, read[1:])])
     for a, b in reader.parts(rows, exactly(first), exactly(last), [exactly(rational(own)) for own in cert["times"]]):
         below, reach = left(reader.seen(rows, reader.on(a, b)), way * slack), motion.since(b, a).ends()[1] / motion.step
         need(below[0].sign() == 1, f"a value is beyond the extremum at {float(motion.instant(a).ends()[0])}")
         decided(is_positive(below, Fraction(0), reach, 40), "between two times there may be an extremum")
     time = rational(cert["attained"])
-    need(begin.ends()[1] <= time <= end.ends()[0], "the extremum is taken outside the window")
+    need(after <= time < before, "the extremum is taken outside the window")
     [near] = left(reader.seen(rows, reader.at(Number(time))), -way * slack)
     decided(near.sign() in (0, -1), "the extremum is not taken where it is said")

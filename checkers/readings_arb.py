@@ -22,7 +22,7 @@ class Place:
     """Where a motion is read: from a time on until another one, as Taylor coefficients in steps, or only at a time."""
 
     def __init__(self, story, begin, end):
-        self.story, self.begin, self.end, self.integrals = story, begin, end, {}
+        self.story, self.begin, self.end = story, begin, end
 
     def time(self):
         return [self.story.when(self.begin), self.story.step]
@@ -48,9 +48,21 @@ class Place:
     def integral(self, key, n):
         story = self.story
         grown = lambda m: times(story.step, [NIL] + [c / (k + 1) for k, c in enumerate(story.past[m][key])])
-        lengths = [short(story.between(b, a) / story.step) for a, b in zip(story.begins, story.begins[1 : n + 1])]
-        before = sum((horner(grown(m), length) for m, length in enumerate(lengths)), NIL)
-        return plus([before], grown(n))
+        sums = story.integrals.setdefault(key, [NIL])
+        for m in range(len(sums) - 1, n):
+            length = short(story.between(story.begins[m + 1], story.begins[m]) / story.step)
+            sums.append(short(sums[m] + horner(grown(m), length)))
+        return plus([sums[n]], grown(n))
+
+    def check_section(self, n, right, left):
+        """Whether the delays are those of a section: none from an endless side, else as long together as the way through the bar."""
+        parts, delays = self.story.parts, [own for own in (right, left) if own is not None]
+        need([right is None, left is None] == parts.endless[n : n + 2], "a wave is missing, or comes from an endless side")
+        lengths = [parts.length(own).value() for own in delays]
+        decided(all(sign(own) in (0, 1) for own in lengths), "a wave may be read before it enters")
+        if len(lengths) == 2:
+            rest = sum(lengths) - parts.links[n]["travel"].value()
+            need(rest == 0 if isinstance(rest, fmpq) else rest.contains(0), "the delays are not those of one section")
 
     def observed(self, rows):
         """The sum of what is read of elements by their names."""
@@ -60,6 +72,7 @@ class Place:
             kind, n = parts.named[name]
             if kind == "bar":
                 need(what in ("velocity", "force", "displacement") and len(of) == 2, "a bar is read in another way")
+                self.check_section(n, *of)
                 link, over = parts.links[n], what == "displacement"
                 f, g = (
                     [NIL] if own is None else self.series((way, n), self.delayed(own), over) for way, own in zip("fg", of)
@@ -128,8 +141,9 @@ def check_extreme(cert):
     story = check_motion(cert, READ + "from until goal value last_place times attained")
     (value, half), (begin, end, unit) = decimal(cert), (interval(cert[key]) for key in ("from", "until", "unit"))
     way = {"largest": 1, "smallest": -1}[cert["goal"]]
-    first, last = (own if isinstance(own, fmpq) else rational_(own) for own, rational_ in ((begin, rational_below), (end, rational_above)))
-    need(0 <= first < last < story.end, "the window is empty, or outside what is followed")
+    first = begin if isinstance(begin, fmpq) else rational_below(begin)
+    last = end if isinstance(end, fmpq) else rational_above(end)
+    need(0 <= first and last < story.end and sign(end - begin) == 1, "the window is empty, or outside what is followed")
     lags = [Length()] + [story.parts.length(own) for row in cert["observed"] for own in row[3:] if type(own) is list]
     cuts = [at(first)]
     arrivals = [(n, s.plus(lag)) for n, s in story.begins for lag in lags]
@@ -149,7 +163,6 @@ def check_extreme(cert):
         left = plus([way * value + half], left)
         decided(sign(left[0]) == 1 and stays_positive(left, NIL, until, 40), "a value is beyond the extremum, or may be")
     time = rational(cert["attained"])
-    is_inside = arb(begin) <= arb(time) <= arb(end) if not (begin == time or end == time) else True
-    need(is_inside, "the extremum is taken outside the window")
+    need(sign(time - begin) in (0, 1) and sign(end - time) == 1, "the extremum is taken outside the window")
     left = way * (value - read(story, cert, time))
     need(sign(half - left) in (0, 1), "the extremum is not taken where it is said")

@@ -18,12 +18,13 @@ pub(super) fn of_scene<'a>(
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
     let scale = Scale::of(network);
     let unit = observed.unit.clone();
+    // What is not followed is refused, also where its energy would stay.
+    let sources = Sources::on(origin, network, (observed, purpose), window)?;
     if flow.is_empty() {
         let rule = Constant::new(&scale, at_start.clone());
         return Ok(Box::new(Operation::new(&scale, rule, unit, window)));
     }
     let one = Root::from(Fraction::one());
-    let sources = Sources::on(origin, network, (observed, purpose), window)?;
     let of: Box<dyn Signal + 'a> = match &observed.value {
         ObservedValue::Energy(terms) => energy::of_sources(&sources, terms, &one, window)?,
         ObservedValue::Linear(value) => sources.signal(value, &observed.readings, window)?,

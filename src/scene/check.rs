@@ -161,9 +161,12 @@ impl Check<'_> {
         if is_link && stiffness.is_zero() && damping.is_zero() {
             return self.fault(Mistake::NoStiffness, [Part::Element(index)]);
         }
-        // What is given is positive; what is left out is zero.
-        if !stiffness.is_zero() {
+        // Of a spring what is given is positive; what is left out is zero.
+        if is_link && !stiffness.is_zero() {
             self.positive(index, Property::Stiffness, stiffness);
+        }
+        if !is_link {
+            self.not_negative(index, Property::Stiffness, stiffness);
         }
         if !damping.is_zero() {
             self.not_negative(index, Property::Damping, damping);

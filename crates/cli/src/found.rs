@@ -315,15 +315,20 @@ fn document(told: &Told<'_>, body: Json) -> String {
 }
 
 /// A heading, then a line of columns each: the time, or the first and last one of an interval, as a fraction
-/// where it is exact; else the digits, or a midpoint, and the radius of an enclosure. Of an extremum the same for its
-/// value follows, with its unit.
+/// where it is exact; else the decimal, or where its digits are not decided a midpoint and a radius. Of an extremum the same for
+/// its value follows, with its unit.
 fn columns(rows: &[Json], value: Option<(&Json, &Told<'_>)>) -> String {
     let text = |value: &Json| value.as_str().unwrap_or_default().to_owned();
     let written = |time: &Json| table::number(time).unwrap_or_default().to_owned();
+    // A decimal is rounded; the radius is that of the enclosure from which it is.
+    let radius_of = |number: &Json| match number["decimal"].is_null() {
+        true => text(&number["radius"]),
+        false => String::new(),
+    };
     let (mut heading, mut last) = (String::new(), String::new());
     if let Some((value, told)) = value {
         heading += ",value,value_radius";
-        last = format!(",{},{}", written(value), text(&value["radius"]));
+        last = format!(",{},{}", written(value), radius_of(value));
         if told.problem.has_units() {
             heading += ",unit";
             last += &format!(",{}", told.wanted.unit());
@@ -332,7 +337,7 @@ fn columns(rows: &[Json], value: Option<(&Json, &Told<'_>)>) -> String {
     let line = |body: &Json| {
         let time = if body["time"].is_null() { &body["from"] } else { &body["time"] };
         let (kind, first, until) = (text(&body["kind"]), written(time), written(&body["to"]));
-        let (radius, exact) = (text(&time["radius"]), !time["exact"].is_null());
+        let (radius, exact) = (radius_of(time), !time["exact"].is_null());
         format!("{kind},{first},{until},{radius},{exact}{last}\n")
     };
     format!("kind,time,until,radius,exact{heading}\n") + &rows.iter().map(line).collect::<String>()

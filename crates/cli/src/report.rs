@@ -17,7 +17,10 @@ pub fn run(options: &Report) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;
     let to = options.to.as_deref().map(|to| problem.time("--to", to)).transpose()?;
     if to.as_ref().is_some_and(|to| to.is_zero()) {
-        return Err(Failure::usage("nothing happens until the time 0", "give --to a time after 0"));
+        return Err(Failure::usage(
+            "the page would end at its first time, 0",
+            "give --to a time after 0",
+        ));
     }
     let progress = progress::spinner("making the page");
     let page = page(

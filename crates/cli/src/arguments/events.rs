@@ -15,7 +15,8 @@ pub struct Events {
     #[command(flatten)]
     pub scene: Scene,
     /// Follow the scene until this time [default: until nothing can meet again, but at most a hundred
-    /// times the longest travel time, or ten times with a local contact]
+    /// times the longest travel time, or ten times with a local contact; fewer where there are very
+    /// many echoes]
     #[arg(long, alias = "until", value_name = "T", allow_hyphen_values = true)]
     pub to: Option<String>,
     /// Number of significant digits

@@ -322,7 +322,8 @@ fn observed(
     let wanted = problem.wanted(name)?;
     let observation = observation(problem, &wanted)?;
     refuse_symbols(problem)?;
-    let period = problem.shortest_period().expect("without symbols its length is known");
+    let unknown = || refused("where the period is no rational number");
+    let period = problem.shortest_period().ok_or_else(unknown)?;
     // The clocks of waves differ: what is seen may be of a later period than its time.
     let delays: Vec<BigRational> =
         observation.waves.iter().filter_map(|seen| seen.delay.as_constant()).collect();

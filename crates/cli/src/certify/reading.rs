@@ -17,8 +17,7 @@ use wavestep::signal::{Place, Value};
 /// The bits of times that are not claimed.
 const SPARE_BITS: u64 = 64;
 
-/// How much later or earlier a time is told, in tenths of a unit to this power for each digit, so that it is on one side of an
-/// arrival.
+/// A time is told by 10^(-ASIDE·digits) later or earlier, so that it is on one side of an arrival.
 const ASIDE: i32 = 2;
 
 /// What is read off a motion in a window, in the unit of an observable.
@@ -101,6 +100,7 @@ impl<'a> Read<'a> {
     ) -> Result<Map<String, Json>, Failure> {
         let [from, until] = &self.ends;
         let aside = BigRational::from_integer(10.into()).pow(-ASIDE * self.digits as i32);
+        let aside = aside.min((&until[0] - &from[1]) / BigRational::from_integer(4.into()));
         let cut = |time: &BigRational| -> Result<String, Failure> {
             let [low, high] = self.line.in_units(time, self.precision.bits)?;
             let digits = (1 + ASIDE as usize) * self.digits;

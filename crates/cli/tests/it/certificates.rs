@@ -393,7 +393,7 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let (bounced, strained) = (ask(READINGS[0]), ask(READINGS[1]));
     let (events, unequal) = (ask(EVENTS[0]), ask(EVENTS[1]));
     let (sampled, fastest, lowest) = (ask(EXTREMES[0]), ask(EXTREMES[1]), ask(EXTREMES[2]));
-    let cases: [(&serde_json::Value, Change, &str); 98] = [
+    let cases: [(&serde_json::Value, Change, &str); 104] = [
         (&sampled, |own| own["values"][3][1] = "0".into(), "value 3 is between"),
         (&sampled, |own| own["until"] = own["from"].clone(), "is between"),
         (&sampled, |own| own["points"] = 4.into(), "a value is missing"),
@@ -404,7 +404,20 @@ fn wrong_claims_are_told_by_what_is_wrong() {
         (&fastest, |own| own["attained"] = "4".into(), "outside the window"),
         (&lowest, |own| own["goal"] = "largest".into(), "a value is beyond"),
         (&lowest, |own| own["value"] = "0.1".into(), "a value is beyond"),
-        (&lowest, |own| own["until"] = own["from"].clone(), "outside the window"),
+        (
+            &lowest,
+            |own| {
+                own["until"] = own["from"].clone();
+                own["attained"] = own["from"][0].clone();
+            },
+            "the window is empty",
+        ),
+        (&fastest, |own| own["attained"] = own["until"][0].clone(), "outside the window"),
+        (&sampled, |own| own["from"] = json!(["0", "1000"]), "outside the window"),
+        (&strained, |own| own["observed"][0][3] = json!(null), "a wave is left out"),
+        (&strained, |own| own["observed"][0][3] = of("-5", "q"), "q has no value"),
+        (&strained, |own| own["observed"][0][3] = json!([[[["-5", {}]], []]]), "may be negative"),
+        (&strained, |own| own["observed"][0][4] = json!([]), "do not add up to the travel time"),
         (&events, |own| drop(own["events"].as_array_mut().unwrap().pop()), "no event is claimed"),
         (
             &events,
