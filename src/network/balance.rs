@@ -131,26 +131,21 @@ impl Balance<'_> {
         Some(terms)
     }
 
-    /// The forces that loads, by the balance beside them, the total force of those of a place: what the bars and springs there, and
-    /// supports, take up.
-    ///
-    /// `None` where a mass takes up some of it, or where one may do so across a contact.
+    /// The total force of the loads of a place, by the balance there: what bars, springs and supports take up. Nothing for all
+    /// but the first load of the place; `None` where a mass takes up some of it, or may do so across a contact.
     fn pushed(&self, lump: Lump) -> Option<Vec<Flow>> {
         let node = &self.layout().nodes[lump.node];
         let own: Vec<(usize, &Lumped<Fraction>)> = (0..)
             .zip(&node.elements)
             .filter(|(_, other)| other.run == node.elements[lump.place].run && !other.law.is_link())
             .collect();
-        let is_load = |law: &ElementLaw<Fraction>| matches!(law, ElementLaw::Load(_));
-        let mut loads = own.iter().filter(|(_, other)| is_load(&other.law));
-        // Those of a place are counted once.
-        if loads.clone().next().is_some_and(|(first, _)| *first != lump.place) {
-            return Some(Vec::new());
-        }
-        let mut forces = Vec::new();
+        let (mut loads, mut forces) = (Vec::new(), Vec::new());
         for (place, other) in &own {
             match &other.law {
-                ElementLaw::Load(_) => {}
+                ElementLaw::Load(_) if loads.is_empty() && *place != lump.place => {
+                    return Some(Vec::new());
+                }
+                ElementLaw::Load(_) => loads.push(other.element),
                 ElementLaw::Support { .. } => {
                     forces.push((Fraction::one(), Reading::Force(Lump { place: *place, ..lump })));
                 }
@@ -174,7 +169,6 @@ impl Balance<'_> {
                 None => return None,
             }
         }
-        let loads: Vec<ElementIndex> = loads.by_ref().map(|(_, other)| other.element).collect();
         let flow = |(coefficient, force)| Flow {
             coefficient,
             factors: vec![force],

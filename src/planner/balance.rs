@@ -37,9 +37,9 @@ pub(super) fn of_scene<'a>(
     let mut products = Vec::new();
     for FlowTerm { coefficient, factors, acts } in flow {
         let mut factors: Vec<usize> = places.by_ref().take(factors.len()).collect();
-        if let Some(acts) = acts {
-            // What is known to be zero before and after is a product with zero there.
-            let acting = Constant::within(&scale, acts, window)?;
+        // What is known to be zero before and after is a product with zero there.
+        let acting = acts.as_ref().map(|acts| Constant::within(&scale, acts, window));
+        if let Some(Ok(acting)) = acting {
             factors.push(operands.len());
             operands.push(Rc::new(Operation::new(&scale, acting, one.clone(), window)));
         }
