@@ -53,6 +53,26 @@ fn rows_are_what_other_commands_say() {
     assert_eq!(cell(&contacts[0], "contact time hammer-rod"), "3.067667641618306");
 }
 
+/// A row says until when contacts were followed, unless nothing can meet again.
+#[test]
+fn contacts_that_may_close_again_are_noted() {
+    let folder = folder("sweep-contacts");
+    let text = "scene \"Ram\"\nsymbol m > 0\nmass ram { mass = m, velocity = 1 }\nbar pile { impedance = 1, travel = 1 }\n\
+                support toe { damping = 1/2 }\nline free - ram | pile - toe - free\ncontacts open\n\
+                observe f = force(pile.left)\n";
+    fs::write(folder.join("ram.wave"), text).unwrap();
+    let asked = "sweep ram.wave --over m=1/2,1 --contacts";
+    for (to, known) in [("", "100"), (" --to 5/2", "5/2")] {
+        let csv = output(&folder, &format!("{asked}{to}"));
+        for row in rows(&csv) {
+            let note = cell(&row, "note");
+            assert_eq!(note, format!("followed until t = {known}; later contacts are not known"));
+        }
+    }
+    let csv = output(&folder, "sweep saint-venant --over mu=1/2,1 --contacts");
+    assert!(!csv.contains("followed"), "{csv}");
+}
+
 #[test]
 fn threads_change_nothing() {
     let folder = folder("sweep-threads");
