@@ -3,7 +3,7 @@
 
 use wavestep_polynomial::{Rational, Symbol};
 
-use crate::expression::{Assumptions, Condition, Fraction};
+use crate::expression::{Condition, Fraction};
 use crate::limits::MAX_CONTACT_EXPONENT;
 use crate::scene::fault::{Fault, Mistake, Part, Property};
 use crate::scene::{
@@ -15,7 +15,7 @@ impl Scene {
     /// Everything that makes the scene impossible: first the elements, then the line, then the
     /// observables. A scene with faults in elements or line is not asked about its observables.
     pub fn faults(&self) -> Vec<Fault> {
-        let mut check = Check { scene: self, known: self.assumptions.clone(), faults: Vec::new() };
+        let mut check = Check { scene: self, faults: Vec::new() };
         if !check.is_well_formed() {
             check.fault(Mistake::IllFormed, [Part::Line]);
             return check.faults;
@@ -39,13 +39,12 @@ impl Scene {
 impl Scene {
     /// Why a measure cannot be taken at its place; none where it can.
     pub(crate) fn refusal(&self, seen: &Seen) -> Option<Mistake> {
-        Check { scene: self, known: self.assumptions.clone(), faults: Vec::new() }.observed(seen)
+        Check { scene: self, faults: Vec::new() }.observed(seen)
     }
 }
 
 struct Check<'a> {
     scene: &'a Scene,
-    known: Assumptions,
     faults: Vec<Fault>,
 }
 
@@ -71,18 +70,19 @@ impl Check<'_> {
     /// Whether a value is certainly zero or positive: then any positive number makes it positive.
     fn is_not_negative(&self, value: &Fraction) -> bool {
         let mut name = "x".to_owned();
-        let is_known = |name: &str| self.known.symbols().any(|(symbol, _)| symbol.name() == name);
+        let is_known =
+            |name: &str| self.scene.assumptions.symbols().any(|(symbol, _)| symbol.name() == name);
         while is_known(&name) {
             name.push('x');
         }
         let small = Symbol::new(&name).expect("a plain name");
-        let mut known = self.known.clone();
+        let mut known = self.scene.assumptions.clone();
         known.declare_symbol(small.clone(), Some(Condition::above(0)));
         known.is_positive(&(value + &Fraction::symbol(&small)))
     }
 
     fn positive(&mut self, element: ElementIndex, property: Property, value: &Fraction) {
-        if !self.known.is_positive(value) {
+        if !self.scene.assumptions.is_positive(value) {
             self.wrong_sign(Mistake::NotPositive, Part::Property(element, property), value);
         }
     }
@@ -162,11 +162,10 @@ impl Check<'_> {
             return self.fault(Mistake::NoStiffness, [Part::Element(index)]);
         }
         // Of a spring what is given is positive; what is left out is zero.
-        if is_link && !stiffness.is_zero() {
-            self.positive(index, Property::Stiffness, stiffness);
-        }
         if !is_link {
             self.not_negative(index, Property::Stiffness, stiffness);
+        } else if !stiffness.is_zero() {
+            self.positive(index, Property::Stiffness, stiffness);
         }
         if !damping.is_zero() {
             self.not_negative(index, Property::Damping, damping);
@@ -187,7 +186,7 @@ impl Check<'_> {
     fn load(&mut self, index: ElementIndex, load: &Load) {
         self.not_negative(index, Property::From, &load.from);
         if let Some(until) = &load.until
-            && !self.known.is_positive(&(until - &load.from))
+            && !self.scene.assumptions.is_positive(&(until - &load.from))
         {
             let parts = [Property::Until, Property::From].map(|at| Part::Property(index, at));
             self.fault(Mistake::EndsBeforeBegin, parts);

@@ -91,8 +91,8 @@ impl<'a> Line<'a> {
         Ok(line)
     }
 
-    /// What is claimed of all motions but their kind: the line, and what its contacts do until an end, which is at most `until` in the user's
-    /// unit.
+    /// What is claimed of all motions, but for the kind: the line, and what its contacts do until an end, which is at most
+    /// `until` in the user's unit.
     pub fn document(
         &self,
         end: &BigRational,

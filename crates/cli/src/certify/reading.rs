@@ -1,5 +1,5 @@
-//! Certificates of values and extrema that are no sums of pieces: where contacts open, in scenes with units, where rates have no formula, and
-//! of displacements. A checker follows the line, and reads the value off its elements.
+//! Certificates of values and extrema that are no sums of pieces: where contacts open, in scenes with units, where rates have no
+//! formula, and of displacements. A checker follows the line, and reads the value off its elements.
 
 use super::motion::{Line, Precision, written};
 use super::rounded;

@@ -63,25 +63,18 @@ pub fn certificate(
         (Err(refusal), ..) => return Err(refusal),
     };
     let cuts = cuts(&*signal, begins)?;
-    let goal = match asked {
-        Asked::Roots => None,
-        Asked::Extremum(goal) => Some(Some(goal)),
-        Asked::Distance => Some(None),
+    let claims = match asked {
+        Asked::Roots => roots(&search, &mut cover, &cuts, digits)?,
+        Asked::Extremum(_) | Asked::Distance => {
+            let goal = if let Asked::Extremum(goal) = asked { Some(goal) } else { None };
+            let (mut claims, found) = extremum(&search, goal, &mut cover, Some(&cuts), digits)?;
+            claims["kind"] = json!("extremum");
+            claims["attained"] = cover.attained(&found, digits)?;
+            claims
+        }
     };
-    match goal {
-        None => {
-            let zeros = roots(&search, &mut cover, &cuts, digits)?;
-            document.insert("kind".into(), json!("roots"));
-            document.insert("zeros".into(), zeros);
-        }
-        Some(goal) => {
-            let (claims, found) = extremum(&search, goal, &mut cover, Some(&cuts), digits)?;
-            let Json::Object(claims) = claims else { unreachable!("claims have names") };
-            document.insert("kind".into(), json!("extremum"));
-            document.extend(claims);
-            document.insert("attained".into(), cover.attained(&found, digits)?);
-        }
-    }
+    let Json::Object(claims) = claims else { unreachable!("claims have names") };
+    document.extend(claims);
     document.insert("from".into(), json!(window[0].to_string()));
     document.insert("to".into(), json!(window[1].to_string()));
     let told = |cell: &Cell| json!([cell.from.to_string(), cell.to.to_string(), cell.order]);
@@ -100,7 +93,8 @@ fn roots(
     let places: Vec<Option<Window>> =
         found.all.iter().map(|root| place(root, digits)).collect::<Result<_, Failure>>()?;
     let told = |[from, to]: Window| json!([from.to_string(), to.to_string()]);
-    Ok(places.into_iter().flatten().map(told).collect())
+    let zeros: Json = places.into_iter().flatten().map(told).collect();
+    Ok(json!({ "kind": "roots", "zeros": zeros }))
 }
 
 /// What is claimed of the largest or smallest value, and where it is; without a goal of the largest size.
