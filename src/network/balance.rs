@@ -7,7 +7,7 @@
 //! together, and where bars or springs meet something else no motion is lost at once. What is left is the loss in
 //! dampers, or the force of walls and supports.
 
-use crate::expression::Fraction;
+use crate::expression::{Expression, Fraction};
 use crate::network::layout::Layout;
 use crate::network::measures::{MeasuredValue, vanishes};
 use crate::network::node::{ElementLaw, Lumped};
@@ -22,11 +22,13 @@ pub(super) struct Flow {
     pub factors: Vec<Reading>,
     /// When it is not zero, where that is known: while one of these loads acts.
     pub loads: Option<Vec<ElementIndex>>,
+    /// A function of time that it is multiplied with.
+    pub course: Option<Expression>,
 }
 
 impl Flow {
     fn new(coefficient: Fraction, factors: Vec<Reading>) -> Flow {
-        Flow { coefficient, factors, loads: None }
+        Flow { coefficient, factors, loads: None, course: None }
     }
 }
 
@@ -100,8 +102,8 @@ impl Balance<'_> {
         })
     }
 
-    /// What loads add to the energy of the line, and what dampers take from it; none where a load acts on a mass, or where a
-    /// mass may meet another or a wall with nothing between them that gives way.
+    /// What loads add to the energy of the line, and what dampers take from it; none where a mass may meet another or a wall
+    /// with nothing between them that gives way.
     fn losses(&self) -> Option<Vec<Flow>> {
         if has_hard_contacts(&self.scaled.scene) {
             return None;
@@ -110,8 +112,8 @@ impl Balance<'_> {
         for (lump, law) in self.lumps() {
             let [left, right] = [Face::Left(lump), Face::Right(lump)].map(Reading::Velocity);
             match law {
-                ElementLaw::Load(_) => {
-                    for mut power in self.pushed(lump)? {
+                ElementLaw::Load(drive) => {
+                    for mut power in self.pushed(lump, *drive)? {
                         power.factors.push(left.clone());
                         terms.push(power);
                     }
@@ -131,21 +133,32 @@ impl Balance<'_> {
         Some(terms)
     }
 
+    /// The force of a load: by the balance of its place, which leaves out what does not move, or else as it is given.
+    fn pushed(&self, lump: Lump, drive: Drive) -> Option<Vec<Flow>> {
+        let given = || {
+            let load = self.layout().nodes[lump.node].elements[lump.place].element;
+            let course = Some(self.scaled.model.loads[&load].course.clone());
+            let loads = Some(vec![load]);
+            vec![Flow { loads, course, ..Flow::new(Fraction::one(), Vec::new()) }]
+        };
+        self.balanced(lump).or_else(|| (drive == Drive::Force).then(given))
+    }
+
     /// The total force of the loads of a place, by the balance there: what bars, springs and supports take up. Nothing for all
     /// but the first load of the place; `None` where a mass takes up some of it, or may do so across a contact.
-    fn pushed(&self, lump: Lump) -> Option<Vec<Flow>> {
+    fn balanced(&self, lump: Lump) -> Option<Vec<Flow>> {
         let node = &self.layout().nodes[lump.node];
         let own: Vec<(usize, &Lumped<Fraction>)> = (0..)
             .zip(&node.elements)
             .filter(|(_, other)| other.run == node.elements[lump.place].run && !other.law.is_link())
             .collect();
-        let (mut loads, mut forces) = (Vec::new(), Vec::new());
+        let (mut loads, mut forces, mut first_load) = (Vec::new(), Vec::new(), None);
         for (place, other) in &own {
             match &other.law {
-                ElementLaw::Load(_) if loads.is_empty() && *place != lump.place => {
-                    return Some(Vec::new());
+                ElementLaw::Load(_) => {
+                    first_load.get_or_insert(*place);
+                    loads.push(other.element);
                 }
-                ElementLaw::Load(_) => loads.push(other.element),
                 ElementLaw::Support { .. } => {
                     forces.push((Fraction::one(), Reading::Force(Lump { place: *place, ..lump })));
                 }
@@ -169,15 +182,17 @@ impl Balance<'_> {
                 None => return None,
             }
         }
-        let flow = |(coefficient, force)| Flow {
-            coefficient,
-            factors: vec![force],
-            loads: Some(loads.clone()),
+        if first_load != Some(lump.place) {
+            return Some(Vec::new());
+        }
+        let flow = |(coefficient, force)| {
+            let loads = Some(loads.clone());
+            Flow { loads, ..Flow::new(coefficient, vec![force]) }
         };
         Some(forces.into_iter().map(flow).collect())
     }
 
-    /// The forces of walls, supports and loads on the line; none where a load acts on a mass, or imposes a velocity.
+    /// The forces of walls, supports and loads on the line; none where a load imposes a velocity.
     fn outer_forces(&self) -> Option<Vec<Flow>> {
         let line = &self.scaled.scene.line;
         let mut terms = Vec::new();
@@ -193,7 +208,7 @@ impl Balance<'_> {
             match law {
                 // What imposes a velocity holds its place before and after.
                 ElementLaw::Load(Drive::Velocity) => return None,
-                ElementLaw::Load(Drive::Force) => terms.extend(self.pushed(lump)?),
+                ElementLaw::Load(drive) => terms.extend(self.pushed(lump, *drive)?),
                 ElementLaw::Support { .. } => {
                     terms.push(Flow::new(-&Fraction::one(), vec![Reading::Force(lump)]));
                 }

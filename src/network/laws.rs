@@ -107,18 +107,33 @@ impl Network {
             }
             ObservedValue::Energy(_) => None,
         };
-        let observables = self.observables.iter().filter_map(linear).collect();
+        Statement {
+            period: self.lattice().periods()[0].clone(),
+            waves,
+            equations: laws.laws.iter().map(|law| difference(&law.left, &law.right)).collect(),
+            continuity: laws.continuity,
+            observables: self.observables.iter().filter_map(linear).collect(),
+            ..self.nothing()
+        }
+    }
+
+    /// A recurrence without waves, in the symbols of the scene: of functions of time.
+    pub(crate) fn without_waves(&self) -> Result<Recurrence, NetworkError> {
+        Recurrence::new(self.nothing()).map_err(|invalid| self.refused(invalid))
+    }
+
+    fn nothing(&self) -> Statement {
         Statement {
             title: self.scaled.scene.title.clone(),
             assumptions: self.scaled.model.assumptions.clone(),
             constants: self.scaled.model.constants.clone(),
-            period: self.lattice().periods()[0].clone(),
+            period: Fraction::one(),
             local: self.local(),
             time: self.scaled.scene.time.clone(),
-            waves,
-            equations: laws.laws.iter().map(|law| difference(&law.left, &law.right)).collect(),
-            continuity: laws.continuity,
-            observables,
+            waves: Vec::new(),
+            equations: Vec::new(),
+            continuity: Vec::new(),
+            observables: Vec::new(),
             quadratics: Vec::new(),
             notation: SourceNotation::default(),
         }

@@ -65,14 +65,14 @@ impl Network {
 
     fn flowing(&mut self, flow: Vec<Flow>) -> Vec<FlowTerm> {
         let mut terms = Vec::new();
-        for Flow { coefficient, factors, loads } in flow {
+        for Flow { coefficient, factors, loads, course } in flow {
             let with_waves = |reading| {
                 let waves = self.reading(&reading);
                 (reading, waves)
             };
             let factors = factors.into_iter().map(with_waves).collect();
             let acts = loads.map(|loads| loads.into_iter().map(|load| self.acts(load)).collect());
-            terms.push(FlowTerm { coefficient, factors, acts });
+            terms.push(FlowTerm { coefficient, factors, acts, course });
         }
         terms
     }

@@ -1,6 +1,6 @@
 //! What an observable is in the waves of a network, and the waves of a bar, of which its fields are made.
 
-use crate::expression::{Fraction, Root};
+use crate::expression::{Expression, Fraction, Root};
 use crate::network::model::ModelBar;
 use crate::network::reading::{Reading, Term};
 use crate::recurrence::Observation;
@@ -101,6 +101,8 @@ pub(crate) struct FlowTerm {
     pub factors: Vec<(Reading, Observation)>,
     /// From when until when it is not zero, where that is known.
     pub acts: Option<Vec<(Fraction, Option<Fraction>)>>,
+    /// A function of time that it is multiplied with.
+    pub course: Option<Expression>,
 }
 
 /// The time over which the square of a wave is integrated.

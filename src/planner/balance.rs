@@ -4,7 +4,9 @@ use super::energy;
 use super::{Origin, Purpose, SignalError, Sources};
 use crate::expression::{Fraction, Root};
 use crate::network::{Balance, FlowTerm, Network, Observed, ObservedValue, Squared};
-use crate::signal::{Balanced, Combination, Constant, Operation, Product, Scale, Signal};
+use crate::signal::{
+    Balanced, ClosedSignal, Combination, Constant, Operation, Product, Scale, Signal,
+};
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
@@ -35,13 +37,17 @@ pub(super) fn of_scene<'a>(
     )?;
     let mut places = 0..operands.len();
     let mut products = Vec::new();
-    for FlowTerm { coefficient, factors, acts } in flow {
+    for FlowTerm { coefficient, factors, acts, course } in flow {
         let mut factors: Vec<usize> = places.by_ref().take(factors.len()).collect();
         // What is known to be zero before and after is a product with zero there.
         let acting = acts.as_ref().map(|acts| Constant::within(&scale, acts, window));
         if let Some(Ok(acting)) = acting {
             factors.push(operands.len());
             operands.push(Rc::new(Operation::new(&scale, acting, one.clone(), window)));
+        }
+        if let Some(course) = course {
+            factors.push(operands.len());
+            operands.push(Rc::new(ClosedSignal::of_course(network, course, window)?));
         }
         products.push(Product { coefficient: coefficient.clone(), factors });
     }

@@ -264,6 +264,14 @@ const PULSES: &str = "scene \"Pulses\"\nload p { force = 1 + t, from = 1/3, unti
     line free - p - q - u - a JOINT b - s - w - free\n\
     observe all = energy(line)\nobserve momentum = momentum(line)\n";
 
+/// Loads on masses: weight, two pulses on one mass that overlap, and one that oscillates beside a support.
+const WEIGHTS: &str = "scene \"Weights\"\nload weight { force = 1/3 }\nmass ram { mass = 2, velocity = 1 }\n\
+    spring cushion { stiffness = 3, damping = 1/4 }\nload p { force = 1 + t, from = 1/3, until = 3/2 }\n\
+    mass helmet { mass = 1/2 }\nload q { force = -2*exp(-t), from = 1 }\nbar pile { impedance = 1, travel = 1 }\n\
+    load w { force = sin(2*t), until = 5/2 }\nmass foot { mass = 1/3 }\nsupport toe { stiffness = 1/4, damping = 2/3 }\n\
+    line free - weight - ram JOINT cushion - p - helmet - q - pile - w - foot - toe - free\n\
+    observe all = energy(line)\nobserve momentum = momentum(line)\n";
+
 /// What is searched, by its flow, is what is evaluated: values and derivatives agree, also with what is
 /// conserved.
 #[test]
@@ -273,7 +281,11 @@ fn what_flows_in_is_the_derivative() {
     let piston = network(&PISTON.replace("JOINT", "-"));
     let leaving = network(&(PISTON.replace("JOINT", "|") + "contacts open\n"));
     let pulses = |joint: &str, drive: &str| PULSES.replace("JOINT", joint).replace("DRIVE", drive);
-    let scenes: [(Network, &[&str], Rational); 10] = [
+    let weights = || network(&WEIGHTS.replace("JOINT", "-"));
+    let falling = || network(&(WEIGHTS.replace("JOINT", "|") + "contacts open\n"));
+    let scenes: [(Network, &[&str], Rational); 12] = [
+        (weights(), &["all", "momentum"], rational(6, 1)),
+        (falling(), &["all", "momentum"], rational(6, 1)),
         (network(&pulses("-", "force")), &["all", "momentum"], rational(6, 1)),
         (network(&pulses("-", "velocity")), &["all", "momentum"], rational(6, 1)),
         (
@@ -326,7 +338,7 @@ fn what_flows_in_is_the_derivative() {
             }
         }
     }
-    assert_eq!(compared, 1035 + (2 * 3 + 6) * 3 * 23);
+    assert_eq!(compared, 1035 + (2 * 5 + 6) * 3 * 23);
     assert!(flat >= 10, "{flat} derivatives");
 }
 

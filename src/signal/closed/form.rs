@@ -87,6 +87,16 @@ impl ClosedForm {
         ClosedForm::on_grid(recurrence, observation, Root::from(Fraction::one()), Fraction::one())
     }
 
+    /// A function of time of a recurrence without waves, in the scale of a scene.
+    pub(super) fn of_course(
+        network: &Network,
+        recurrence: &Recurrence,
+        course: &Observation,
+    ) -> Result<ClosedForm, EvaluateError> {
+        let (unit, slowness) = (Root::from(Fraction::one()), network.model().slowness.clone());
+        ClosedForm::on_grid(recurrence, course, unit, slowness)
+    }
+
     /// An observable of a scene in a unit, for times up to `last`; on a grid this may be any.
     pub fn of_scene(
         network: &Network,

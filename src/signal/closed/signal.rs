@@ -126,6 +126,21 @@ impl<'a> ClosedSignal<'a> {
         observed.iter().map(signal).collect()
     }
 
+    /// A function of time in the scale of a scene, from the start on.
+    pub(crate) fn of_course(
+        network: &Network,
+        course: &Expression,
+        window: [&Rational; 2],
+    ) -> Result<Self, EvaluateError> {
+        let recurrence = network.without_waves()?;
+        let value = Observation { waves: Vec::new(), forcing: course.clone() };
+        let form = ClosedForm::of_course(network, &recurrence, &value)?;
+        let solution = Solution::new(recurrence);
+        let echoes = Box::new(ExactEchoes::new(Cow::Owned(solution))?);
+        let signal = ClosedSignal::new(Source::Recurrence { echoes, value }, window)?;
+        Ok(ClosedSignal { form: OnceCell::from(form), ..signal })
+    }
+
     fn new(source: Source<'a>, [from, to]: [&Rational; 2]) -> Result<Self, EvaluateError> {
         if to < from {
             return Err(EvaluateError::EmptyWindow);
@@ -233,6 +248,7 @@ impl<'a> ClosedSignal<'a> {
             | Err(
                 EvaluateError::TooManyPeriods { .. }
                 | EvaluateError::TooManyEchoes { .. }
+                | EvaluateError::MissingValue(_)
                 | EvaluateError::Solve(_)
                 | EvaluateError::Network(_),
             ) => Ok(None),

@@ -71,7 +71,7 @@ pub enum Place {
         from: Value,
         /// Its end.
         to: Value,
-        /// Whether the value is taken at the end as well: where that of the window is it.
+        /// Whether the value is taken at the end as well.
         closed: bool,
     },
     /// Perhaps in an interval, in which nowhere is told apart from the largest value.
@@ -96,6 +96,24 @@ impl Place {
             }
             Place::Undecided { from, .. } => from.clone(),
         }
+    }
+
+    /// Makes this place hold the next one too, which has the same value: a plateau and what it touches are one place.
+    fn go_on(&mut self, next: &Place) -> bool {
+        match (&mut *self, next) {
+            (Place::Arrival { time, .. }, Place::Plateau { from, .. }) if time == from => {
+                *self = next.clone();
+            }
+            (
+                Place::Plateau { to, closed, .. },
+                Place::Plateau { from, to: end, closed: end_is_taken },
+            ) if to == from => (*to, *closed) = (end.clone(), *end_is_taken),
+            (Place::Plateau { to, closed, .. }, Place::Arrival { time, .. }) if to == time => {
+                *closed = true;
+            }
+            _ => return false,
+        }
+        true
     }
 
     /// Whether the value is taken there: a limit from earlier times alone is not.
@@ -187,7 +205,9 @@ impl<'s> Search<'s> {
         if contenders.left.borrow().is_empty() {
             return Ok(None);
         }
-        let value = match contenders.exact()? {
+        let exact = contenders.exact()?;
+        let is_exact = exact.is_some();
+        let value = match exact {
             Some(value) => Value::Exact(value),
             None => {
                 let limit = contenders.limit_bits;
@@ -198,7 +218,7 @@ impl<'s> Search<'s> {
                 }
             }
         };
-        Ok(Some(Extremum { value, places: contenders.places(digits)? }))
+        Ok(Some(Extremum { value, places: contenders.places(digits, is_exact)? }))
     }
 
     /// The most bits that two extrema are told apart with.
@@ -425,7 +445,8 @@ impl Contenders<'_, '_> {
         Ok(common)
     }
 
-    fn places(&self, digits: usize) -> Result<Vec<Place>, EvaluateError> {
+    /// Where the extremum is; `is_exact` where all that are left have the same value.
+    fn places(&self, digits: usize, is_exact: bool) -> Result<Vec<Place>, EvaluateError> {
         let search = self.search;
         let zero = Rational::default();
         let target = Target { order: 1, level: &zero, limit_bits: self.limit_bits };
@@ -471,14 +492,19 @@ impl Contenders<'_, '_> {
         found.sort_by_key(|(stretch, rank, _)| (*stretch, *rank));
         let mut places: Vec<Place> = Vec::new();
         for (_, _, place) in found {
-            // Both limits at one arrival are one place.
-            if let (
-                Some(Place::Arrival { time: known, before: true, after }),
-                Place::Arrival { time, before: false, after: true },
-            ) = (places.last_mut(), &place)
-                && known == time
-            {
-                *after = true;
+            let joined = match (places.last_mut(), &place) {
+                // Both limits at one arrival are one place.
+                (
+                    Some(Place::Arrival { time: known, before: true, after }),
+                    Place::Arrival { time, before: false, after: true },
+                ) if known == time => {
+                    *after = true;
+                    true
+                }
+                (Some(last), place) => is_exact && last.go_on(place),
+                (None, _) => false,
+            };
+            if joined {
                 continue;
             }
             if let Place::Undecided { from, to } = place {
