@@ -128,7 +128,7 @@ pub fn changed(source: &Source, changes: &[Change]) -> Result<Source, ChangeErro
 pub fn elements(source: &Source) -> Result<Vec<(String, Declared)>, Diagnostic> {
     let tree = parse_scene(source)?;
     let edits = Edits { tree: &tree, all: Vec::new() };
-    let names = edits.line().map_or(&[][..], |(line, _)| &line.elements);
+    let names = edits.tree.line().map_or(&[][..], |(line, _)| &line.elements);
     let kind = |name: &str| Some((name.to_owned(), edits.declaration(name).ok()?.0.kind));
     Ok(names.iter().filter_map(|name| kind(&name.value)).collect())
 }
@@ -171,7 +171,7 @@ impl<'a> Edits<'a> {
                 let touches = |(line, _): (&Line, Span)| {
                     line.joints.iter().any(|own| own.value == Joint::Contact)
                 };
-                if spans.is_empty() || !self.line().is_some_and(touches) {
+                if spans.is_empty() || !self.tree.line().is_some_and(touches) {
                     return Err(ChangeError::NoContacts);
                 }
                 spans.into_iter().for_each(|span| self.remove(span));
@@ -181,19 +181,13 @@ impl<'a> Edits<'a> {
     }
 
     fn declaration(&self, name: &str) -> Result<(&'a Declaration, Span), ChangeError> {
-        let found = self.tree.statements.iter().find_map(|statement| match &statement.value {
-            SceneStatementKind::Declaration(own)
-                if own.name.value == name && own.kind != Declared::Material =>
-            {
-                Some((own, statement.span))
-            }
-            _ => None,
-        });
+        let is_named = |own: &Declaration| own.name.value == name && own.kind != Declared::Material;
+        let found = self.tree.declarations().find(|(own, _)| is_named(own));
         found.ok_or_else(|| self.no_element(name))
     }
 
     fn no_element(&self, name: &str) -> ChangeError {
-        let elements = self.line().map_or(&[][..], |(line, _)| &line.elements);
+        let elements = self.tree.line().map_or(&[][..], |(line, _)| &line.elements);
         let elements = elements.iter().map(|own| own.value.clone()).collect();
         ChangeError::NoElement { name: name.to_owned(), elements }
     }
@@ -206,21 +200,10 @@ impl<'a> Edits<'a> {
         }
     }
 
-    fn line(&self) -> Option<(&'a Line, Span)> {
-        self.tree.statements.iter().find_map(|statement| match &statement.value {
-            SceneStatementKind::Line(line) => Some((line, statement.span)),
-            _ => None,
-        })
-    }
-
     /// The bars of finite length that are neither rigid nor springs; all of finite length where none is left.
     fn bars_with_waves(&self) -> Result<Vec<&'a Declaration>, ChangeError> {
-        let statements = self.tree.statements.iter();
-        let bars = statements.filter_map(|own| match &own.value {
-            SceneStatementKind::Declaration(own) if own.kind == Declared::Bar => Some(own),
-            _ => None,
-        });
-        let bars: Vec<&Declaration> = bars.collect();
+        let elements = self.tree.declarations().map(|(own, _)| own);
+        let bars: Vec<&Declaration> = elements.filter(|own| own.kind == Declared::Bar).collect();
         let finite = bars.iter().copied().filter(|bar| has_property(bar, &LENGTHS));
         let finite: Vec<&Declaration> = finite.collect();
         let left = finite.iter().copied().filter(|bar| !has_property(bar, &["as"]));
@@ -253,7 +236,7 @@ impl<'a> Edits<'a> {
     /// Lets a bar go on for ever on one side, and leaves out what lies beyond.
     fn cut(&mut self, name: &str, beyond: Beyond) -> Result<(), ChangeError> {
         let bar = self.bar(name)?;
-        let Some((line, _)) = self.line() else { return Ok(()) };
+        let Some((line, _)) = self.tree.line() else { return Ok(()) };
         let place = line.elements.iter().position(|own| own.value == name);
         let place = place.ok_or_else(|| self.no_element(name))?;
         let gone = match beyond {
@@ -313,7 +296,7 @@ impl<'a> Edits<'a> {
     }
 
     fn rewrite_line(&mut self, change: impl FnOnce(&mut Written)) {
-        let Some((line, span)) = self.line() else { return };
+        let Some((line, span)) = self.tree.line() else { return };
         let mut written = Written {
             ends: [line.left.value, line.right.value],
             elements: line.elements.iter().map(|own| own.value.clone()).collect(),

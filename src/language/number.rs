@@ -50,18 +50,8 @@ fn digits(text: &str) -> BigInt {
 
 /// None if the exponent is out of bounds, however many digits it has.
 fn signed_exponent(text: &str) -> Option<i64> {
-    let (negative, magnitude) = match text.strip_prefix(['-', '−']) {
-        Some(rest) => (true, rest),
-        None => (false, text.strip_prefix('+').unwrap_or(text)),
-    };
-    let magnitude = magnitude.trim_start_matches('0');
-    // An empty magnitude was all zeros; nineteen digits and more do not fit.
-    let magnitude = match magnitude.len() {
-        0 => 0,
-        1..=4 => magnitude.parse().ok()?,
-        _ => return None,
-    };
-    (magnitude <= MAX_DECIMAL_EXPONENT).then_some(if negative { -magnitude } else { magnitude })
+    let exponent = text.replace('−', "-").parse().ok();
+    exponent.filter(|value| (-MAX_DECIMAL_EXPONENT..=MAX_DECIMAL_EXPONENT).contains(value))
 }
 
 /// The shortest literal of a value that one literal can say, such that reading it gives the value.

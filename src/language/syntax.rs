@@ -165,6 +165,24 @@ pub type Recurrence = Text<StatementKind>;
 /// Bars and lumped elements, how they are joined, and what is observed.
 pub type Scene = Text<SceneStatementKind>;
 
+impl Scene {
+    /// The first line that is stated.
+    pub fn line(&self) -> Option<(&Line, Span)> {
+        self.statements.iter().find_map(|statement| match &statement.value {
+            SceneStatementKind::Line(line) => Some((line, statement.span)),
+            _ => None,
+        })
+    }
+
+    /// The elements and materials, with the spans of their statements.
+    pub fn declarations(&self) -> impl Iterator<Item = (&Declaration, Span)> {
+        self.statements.iter().filter_map(|statement| match &statement.value {
+            SceneStatementKind::Declaration(own) => Some((own, statement.span)),
+            _ => None,
+        })
+    }
+}
+
 /// A parameter and what is assumed of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Symbol {

@@ -17,26 +17,32 @@ pub struct Impact {
     pub returns: Vec<(ElementIndex, Fraction)>,
 }
 
-/// Why what is beside a local contact is not two bars.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum NoImpact {
-    /// Another element stands there.
-    Beside(ElementIndex),
-    /// A bar is strained at the start.
-    Strained(ElementIndex),
+/// Why there is no closed form of a first contact.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum NoClosedForm {
+    #[error(
+        "it is next to `{0}`. Only between bars, or a bar and a wall, is its equation α' = V − X/Z, which an integral \
+         solves"
+    )]
+    Beside(String),
+    #[error("`{0}` is strained at the start, so waves reach the contact from the beginning")]
+    Strained(String),
+    #[error("the bodies next to it may not approach each other at the start")]
+    NotClosing,
 }
 
 impl Impact {
     /// At a local contact of the line.
     ///
     /// # Errors
-    /// [`NoImpact`].
+    /// [`NoClosedForm::Beside`], [`NoClosedForm::Strained`].
     ///
     /// # Panics
     /// If the line has no such element.
-    pub fn of(scaled: &ScaledScene, contact: ElementIndex) -> Result<Impact, NoImpact> {
+    pub fn of(scaled: &ScaledScene, contact: ElementIndex) -> Result<Impact, NoClosedForm> {
         let (scene, model) = (scaled.scene(), scaled.model());
         let line = &scene.line;
+        let name = |index: &ElementIndex| scene.elements[*index].name.clone();
         let place = line.elements.iter().position(|other| *other == contact);
         let place = place.expect("an element of the line");
         let mut impact = Impact {
@@ -53,11 +59,11 @@ impl Impact {
             // A wall does not move.
             let Some(index) = beside else { continue };
             if !matches!(scene.elements[*index].kind, Kind::Bar(_)) {
-                return Err(NoImpact::Beside(*index));
+                return Err(NoClosedForm::Beside(name(index)));
             }
             let bar = &model.bars[index];
             if !bar.force.is_zero() {
-                return Err(NoImpact::Strained(*index));
+                return Err(NoClosedForm::Strained(name(index)));
             }
             impact.impedances.push(bar.impedance.clone());
             impact.approach = match side {

@@ -40,7 +40,7 @@ pub use delay::{Lattice, common_measure};
 pub(crate) use equations::{FieldBars, WaveRole};
 pub use equations::{Network, Role};
 pub use error::NetworkError;
-pub use impact::{Impact, NoImpact};
+pub use impact::{Impact, NoClosedForm};
 pub(crate) use laws::{Law, Rule};
 pub use layout::{Contact, Contacts, Layout};
 pub use measures::{Measured, MeasuredValue};

@@ -1,7 +1,7 @@
 //! Work that would explode is refused before it starts.
 
 use super::ProblemError;
-use crate::expression::{Expression, Fraction};
+use crate::expression::{Expression, Fraction, Transform};
 use crate::limits::{MAX_DERIVED_ECHOES, MAX_DERIVED_TERMS};
 use crate::network::Network;
 use crate::recurrence::{Recurrence, WaveIndex};
@@ -61,15 +61,14 @@ pub(super) fn refuse_pieces(recurrence: &Recurrence, through: usize) -> Result<(
 /// times as many as the one before.
 pub(super) const MAX_NAMED_TERMS: usize = 10_000;
 
-/// How many terms the last echoes have that were derived of all waves.
-pub(super) fn length(by_echo: &EchoByEcho<'_>, waves: usize) -> usize {
-    let last = (0..waves).filter_map(|wave| by_echo.transforms(wave).last());
-    let values = last.flat_map(|echo| echo.poles()).flat_map(|(_, row)| row);
+/// How many terms an echo has.
+pub(super) fn length(echo: &Transform) -> usize {
+    let values = echo.poles().flat_map(|(_, row)| row);
     values.flat_map(Expression::terms).map(|(_, value)| value.numerator().term_count()).sum()
 }
 
-/// The first echo of some waves, before the last that is wanted, that has more than so many terms, and how many
-/// it has.
+/// The first order, before the last that is wanted, of which the echoes of some waves have more than so many terms, and how
+/// many it has at least.
 pub(super) fn first_long_echo(
     recurrence: &Recurrence,
     waves: &[WaveIndex],
@@ -82,9 +81,12 @@ pub(super) fn first_long_echo(
     }
     let mut by_echo = EchoByEcho::new(recurrence).wanting(demand);
     for n in 0..last {
-        by_echo.advance()?;
-        let terms = length(&by_echo, recurrence.statement().waves.len());
-        if terms > most {
+        let mut terms = 0;
+        let is_short = by_echo.advance_while(|echo| {
+            terms += length(echo);
+            terms <= most
+        })?;
+        if !is_short {
             return Ok(Some((n, terms)));
         }
     }

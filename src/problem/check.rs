@@ -182,7 +182,9 @@ impl Problem {
                 by_period.advance().map_err(|error| self.explained(error.into()))?;
                 agree(statement, n, &by_echo, &by_period)?;
             }
-            if length(&by_echo, statement.waves.len()) > MAX_NAMED_TERMS {
+            let waves = 0..statement.waves.len();
+            let last = waves.filter_map(|wave| by_echo.transforms(wave).last());
+            if last.map(length).sum::<usize>() > MAX_NAMED_TERMS {
                 return Ok((ways, n));
             }
         }

@@ -1,6 +1,5 @@
 //! Why a problem has no answer.
 
-use super::NoClosedForm;
 use crate::answer::{InvalidMethod, InvalidTolerance, NotReduced, WayError};
 use crate::field::FieldError;
 use crate::history::HistoryError;
@@ -8,7 +7,7 @@ use crate::language::{ChangeError, Diagnostic};
 use crate::limits::MAX_DERIVED_TERMS;
 use crate::lock::LockError;
 use crate::model::{ModelError, equivalent_stiffness};
-use crate::network::{NetworkError, ScaledScene};
+use crate::network::{NetworkError, NoClosedForm, ScaledScene};
 use crate::planner::SignalError;
 use crate::scene::{Dimension, Mistake};
 use crate::signal::{EvaluateError, MethodError};
@@ -133,8 +132,8 @@ pub enum ProblemError {
     )]
     Rates { place: String, waves: Vec<String>, rates: Vec<String> },
     #[error(
-        "{place}, {} decay together at the rates {}; with names for these the echoes of order {n} have {terms} \
-         terms, and later ones many times more",
+        "{place}, {} decay together at the rates {}; with names for these the echoes of order {n} have at \
+         least {terms} terms, and later ones many times more",
         waves.join(" and "),
         rates.join(", ")
     )]

@@ -4,23 +4,9 @@ use super::{Problem, ProblemError};
 use crate::enclosure::Numbers;
 use crate::export::{self, Formula};
 use crate::expression::{Expression, Fraction};
-use crate::network::{Impact, NoImpact};
+use crate::network::{Impact, NoClosedForm};
 use crate::scene::ElementIndex;
 use std::cmp::Ordering;
-
-/// Why there is no closed form of a first contact.
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum NoClosedForm {
-    #[error(
-        "it is next to `{0}`. Only between bars, or a bar and a wall, is its equation α' = V − X/Z, which an integral \
-         solves"
-    )]
-    Beside(String),
-    #[error("`{0}` is strained at the start, so waves reach the contact from the beginning")]
-    Strained(String),
-    #[error("the bodies next to it may not approach each other at the start")]
-    NotClosing,
-}
 
 #[doc(hidden)]
 impl Problem {
@@ -33,12 +19,7 @@ impl Problem {
         let (scene, model) = (scaled.scene(), scaled.model());
         let name = |index: ElementIndex| scene.elements[index].name.clone();
         let refused = |why| ProblemError::NoClosedForm { contact: name(contact), why };
-        let impact = Impact::of(scaled, contact).map_err(|reason| {
-            refused(match reason {
-                NoImpact::Beside(index) => NoClosedForm::Beside(name(index)),
-                NoImpact::Strained(index) => NoClosedForm::Strained(name(index)),
-            })
-        })?;
+        let impact = Impact::of(scaled, contact).map_err(refused)?;
         let numbers = Numbers::new(&model.constants);
         let by_number = numbers.compare(&impact.approach, &Fraction::zero());
         if by_number != Ok(Ordering::Greater) && !model.assumptions.is_positive(&impact.approach) {

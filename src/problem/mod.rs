@@ -45,7 +45,6 @@ pub use equal::{Crossing, EqualExtrema};
 pub use error::{EqualError, LockRefusal, Missing, ProblemError};
 pub use evaluate::{Digits, Proven};
 pub use given::{Given, number};
-pub use impact::NoClosedForm;
 pub use largest::{LargestBetween, QuantityWindow};
 pub use lock::ToLock;
 pub use simpler::{Against, Other, Simpler, Size};

@@ -233,17 +233,22 @@ impl LinearForm {
         form
     }
 
+    /// Adds `c(q) form`, with coefficients by lag.
+    pub(crate) fn add_product(&mut self, form: &LinearForm, coefficients: &Lags) {
+        for (lag, coefficient) in coefficients.iter() {
+            self.add_scaled(form, coefficient, lag);
+        }
+    }
+
     /// Puts `by` in place of `wave`; `false` where that would need a second derivative.
     pub(crate) fn replace(&mut self, wave: WaveIndex, by: &LinearForm, time: &Symbol) -> bool {
         let Some(operator) = self.operators.remove(&wave) else { return true };
         if !operator.slope.is_empty() && by.has_slopes() {
             return false;
         }
-        for (lag, value) in operator.value.iter() {
-            self.add_scaled(by, value, lag);
-        }
-        for (lag, slope) in operator.slope.iter() {
-            self.add_scaled(&by.derivative(time), slope, lag);
+        self.add_product(by, &operator.value);
+        if !operator.slope.is_empty() {
+            self.add_product(&by.derivative(time), &operator.slope);
         }
         true
     }

@@ -1,7 +1,6 @@
 //! Whether a relation between waves follows from a recurrence, for every n at once.
 
-use crate::expression::Expression;
-use crate::recurrence::{Lags, LinearForm, Step};
+use crate::recurrence::{LinearForm, Step};
 use crate::solution::elimination::reduce;
 use crate::solution::solved::Solution;
 
@@ -55,19 +54,11 @@ impl Solution {
             if law.get(0).is_none() {
                 return false;
             }
-            let mut eliminated = times(&law, &rest);
-            eliminated.add_scaled(&times(&own, &equation), &-&Expression::one(), 0);
+            let mut eliminated = LinearForm::zero();
+            eliminated.add_product(&rest, &law);
+            eliminated.add_product(&-&equation, &own);
             rest = eliminated;
         }
         rest.is_zero()
     }
-}
-
-/// `c(q) form`.
-fn times(coefficients: &Lags, form: &LinearForm) -> LinearForm {
-    let mut product = LinearForm::zero();
-    for (lag, coefficient) in coefficients.iter() {
-        product.add_scaled(form, coefficient, lag);
-    }
-    product
 }

@@ -54,11 +54,19 @@ impl<'a> EchoByEcho<'a> {
     /// Solves for the next echo. Cost: a few passes over the coefficients of the echoes that the
     /// equations name.
     pub fn advance(&mut self) -> Result<(), SolveError> {
+        self.advance_while(|_| true).map(|_| ())
+    }
+
+    /// The same, wave by wave while this is true of each echo: whether it was of all. If not, no more can be solved.
+    pub(crate) fn advance_while(
+        &mut self,
+        go_on: impl FnMut(&Transform) -> bool,
+    ) -> Result<bool, SolveError> {
         let next = self.echoes.first().map_or(0, Vec::len);
         for step in self.recurrence.steps() {
             check_degree(self.recurrence, step.wave, next)?;
         }
-        self.expand().map_err(|Failed { wave, order, reason }| {
+        self.expand_while(go_on).map_err(|Failed { wave, order, reason }| {
             SolveError::new(self.recurrence, wave, order, reason.into())
         })
     }
@@ -91,6 +99,13 @@ impl<'a, F: Field> EchoByEcho<'a, F> {
 
     /// Solves for the next echo of each wave.
     pub(crate) fn expand(&mut self) -> Result<(), Failed<F::Error>> {
+        self.expand_while(|_| true).map(|_| ())
+    }
+
+    fn expand_while(
+        &mut self,
+        mut go_on: impl FnMut(&Transform<F::Value>) -> bool,
+    ) -> Result<bool, Failed<F::Error>> {
         pause();
         for i in 0..self.steps.len() {
             let (wave, order) = (self.steps[i].wave, self.echoes[self.steps[i].wave].len());
@@ -101,9 +116,13 @@ impl<'a, F: Field> EchoByEcho<'a, F> {
             };
             let echo = echo.map_err(|reason| Failed { wave, order, reason })?;
             self.expanded += usize::from(!echo.is_zero());
+            let goes_on = go_on(&echo);
             self.echoes[wave].push(echo);
+            if !goes_on {
+                return Ok(false);
+            }
         }
-        Ok(())
+        Ok(true)
     }
 
     /// The solution of the equation; of a differential one, `(right + jump) / (p + a)`.

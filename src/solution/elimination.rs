@@ -3,8 +3,7 @@
 //! A wave that is a finite combination of other waves at any lag (`g[n] = −f[n−1]`) is put into
 //! all equations. The *base* waves that are left often have an equation of their own each.
 
-use crate::expression::Expression;
-use crate::recurrence::{LinearForm, Recurrence, Step, WaveIndex};
+use crate::recurrence::{LinearForm, Recurrence, Step, WaveIndex, right_of};
 use std::collections::BTreeMap;
 
 /// The steps of base waves, and every other wave as a form in base waves and forcing.
@@ -20,8 +19,7 @@ pub(crate) fn reduce(recurrence: &Recurrence) -> Option<Reduced> {
     let mut derived = BTreeMap::<WaveIndex, LinearForm>::new();
     while let Some(place) = base.iter().position(is_explicit) {
         let step = base.remove(place);
-        let mut solved = LinearForm::wave(step.wave, 0);
-        solved.add_scaled(&step.equation, &-&Expression::one(), 0);
+        let solved = right_of(&step, &step.equation);
         for other in &mut base {
             if !other.equation.replace(step.wave, &solved, time) {
                 return None;

@@ -1,7 +1,9 @@
 //! Observables as pieces, where their waves arrive together.
 
 use crate::expression::{Expression, Fraction};
-use crate::recurrence::{LinearForm, Observable, Observation, Recurrence, Statement, WaveIndex};
+use crate::recurrence::{
+    LinearForm, Observable, Observation, Recurrence, Statement, WaveIndex, right_of,
+};
 use crate::solution::error::SolveError;
 use crate::solution::solved::Solution;
 use num_traits::ToPrimitive;
@@ -111,9 +113,7 @@ impl Solution {
     fn made_of(&self, wave: WaveIndex) -> Option<LinearForm> {
         let mut steps = self.recurrence().steps().iter();
         let step = steps.find(|step| step.wave == wave && step.start.is_none())?;
-        let mut form = LinearForm::wave(wave, 0);
-        form.add_scaled(&step.equation, &-&Expression::one(), 0);
-        Some(form)
+        Some(right_of(step, &step.equation))
     }
 
     /// What is added to the waves, from a scene time on.

@@ -14,7 +14,7 @@
 
 use crate::expression::{Expression, Fraction};
 use crate::limits::pause;
-use crate::recurrence::{LinearForm, Recurrence, Start, Statement, Step, WaveIndex};
+use crate::recurrence::{LinearForm, Recurrence, Start, Statement, Step, WaveIndex, right_of};
 use crate::solution::error::{SolveError, Unsolvable, check_degree};
 use std::collections::BTreeSet;
 use wavestep_polynomial::{Rational, Symbol};
@@ -100,9 +100,7 @@ impl<'a> PeriodByPeriod<'a> {
 
     /// `w = −Σ (d_i v_i' + a_i v_i) − q`.
     fn read_off(&self, step: &Step, n: usize) -> Result<Expression, Unsolvable> {
-        let mut right = -&step.equation;
-        right.add_scaled(&step.left(), &Expression::one(), 0);
-        self.value_of(&right, n)
+        self.value_of(&right_of(step, &step.equation), n)
     }
 
     /// The value of a form in known pieces on the n-th period.

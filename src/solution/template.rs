@@ -246,7 +246,7 @@ impl<'a> OnePole<'a> {
     /// T_k/(p+b) = T_{k+1}                                                        Power
     /// ```
     pub fn template(&self, multiplier: &[Expression]) -> Option<(EchoTemplate, usize)> {
-        let mut sum = WeightedLags::default();
+        let mut sum = WeightedLags::new();
         if self.ratio.is_zero() {
             // Nothing comes back: there are finitely many echoes.
             let count = self.source.len() + multiplier.len();
@@ -258,15 +258,15 @@ impl<'a> OnePole<'a> {
                 let lag = lag + extra;
                 let weight = factor * &self.power_of_inverse_ratio(lag)?;
                 let lag = isize::try_from(lag).ok()?;
-                sum.add(lag, &(constant * &weight));
+                *sum.entry(lag).or_default() += &(constant * &weight);
                 for (pole, coefficients) in transform.poles() {
                     let [coefficient] = coefficients else { return None };
                     self.absorb(pole, &(coefficient * &weight), lag, &mut sum)?;
                 }
             }
         }
-        let from = sum.0.keys().next_back().map_or(0, |lag| usize::try_from(*lag).unwrap_or(0));
-        let terms = sum.0.into_iter().filter(|(_, value)| !value.is_zero());
+        let from = sum.keys().next_back().map_or(0, |lag| usize::try_from(*lag).unwrap_or(0));
+        let terms = sum.into_iter().filter(|(_, value)| !value.is_zero());
         let terms = terms.map(|(lag, value)| Some((lag, value.as_fraction()?)));
         Some((self.with_terms(terms.collect::<Option<_>>()?), from))
     }
@@ -291,13 +291,13 @@ impl<'a> OnePole<'a> {
     ) -> Option<()> {
         let at_own_pole = *pole == -&self.rate;
         match &self.zero {
-            None if at_own_pole => sum.add(lag - 1, value),
+            None if at_own_pole => *sum.entry(lag - 1).or_default() += value,
             Some(a) if a == pole || at_own_pole => {
                 let argument = a + &self.rate;
                 let part = value * &self.assumptions.invert(&argument.into()).ok()?;
                 let (minus, plus) = if at_own_pole { (lag - 1, lag) } else { (lag, lag + 1) };
-                sum.add(minus, &-&part);
-                sum.add(plus, &part);
+                *sum.entry(minus).or_default() += &-&part;
+                *sum.entry(plus).or_default() += &part;
             }
             _ => return None,
         }
@@ -314,14 +314,7 @@ impl<'a> OnePole<'a> {
 }
 
 /// Coefficients of `T_{k−i}`, by lag `i`.
-#[derive(Default)]
-struct WeightedLags(BTreeMap<isize, Expression>);
-
-impl WeightedLags {
-    fn add(&mut self, lag: isize, value: &Expression) {
-        *self.0.entry(lag).or_default() += value;
-    }
-}
+type WeightedLags = BTreeMap<isize, Expression>;
 
 /// `S = −Q + D(q) J(q)`, `J = (start − jumps of forcing)/C(q)`, where it is a polynomial in q.
 fn source(step: &Step, time: &Symbol) -> Option<Vec<(Expression, Transform)>> {

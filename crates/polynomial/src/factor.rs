@@ -19,6 +19,9 @@ const MERSENNE: [u32; 6] = [61, 127, 521, 1279, 2203, 4253];
 const MAX_DEGREE: usize = 60;
 const MAX_PARTS: usize = 14;
 
+/// Primes modulo which the degrees of factors are soon known.
+const SMALL_PRIMES: [u32; 8] = [1009, 1013, 1019, 1021, 1031, 1033, 1039, 1049];
+
 /// How many polynomials `x + c` are tried to separate two factors: each fails about every other time.
 const MAX_SHIFTS: i64 = 200;
 
@@ -162,6 +165,9 @@ impl Image {
 /// The irreducible factors of a primitive polynomial with integer coefficients, each as often as it
 /// divides; primitive but for their signs.
 fn integer_factors(p: &[BigInt]) -> Option<Vec<Vec<BigInt>>> {
+    if is_soon_irreducible(p) {
+        return Some(vec![p.to_vec()]);
+    }
     let mut rest = p.to_vec();
     let mut found = Vec::new();
     for factor in square_free_factors(p)? {
@@ -171,6 +177,30 @@ fn integer_factors(p: &[BigInt]) -> Option<Vec<Vec<BigInt>>> {
         }
     }
     Some(found)
+}
+
+/// Whether it is known to be irreducible by the degrees of its factors modulo small primes: the degree of a factor over
+/// the rationals is a sum of some of these, for every prime.
+fn is_soon_irreducible(p: &[BigInt]) -> bool {
+    let degree = p.len() - 1;
+    let all = match 2_u64.checked_shl(degree as u32) {
+        Some(beyond) if degree > 1 => beyond - 1,
+        _ => return degree == 1,
+    };
+    // Bit `d` tells whether there may be a factor of degree `d`.
+    let mut possible = all;
+    SMALL_PRIMES.iter().any(|prime| {
+        let prime = Prime(BigInt::from(*prime));
+        let monic = prime.monic(p);
+        if monic.len() == p.len() && prime.gcd(&monic, &derivative(&monic)).len() == 1 {
+            let mut sums = 1_u64;
+            for (product, degree) in prime.by_degree(monic) {
+                (0..(product.len() - 1) / degree).for_each(|_| sums |= sums << degree);
+            }
+            possible &= sums;
+        }
+        possible == 1 | 1 << degree
+    })
 }
 
 /// The different irreducible factors.
@@ -327,9 +357,15 @@ impl Prime {
         power
     }
 
-    /// The irreducible factors of a monic polynomial without multiple ones: those of degree `d` divide
-    /// `x^{P^d} − x`, and no smaller such power.
+    /// The irreducible factors of a monic polynomial without multiple ones.
     fn factors(&self, p: Vec<BigInt>) -> Option<Vec<Vec<BigInt>>> {
+        let products = self.by_degree(p).into_iter();
+        let factors = products.map(|(product, degree)| self.separated(product, degree));
+        Some(factors.collect::<Option<Vec<_>>>()?.concat())
+    }
+
+    /// The products of those of each degree, with that degree: they divide `x^{P^d} − x`, and no smaller such power.
+    fn by_degree(&self, p: Vec<BigInt>) -> Vec<(Vec<BigInt>, usize)> {
         let x = [BigInt::zero(), BigInt::one()];
         let (mut rest, mut power, mut found) = (p, x.to_vec(), Vec::new());
         let mut degree = 1;
@@ -342,14 +378,15 @@ impl Prime {
             if common.len() > 1 {
                 [rest, _] = self.divide(rest, &common);
                 [_, power] = self.divide(power, &rest);
-                found.extend(self.separated(common, degree)?);
+                found.push((common, degree));
             }
             degree += 1;
         }
         if rest.len() > 1 {
-            found.push(rest);
+            let degree = rest.len() - 1;
+            found.push((rest, degree));
         }
-        Some(found)
+        found
     }
 
     /// The factors of a product of irreducible ones of one degree: for each of them `(x + c)^{(P^d−1)/2}`

@@ -334,12 +334,7 @@ fn index(input: &mut Input<'_>) -> Outcome<Spanned<Index>> {
 
 /// A whole number within the limit of an index.
 fn index_value(digits: Spanned<&str>, input: Input<'_>) -> Outcome<u32> {
-    let significant = digits.value.trim_start_matches('0');
-    let value = match significant.len() {
-        0 => Some(0),
-        1..=7 => significant.parse().ok().filter(|&value| value <= MAX_INDEX),
-        _ => None,
-    };
+    let value = digits.value.parse().ok().filter(|value| *value <= MAX_INDEX);
     value.ok_or_else(|| complaint::index_too_large(input, digits.span))
 }
 

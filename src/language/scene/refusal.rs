@@ -3,9 +3,7 @@
 use super::Lowering;
 use super::element::Least;
 use crate::language::diagnostic::Diagnostic;
-use crate::language::syntax::{
-    Declaration, Line, Node, ObservedTerm, SceneStatementKind, Span, Spanned,
-};
+use crate::language::syntax::{Declaration, Node, ObservedTerm, SceneStatementKind, Span, Spanned};
 use crate::scene::{
     Body, Element, ElementIndex, Fault, Kind, Measure, Mistake, Part, Place, Property, Scene,
 };
@@ -29,13 +27,6 @@ impl Lowering<'_> {
         others.fold(error, |error, (span, label)| error.with_secondary(*span, label))
     }
 
-    fn statement_of_line(&self) -> Option<(&Line, Span)> {
-        self.tree.statements.iter().find_map(|statement| match &statement.value {
-            SceneStatementKind::Line(line) => Some((line, statement.span)),
-            _ => None,
-        })
-    }
-
     fn declaration(&self, element: ElementIndex) -> &Declaration {
         self.elements[element].declaration
     }
@@ -46,7 +37,7 @@ impl Lowering<'_> {
                 &self.declaration(element).name.value
             }
             Part::Position(position) => {
-                self.statement_of_line().map_or("", |(line, _)| &line.elements[position].value)
+                self.tree.line().map_or("", |(line, _)| &line.elements[position].value)
             }
             _ => "",
         }
@@ -63,7 +54,7 @@ impl Lowering<'_> {
 
     fn span(&self, part: Part) -> Span {
         let title = self.tree.title.span;
-        let line = self.statement_of_line();
+        let line = self.tree.line();
         match part {
             Part::Element(element) => self.declaration(element).name.span,
             Part::Property(element, property) => self.property(element, property),
@@ -83,11 +74,7 @@ impl Lowering<'_> {
     /// The value that a property was read from, perhaps in the material of a bar.
     fn property(&self, element: ElementIndex, property: Property) -> Span {
         let own = self.declaration(element);
-        let materials =
-            self.tree.statements.iter().filter_map(|statement| match &statement.value {
-                SceneStatementKind::Declaration(declaration) => Some(declaration),
-                _ => None,
-            });
+        let materials = self.tree.declarations().map(|(material, _)| material);
         let material = own.properties.iter().find(|own| own.name.value == "material");
         let material = material.map(|material| &material.value.value);
         let named = |declaration: &&Declaration| match material {

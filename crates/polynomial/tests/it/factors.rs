@@ -42,6 +42,9 @@ fn factors_of_known_polynomials() {
     // Modulo the prime 2^61 - 1 the two factors share a root.
     let shared = "s^5 - 1048576*s^4 - 524288*s + 549755813888";
     assert_eq!(factors(shared), ["s - 1048576", "s^4 - 524288"].map(|p| (p.to_owned(), 1)));
+    // What is irreducible modulo a small prime, or by the degrees modulo several, is known at once.
+    let long = &read("2*s - 1000").pow(21) + &read("s");
+    assert_eq!(long.factors(), Some(vec![(long, 1)]));
     assert!(read("0").factors().is_none());
 }
 
