@@ -14,74 +14,44 @@ const HEADER: &str = "wavestep costs 1";
 /// The unit of all costs.
 const UNIT: &str = "s";
 
-/// What a way is made of that takes time.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Work {
-    /// An echo in balls.
-    Echo,
-    /// A period of a value in balls.
-    Ball,
-    /// A period of a march in integers.
-    FixedPeriod,
-    /// A value of it at an exact time.
-    FixedPoint,
-    /// A term of a polynomial without a march, and a polynomial of a march in integers.
-    Term,
-    Moved,
-    /// Finding the piece of an exact time, and evaluating it.
-    Lookup,
-    /// A step of a recurrence in doubles, in pairs of doubles.
-    Step,
-    PairStep,
-    /// A Chebyshev coefficient of a march, without and with a bound.
-    Coefficient,
-    ProvenCoefficient,
-    /// A wave on a period, in a march of all waves.
-    Wave,
+/// The kinds of work, each with its name in files and what it is, in words.
+macro_rules! works {
+    ($($work:ident $name:literal $meaning:literal)*) => {
+        /// What a way is made of that takes time.
+        #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+        pub enum Work {
+            $(#[doc = $meaning] $work,)*
+        }
+
+        impl Work {
+            pub const ALL: [Work; [$($name),*].len()] = [$(Work::$work),*];
+
+            /// Its name in files.
+            pub fn name(self) -> &'static str {
+                match self { $(Work::$work => $name,)* }
+            }
+
+            /// What it is, in words.
+            pub fn meaning(self) -> &'static str {
+                match self { $(Work::$work => $meaning,)* }
+            }
+        }
+    };
 }
 
-impl Work {
-    pub const ALL: [Work; 12] = [
-        Work::Echo,
-        Work::Ball,
-        Work::FixedPeriod,
-        Work::FixedPoint,
-        Work::Term,
-        Work::Moved,
-        Work::Lookup,
-        Work::Step,
-        Work::PairStep,
-        Work::Coefficient,
-        Work::ProvenCoefficient,
-        Work::Wave,
-    ];
-
-    /// Its name in files.
-    pub fn name(self) -> &'static str {
-        self.words().0
-    }
-
-    /// What it is, in words.
-    pub fn meaning(self) -> &'static str {
-        self.words().1
-    }
-
-    fn words(self) -> (&'static str, &'static str) {
-        match self {
-            Work::Echo => ("echo", "an echo in balls"),
-            Work::Ball => ("ball", "a period of a value in balls"),
-            Work::FixedPeriod => ("fixed-period", "a period of a march in integers"),
-            Work::FixedPoint => ("fixed-point", "a value of it, at an exact time"),
-            Work::Term => ("term", "a term of a piece without a march"),
-            Work::Moved => ("moved", "a polynomial of a march in integers"),
-            Work::Lookup => ("lookup", "the piece of an exact time, and its value"),
-            Work::Step => ("step", "a step of a recurrence in doubles"),
-            Work::PairStep => ("pair-step", "the same in pairs of doubles"),
-            Work::Coefficient => ("coefficient", "a Chebyshev coefficient of a march"),
-            Work::ProvenCoefficient => ("proven-coefficient", "the same with its bound"),
-            Work::Wave => ("wave", "a wave on a period, in a march of all waves"),
-        }
-    }
+works! {
+    Echo "echo" "an echo in balls"
+    Ball "ball" "a period of a value in balls"
+    FixedPeriod "fixed-period" "a period of a march in integers"
+    FixedPoint "fixed-point" "a value of it, at an exact time"
+    Term "term" "a term of a piece without a march"
+    Moved "moved" "a polynomial of a march in integers"
+    Lookup "lookup" "the piece of an exact time, and its value"
+    Step "step" "a step of a recurrence in doubles"
+    PairStep "pair-step" "the same in pairs of doubles"
+    Coefficient "coefficient" "a Chebyshev coefficient of a march"
+    ProvenCoefficient "proven-coefficient" "the same with its bound"
+    Wave "wave" "a wave on a period, in a march of all waves"
 }
 
 /// What each kind of work takes.

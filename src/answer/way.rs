@@ -117,11 +117,11 @@ impl<'a> Way<'a> {
     /// the exact solution are refused.
     pub fn of_model(
         method: Method,
-        (scene, place): (&impl AsRef<ScaledScene>, usize),
+        (scene, place): (&ScaledScene, usize),
         window: [&Rational; 2],
     ) -> Result<Way<'a>, WayError> {
         let without_waves = |name, ideal: Ideal, left_out| {
-            let table = reduced(name, (scene.as_ref(), place), &ideal, window)?;
+            let table = reduced(name, (scene, place), &ideal, window)?;
             Ok(Way { method, inner: Ways::Reduced(table, left_out) })
         };
         let model: Box<dyn Model> = match method {

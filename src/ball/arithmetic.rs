@@ -39,42 +39,27 @@ pub trait Trigonometric: Arithmetic {
     fn cos_sin(&self, bits: u64) -> Result<[Self; 2], BallError>;
 }
 
+/// Methods that need no more than a line.
+macro_rules! methods {
+    ($($name:ident($($argument:tt)*) -> $result:ty { $value:expr })*) => {$(
+        fn $name($($argument)*) -> $result {
+            $value
+        }
+    )*};
+}
+
 /// Doubles have the bits that they have. Where a divisor is zero, a quotient is no number.
 impl Arithmetic for f64 {
-    fn zero() -> f64 {
-        0.0
-    }
-
-    fn one() -> f64 {
-        1.0
-    }
-
-    fn is_zero(&self) -> bool {
-        *self == 0.0
-    }
-
-    fn magnitude(&self) -> Magnitude {
-        Magnitude::from_double(self.abs())
-    }
-
-    fn negate(&self) -> f64 {
-        -self
-    }
-
-    fn add(&self, other: &f64, _: u64) -> f64 {
-        self + other
-    }
-
-    fn multiply(&self, other: &f64, _: u64) -> f64 {
-        self * other
-    }
-
-    fn reciprocal(&self, _: u64) -> Result<f64, BallError> {
-        Ok(1.0 / self)
-    }
-
-    fn quotient(&self, divisor: &f64, _: u64) -> Result<f64, BallError> {
-        Ok(self / divisor)
+    methods! {
+        zero() -> f64 { 0.0 }
+        one() -> f64 { 1.0 }
+        is_zero(&self) -> bool { *self == 0.0 }
+        magnitude(&self) -> Magnitude { Magnitude::from_double(self.abs()) }
+        negate(&self) -> f64 { -self }
+        add(&self, other: &f64, _: u64) -> f64 { self + other }
+        multiply(&self, other: &f64, _: u64) -> f64 { self * other }
+        reciprocal(&self, _: u64) -> Result<f64, BallError> { Ok(1.0 / self) }
+        quotient(&self, divisor: &f64, _: u64) -> Result<f64, BallError> { Ok(self / divisor) }
     }
 }
 
@@ -86,35 +71,14 @@ impl Trigonometric for f64 {
 }
 
 impl Arithmetic for Number {
-    fn zero() -> Number {
-        Number::zero()
-    }
-
-    fn one() -> Number {
-        Number::one()
-    }
-
-    fn is_zero(&self) -> bool {
-        self.is_zero()
-    }
-
-    fn magnitude(&self) -> Magnitude {
-        self.magnitude()
-    }
-
-    fn negate(&self) -> Number {
-        self.negate()
-    }
-
-    fn add(&self, other: &Number, bits: u64) -> Number {
-        self.add(other, bits)
-    }
-
-    fn multiply(&self, other: &Number, bits: u64) -> Number {
-        self.multiply(other, bits)
-    }
-
-    fn reciprocal(&self, bits: u64) -> Result<Number, BallError> {
-        self.reciprocal(bits)
+    methods! {
+        zero() -> Number { Number::zero() }
+        one() -> Number { Number::one() }
+        is_zero(&self) -> bool { self.is_zero() }
+        magnitude(&self) -> Magnitude { self.magnitude() }
+        negate(&self) -> Number { self.negate() }
+        add(&self, other: &Number, bits: u64) -> Number { self.add(other, bits) }
+        multiply(&self, other: &Number, bits: u64) -> Number { self.multiply(other, bits) }
+        reciprocal(&self, bits: u64) -> Result<Number, BallError> { self.reciprocal(bits) }
     }
 }

@@ -10,6 +10,7 @@ use num_bigint::{BigInt, BigUint};
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive};
+use wavestep_polynomial::power;
 
 /// Bits of a mantissa.
 const BITS: u32 = 32;
@@ -36,27 +37,18 @@ impl Magnitude {
     /// Zero, the bound of an exact value.
     pub const ZERO: Self = Self { mantissa: 0, exponent: 0 };
 
-    /// The least magnitude of at least `mantissa·2^exponent`.
-    fn round_up(mantissa: u128, exponent: i64) -> Self {
+    /// The least magnitude of at least `mantissa·2^exponent`, or above it where more follows.
+    fn round_up(mantissa: u128, more: bool, exponent: i64) -> Self {
         if mantissa == 0 {
             return Self::ZERO;
         }
-        let excess = 128 - i64::from(mantissa.leading_zeros()) - i64::from(BITS);
-        let mut exponent = shifted(exponent, excess);
-        let mut short = if excess <= 0 {
-            mantissa << -excess
-        } else {
-            (mantissa >> excess) + u128::from(mantissa.trailing_zeros() < excess as u32)
-        };
-        if short >> BITS != 0 {
-            // Rounding up carried into a new bit: the mantissa is 2^32 exactly.
-            short >>= 1;
-            exponent = shifted(exponent, 1);
-        }
-        Self { mantissa: short as u64, exponent }
+        let zeros = mantissa.leading_zeros();
+        let digits = mantissa << zeros;
+        let top = shifted(exponent, 128 - i64::from(zeros));
+        Self::of_leading((digits >> 64) as u64, more || digits as u64 != 0, top)
     }
 
-    /// The same for a word.
+    /// The least magnitude of at least `mantissa·2^exponent`, for a word.
     fn rounded_up(mantissa: u64, exponent: i64) -> Self {
         if mantissa == 0 {
             return Self::ZERO;
@@ -82,21 +74,12 @@ impl Magnitude {
 
     /// An upper bound of `value·2^exponent`, within one part in 2^31.
     fn from_natural(value: &BigUint, exponent: i64) -> Self {
+        // The two leading digits, and whether others follow.
         let mut digits = value.iter_u64_digits();
-        let length = digits.len();
-        let high = digits.next_back().unwrap_or(0);
-        let low = digits.next_back();
-        // The two leading digits, and one more unit for whatever follows them.
-        let (top, kept) = match low {
-            None => (u128::from(high), 1),
-            Some(low) => ((u128::from(high) << 64) | u128::from(low), 2),
-        };
-        if length <= kept {
-            return Self::round_up(top, exponent);
-        }
-        let exponent = shifted(exponent, 64 * (length - kept) as i64);
-        // Half the digits at once so that the unit cannot overflow.
-        Self::round_up((top >> 1) + 1, shifted(exponent, 1))
+        let high = digits.next_back().map_or(0, u128::from);
+        let top = digits.next_back().map_or(high, |low| high << 64 | u128::from(low));
+        let rest = digits.len() as i64;
+        Self::round_up(top, rest > 0, shifted(exponent, 64 * rest))
     }
 
     /// The least magnitude of at least `f·2^top`, where the fraction `½ ≤ f < 1` begins with these 64 binary digits,
@@ -163,14 +146,7 @@ impl Magnitude {
 
     /// An upper bound of a power, by squares.
     pub fn power(&self, exponent: u64) -> Self {
-        let mut power = Self::power_of_two(0);
-        for place in (0..u64::BITS - exponent.leading_zeros()).rev() {
-            power = power.multiply(&power);
-            if exponent >> place & 1 == 1 {
-                power = power.multiply(self);
-            }
-        }
-        power
+        power(Self::power_of_two(0), self, exponent, Self::multiply)
     }
 
     /// An upper bound of the quotient by `divisor`.
@@ -185,7 +161,7 @@ impl Magnitude {
             return Self::rounded_up(quotient, shifted(self.exponent, -i64::from(BITS)));
         }
         let quotient = (u128::from(self.mantissa) << 95).div_ceil(u128::from(divisor));
-        Self::round_up(quotient, shifted(self.exponent, -95))
+        Self::round_up(quotient, false, shifted(self.exponent, -95))
     }
 
     /// An upper bound of the square root.

@@ -6,7 +6,7 @@ use crate::export::names::{Name, Names};
 use crate::export::notation::{Notation, both};
 use crate::export::tree::{Sign, Term, Tree};
 use crate::export::writer::write_flat;
-use crate::expression::Fraction;
+use crate::expression::{Fraction, free_name};
 use crate::network::{ElementLaw, Impact, ScaledScene};
 use crate::solution::Rise;
 use num_traits::One as _;
@@ -27,14 +27,9 @@ struct Symbols {
 impl Symbols {
     fn of(scaled: &ScaledScene) -> Symbols {
         let free = |name: &str| {
-            let mut name = name.to_owned();
-            let is_taken = |name: &str| {
-                let mut known = scaled.model().assumptions.symbols();
-                known.any(|(symbol, _)| symbol.name() == name) || scaled.scene().time.name() == name
-            };
-            while is_taken(&name) {
-                name.push('_');
-            }
+            let name = free_name(name, |name| {
+                scaled.model().assumptions.declares(name) || scaled.scene().time.name() == name
+            });
             Symbol::new(&name).expect("a name with letters in front")
         };
         Symbols {

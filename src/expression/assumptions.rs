@@ -168,6 +168,11 @@ impl Assumptions {
         self.conditions.iter().map(|(symbol, condition)| (symbol, condition.as_ref()))
     }
 
+    /// Whether a symbol of this name is declared.
+    pub fn declares(&self, name: &str) -> bool {
+        self.conditions.keys().any(|symbol| symbol.name() == name)
+    }
+
     /// The factors taken to be non-zero.
     pub fn factors(&self) -> impl Iterator<Item = &Polynomial> + '_ {
         self.factors.iter()
@@ -330,4 +335,13 @@ fn root_bounds(root: &Symbol) -> Option<(Rational, Rational)> {
     let upper = &lower + 1;
     let scale = Integer::from(1) << 64_u32;
     Some((Rational::new(lower, scale.clone()), Rational::new(upper, scale)))
+}
+
+/// A name that is not taken: this one, with as many underscores behind it as that needs.
+pub fn free_name(name: impl Into<String>, is_taken: impl Fn(&str) -> bool) -> String {
+    let mut name = name.into();
+    while is_taken(&name) {
+        name.push('_');
+    }
+    name
 }

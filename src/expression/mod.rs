@@ -18,7 +18,7 @@ mod root;
 mod sum;
 mod transform;
 
-pub use assumptions::{Assumptions, Condition, NotInvertible, PI, Relation};
+pub use assumptions::{Assumptions, Condition, NotInvertible, PI, Relation, free_name};
 pub use constant::{Constant, Definition, Root};
 pub use echo_sum::EchoSum;
 pub use fraction::{Fraction, NotAUnit};

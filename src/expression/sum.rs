@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::fmt;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
-use wavestep_polynomial::{Polynomial, Rational, Symbol};
+use wavestep_polynomial::{Polynomial, Rational, Symbol, power};
 
 /// A sum of fractions times exponentials of fractions,
 ///
@@ -195,14 +195,7 @@ impl Expression {
 
     /// `self^exponent`, by repeated squaring.
     pub fn pow(&self, exponent: u32) -> Expression {
-        let mut power = Expression::one();
-        for bit in (0..u32::BITS - exponent.leading_zeros()).rev() {
-            power = &power * &power;
-            if exponent >> bit & 1 == 1 {
-                power = &power * self;
-            }
-        }
-        power
+        power(Expression::one(), self, exponent.into(), |a, b| a * b)
     }
 
     /// The value with `value` in place of `x`, in coefficients and exponents.

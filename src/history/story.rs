@@ -128,7 +128,7 @@ impl Story<'_> {
     /// # Errors
     /// As [`Engine::new`].
     pub fn begin(network: &Network, digits: usize, bits: u64) -> Outcome<Story<'_>> {
-        let engine = Engine::new(network, network.as_ref().contacts_that_may_open(), bits)?;
+        let engine = Engine::new(network, network.contacts_that_may_open(), bits)?;
         let start = Moment::at(Fraction::zero());
         let course = || Course {
             since: Some(start.clone()),

@@ -115,7 +115,7 @@ fn followed(
     digits: usize,
     (bits, cells): (u64, usize),
 ) -> Result<Validity, HistoryError> {
-    let mut engine = Engine::new(network, network.as_ref().contacts_that_may_open(), bits)?;
+    let mut engine = Engine::new(network, network.contacts_that_may_open(), bits)?;
     let until = Moment::at(match until {
         Some(until) => network.scaled_time(until),
         None => longest(&engine)?.scale(&Rational::from_integer(PATIENCE.into())),

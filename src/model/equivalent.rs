@@ -1,12 +1,9 @@
 //! The linear spring that lets the force of a local contact rise in about the same time.
 
 use crate::model::course::double_root;
-use crate::model::error::{ModelError, NotRepresented};
 use crate::model::line::{Bar, Line, LocalContact};
-use crate::network::{Node, ScaledScene, Side};
+use crate::network::{ScaledScene, Side};
 use crate::scene::ElementIndex;
-
-const NAME: &str = "equivalent spring";
 
 /// The stiffness `k_1` of the equivalent spring of a local contact, in N/m or as a plain number:
 ///
@@ -18,25 +15,15 @@ const NAME: &str = "equivalent spring";
 /// `m = 3/2`). Both forces then tend to `V/S`, and the contact's `1 − X S/V` and the spring's
 /// `e^{−h_1 t}` are functions of the same `h_1 t`, `h_1 = k_1 S`. An end that is fixed is a bar of
 /// infinite impedance at rest; a strain at the start adds `X_0/Z` to the velocity of a bar.
-pub fn equivalent_stiffness(
-    scene: &impl AsRef<ScaledScene>,
-    contact: ElementIndex,
-) -> Result<f64, ModelError> {
-    let scaled = scene.as_ref();
-    let refuse = |reason| Err(ModelError::Refused { model: NAME, reason });
-    let Some(element) = scaled.scene().elements.get(contact) else {
-        return refuse(NotRepresented::NoElement(contact));
-    };
-    let line = Line::of(scaled)?;
-    let name = || element.name.clone();
+///
+/// `None` unless the contact is directly between two such bars that approach each other.
+pub fn equivalent_stiffness(scene: &ScaledScene, contact: ElementIndex) -> Option<f64> {
+    let line = Line::of(scene).ok()?;
     let mut nodes = line.nodes.iter();
-    let here = nodes.find_map(|node| Some((node, node.place(contact)?)));
-    let law = |(node, place): (&Node<f64>, usize)| LocalContact::of(&node.elements[place].law);
-    let Some((node, law)) = here.and_then(|here| Some((here.0, law(here)?))) else {
-        return refuse(NotRepresented::NotALocalContact(name()));
-    };
+    let (node, place) = nodes.find_map(|node| Some((node, node.place(contact)?)))?;
+    let law = LocalContact::of(&node.elements[place].law)?;
     if node.elements.len() > 1 {
-        return refuse(NotRepresented::NotBetweenBars(name()));
+        return None;
     }
     // 1/Z, and the velocity that what arrives would give a free end.
     let side = |side: Side, way: usize| match side {
@@ -47,16 +34,14 @@ pub fn equivalent_stiffness(
         Side::Fixed => Some((0.0, 0.0)),
         Side::Free => None,
     };
-    let (Some(left), Some(right)) = (side(node.left, 0), side(node.right, 1)) else {
-        return refuse(NotRepresented::FreeEnd(name()));
-    };
+    let (left, right) = (side(node.left, 0)?, side(node.right, 1)?);
     let velocity = left.1 - right.1;
     if velocity <= 0.0 {
-        return refuse(NotRepresented::NoApproach(name()));
+        return None;
     }
     let stiffness = law.equivalent_stiffness(left.0 + right.0, velocity);
-    let numbers = crate::enclosure::Numbers::new(&scaled.model().constants);
-    let scale = &scaled.model().scale;
-    let unit = scale.impedance.over(&scale.time)?;
-    Ok(stiffness * double_root(&numbers, &unit)?)
+    let numbers = crate::enclosure::Numbers::new(&scene.model().constants);
+    let scale = &scene.model().scale;
+    let unit = scale.impedance.over(&scale.time).ok()?;
+    Some(stiffness * double_root(&numbers, &unit).ok()?)
 }

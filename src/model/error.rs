@@ -58,16 +58,6 @@ pub enum NotRepresented {
     RigidImpact,
     #[error("no bar has a finite length that could set the size of a cell")]
     NoFiniteBar,
-    #[error("there is no element {0}")]
-    NoElement(usize),
-    #[error("{0} is not a local contact")]
-    NotALocalContact(String),
-    #[error("{0} is not directly between two bars")]
-    NotBetweenBars(String),
-    #[error("{0} is next to a free end")]
-    FreeEnd(String),
-    #[error("the bodies at {0} do not approach each other at the start")]
-    NoApproach(String),
     #[error("bar {0} is endless, so waves leave and do not vibrate")]
     EndlessVibration(String),
     #[error("it needs at least one bar")]

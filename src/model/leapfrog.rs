@@ -43,11 +43,7 @@ impl Leapfrog {
     /// Cuts the bar with the shortest travel time into `cells`, the others into as many of the same
     /// travel time as they hold, a little longer where they must be; with steps of `courant` times the
     /// shortest travel time of a cell.
-    pub fn new(
-        scene: &impl AsRef<ScaledScene>,
-        cells: usize,
-        courant: f64,
-    ) -> Result<Leapfrog, ModelError> {
+    pub fn new(scene: &ScaledScene, cells: usize, courant: f64) -> Result<Leapfrog, ModelError> {
         let setting = |reason| Err(ModelError::Setting { model: NAME, reason });
         if cells == 0 {
             return setting(BadSetting::NoCells);
@@ -58,7 +54,7 @@ impl Leapfrog {
         if courant.is_nan() || courant <= 0.0 {
             return setting(BadSetting::NoStep(courant));
         }
-        let line = Line::linear(NAME, scene.as_ref())?;
+        let line = Line::linear(NAME, scene)?;
         let chain = Chain::of(&line, cells, courant)?;
         let unit = line.scaled(&[1.0])?[0];
         Ok(Leapfrog { line, chain, unit })

@@ -44,13 +44,13 @@ impl Line {
 }
 
 impl Modes {
-    pub fn new(scene: &impl AsRef<ScaledScene>, count: usize) -> Result<Modes, ModelError> {
+    pub fn new(scene: &ScaledScene, count: usize) -> Result<Modes, ModelError> {
         if count == 0 {
             let reason = BadSetting::NoModes;
             return Err(ModelError::Setting { model: NAME, reason });
         }
         ModelError::limited(NAME, "modes", count as f64, MAX_MODES as f64)?;
-        let line = Line::linear(NAME, scene.as_ref())?;
+        let line = Line::linear(NAME, scene)?;
         let modal = line.modal();
         let refused = |reason| ModelError::Refused { model: NAME, reason };
         let parts = modal.parts(|element| line.name(element)).map_err(refused)?;

@@ -106,8 +106,7 @@ fn measure(times: &[(String, Fraction)]) -> Result<Option<(Fraction, Vec<i64>)>,
 }
 
 impl Steps {
-    pub fn new(scene: &impl AsRef<ScaledScene>, tolerance: f64) -> Result<Steps, ModelError> {
-        let scaled = scene.as_ref();
+    pub fn new(scaled: &ScaledScene, tolerance: f64) -> Result<Steps, ModelError> {
         if !(1e-13..=1e-2).contains(&tolerance) {
             let reason = BadSetting::Tolerance(tolerance);
             return Err(ModelError::Setting { model: NAME, reason });

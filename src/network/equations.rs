@@ -4,17 +4,17 @@
 //! the start. So one of the two waves in a bar is seen at both ends at once, and the other a round
 //! trip later: the wave functions of successive periods, as textbooks have them.
 
-use crate::expression::{Expression, Fraction};
+use crate::expression::{Expression, Fraction, free_name};
 use crate::network::assumed::Assumed;
 use crate::network::clocks::Clocks;
 use crate::network::delay::Lattice;
 use crate::network::error::NetworkError;
-use crate::network::model::Model;
 use crate::network::node::{ElementLaw, Node, Side};
 use crate::network::observed::{FieldBar, Observed};
 use crate::network::scaled::ScaledScene;
 use crate::recurrence::{Fault, InvalidRecurrence, LinearForm, Recurrence, WaveIndex};
 use crate::scene::{ElementIndex, Scene};
+use std::ops::Deref;
 use std::sync::OnceLock;
 use wavestep_polynomial::Rational;
 
@@ -84,8 +84,11 @@ impl ScaledScene {
     }
 }
 
-impl AsRef<ScaledScene> for Network {
-    fn as_ref(&self) -> &ScaledScene {
+/// A network is a scene in its own scales, and more.
+impl Deref for Network {
+    type Target = ScaledScene;
+
+    fn deref(&self) -> &ScaledScene {
         &self.scaled
     }
 }
@@ -94,20 +97,6 @@ impl Network {
     /// The network of a scene.
     pub fn new(scene: &Scene) -> Result<Network, NetworkError> {
         ScaledScene::of(scene)?.network()
-    }
-
-    pub fn scene(&self) -> &Scene {
-        &self.scaled.scene
-    }
-
-    /// The scene in its own scales.
-    pub fn model(&self) -> &Model {
-        &self.scaled.model
-    }
-
-    /// The first local contact of the line: with one there are nodes and delays, and no recurrence.
-    pub fn local_contact(&self) -> Option<ElementIndex> {
-        self.scaled.local_contact()
     }
 
     /// The times at which waves arrive.
@@ -237,22 +226,14 @@ impl Network {
                 waves.push((name, Role::Velocity(place, first)));
             }
         }
-        for (mut name, role) in waves {
-            let taken = |name: &str| {
-                let symbols = self.scaled.model.assumptions.symbols();
-                symbols.map(|(symbol, _)| symbol.name()).any(|other| other == name)
+        for (name, role) in waves {
+            let Scene { observables, time, .. } = &self.scaled.scene;
+            let name = free_name(name, |name| {
+                self.scaled.model.assumptions.declares(name)
                     || self.waves.iter().any(|wave| wave.name == name)
-                    || self
-                        .scaled
-                        .scene
-                        .observables
-                        .iter()
-                        .any(|observable| observable.name == name)
-                    || name == self.scaled.scene.time.name()
-            };
-            while taken(&name) {
-                name.push('_');
-            }
+                    || observables.iter().any(|observable| observable.name == name)
+                    || name == time.name()
+            });
             self.waves.push(WaveRole { name, role });
         }
     }

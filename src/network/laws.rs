@@ -1,6 +1,6 @@
 //! The laws at the nodes of a network, as equations between wave functions.
 
-use crate::expression::{Expression, Fraction};
+use crate::expression::{Expression, Fraction, free_name};
 use crate::network::equations::{Network, Role, lag};
 use crate::network::error::NetworkError;
 use crate::network::model::ModelLoad;
@@ -141,14 +141,10 @@ impl Network {
 
     /// The local time, since a period began or an echo arrived: `s` where that is free.
     pub fn local(&self) -> Symbol {
-        let mut local = "s".to_owned();
-        let taken = |name: &str| {
-            self.scaled.model.assumptions.symbols().any(|(symbol, _)| symbol.name() == name)
+        let local = free_name("s", |name| {
+            self.scaled.model.assumptions.declares(name)
                 || self.waves.iter().any(|wave| wave.name == name)
-        };
-        while taken(&local) {
-            local.push('_');
-        }
+        });
         Symbol::new(&local).expect("a name")
     }
 

@@ -7,7 +7,7 @@
 use crate::enclosure::Numbers;
 use crate::expression::{
     Assumptions, Condition, Constant, Definition, Expression, Fraction, NotAUnit, PI, Relation,
-    Root,
+    Root, free_name,
 };
 use crate::network::error::NetworkError;
 use crate::network::node::ElementLaw;
@@ -236,10 +236,7 @@ impl Model {
 
     /// Names a constant, and declares it positive where it is known to be.
     fn name(&mut self, name: &str, value: Definition, is_positive: bool) -> Symbol {
-        let mut name = name.to_owned();
-        while self.assumptions.symbols().any(|(symbol, _)| symbol.name() == name) {
-            name.push('_');
-        }
+        let name = free_name(name, |name| self.assumptions.declares(name));
         let symbol = Symbol::new(&name).expect("a name with letters in front");
         let positive = Condition { relation: Relation::Greater, bound: Rational::zero() };
         self.assumptions.declare_symbol(symbol.clone(), is_positive.then_some(positive));

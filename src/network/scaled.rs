@@ -76,9 +76,3 @@ impl ScaledScene {
         }
     }
 }
-
-impl AsRef<ScaledScene> for ScaledScene {
-    fn as_ref(&self) -> &ScaledScene {
-        self
-    }
-}

@@ -247,7 +247,7 @@ const STIFFNESS_DIGITS: i32 = 6;
 /// The spring that comes nearest to a local contact, as a scene states it.
 pub(super) fn equivalent_spring(scaled: &ScaledScene) -> Option<String> {
     let contact = scaled.local_contact()?;
-    let stiffness = equivalent_stiffness(scaled, contact).ok()?;
+    let stiffness = equivalent_stiffness(scaled, contact)?;
     let unit = match scaled.scene().dimensional {
         true => format!(" {}", Dimension::STIFFNESS.unit()),
         false => String::new(),

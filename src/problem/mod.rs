@@ -169,7 +169,7 @@ impl Problem {
     pub fn scaled(&self) -> Result<&ScaledScene, ProblemError> {
         match &self.kind {
             Kind::Equations(_) => Err(ProblemError::Equations(self.title().to_owned())),
-            Kind::Line { network, .. } => Ok((**network).as_ref()),
+            Kind::Line { network, .. } => Ok(network),
         }
     }
 
@@ -186,7 +186,7 @@ impl Problem {
         match &self.kind {
             Kind::Equations(solution) => Ok(solution),
             Kind::Line { network, .. } if network.local_contact().is_some() => {
-                Err(ProblemError::local_contact((**network).as_ref()))
+                Err(ProblemError::local_contact(network))
             }
             Kind::Line { network, solution } => {
                 let derived = || Ok(Box::new(Solution::new(network.recurrence()?)));

@@ -3,7 +3,7 @@
 
 use wavestep_polynomial::{Rational, Symbol};
 
-use crate::expression::{Condition, Fraction};
+use crate::expression::{Condition, Fraction, free_name};
 use crate::limits::MAX_CONTACT_EXPONENT;
 use crate::scene::fault::{Fault, Mistake, Part, Property};
 use crate::scene::{
@@ -69,12 +69,7 @@ impl Check<'_> {
 
     /// Whether a value is certainly zero or positive: then any positive number makes it positive.
     fn is_not_negative(&self, value: &Fraction) -> bool {
-        let mut name = "x".to_owned();
-        let is_known =
-            |name: &str| self.scene.assumptions.symbols().any(|(symbol, _)| symbol.name() == name);
-        while is_known(&name) {
-            name.push('x');
-        }
+        let name = free_name("x", |name| self.scene.assumptions.declares(name));
         let small = Symbol::new(&name).expect("a plain name");
         let mut known = self.scene.assumptions.clone();
         known.declare_symbol(small.clone(), Some(Condition::above(0)));

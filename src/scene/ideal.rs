@@ -4,7 +4,7 @@
 //! Where a bar deforms uniformly its velocity is linear in `ξ`, the share of its length. With one end held its
 //! kinetic energy is that of a third of its mass at the other: `½ ∫_0^1 m ξ² v² dξ = ½ (m/3) v²` (Rayleigh).
 
-use crate::expression::{Fraction, NotAUnit};
+use crate::expression::{Fraction, NotAUnit, free_name};
 use crate::scene::{
     Bar, Body, Dimension, Element, ElementIndex, End, Joint, Kind, Line, Mass, Measure, Observable,
     Place, Position, Scene, Seen, Spring,
@@ -163,10 +163,8 @@ impl Scene {
             None => stiffness,
         };
         let masses = [0, 1].map(|side: usize| {
-            let mut own = format!("{name}_{}", ["left", "right"][side]);
-            while self.elements.iter().any(|element| element.name == own) {
-                own.push('_');
-            }
+            let own = format!("{name}_{}", ["left", "right"][side]);
+            let own = free_name(own, |own| self.elements.iter().any(|other| other.name == own));
             let mass = Mass { mass: share.clone(), velocity: velocity.clone() };
             (!held[side]).then(|| add(own, Kind::Mass(mass)))
         });

@@ -15,8 +15,8 @@ use wavestep::problem::number;
 use wavestep_polynomial::Symbol;
 use wavestep_studies::dispersion::{
     Builtin, DispersionError, Formula, PeakVelocity, Pulse, Quantity, Relation, Seen, Shape,
-    Travel, exact_peak_velocity, formula_latex, formula_text, peak_velocity, propagate,
-    read_relation, read_spectrum,
+    exact_peak_velocity, formula_latex, formula_text, peak_velocity, propagate, read_relation,
+    read_spectrum,
 };
 
 /// The three formulas with their names in text, JSON and LaTeX.
@@ -105,9 +105,8 @@ pub fn run(options: &Dispersion) -> Result<String, Failure> {
             if let Some(time) = &options.propagate {
                 let exact = number("--propagate", time)?;
                 let double = num_traits::ToPrimitive::to_f64(&exact).unwrap_or(f64::INFINITY);
-                let travel = Travel { points: options.points, ..Travel::until(double) };
-                answer.seen =
-                    Some((exact.to_string(), propagate(&answer.relation, &pulse, travel)?));
+                let seen = propagate(&answer.relation, &pulse, double, options.points)?;
+                answer.seen = Some((exact.to_string(), seen));
             }
             let exact = peak.exact.clone();
             answer.pulse = Some((name, Some(peak), exact));

@@ -2,7 +2,7 @@
 //! which waves run.
 
 use super::axis::Mapping;
-use super::drawing::{Anchor, SMALL, coordinate, polygon, polyline};
+use super::drawing::{Anchor, SMALL, coordinate, polyline};
 use super::layout::{LEFT, Sheet, label_size};
 use super::marks::{draw_levels, placement_in};
 use super::number::rounded;
@@ -248,28 +248,13 @@ impl Diagram {
     }
 
     fn colour_bar(&self, sheet: &mut Sheet, hatch: &str) {
-        const PARTS: u32 = 128;
-        let (left, right) = (RIGHT + 26.0, RIGHT + 46.0);
         let (low, high) = self.colours;
         let (top, bottom) = (sheet.top + 26.0, sheet.bottom() - 60.0);
-        let places = Mapping::spanning(self.axes[2].scale, low, high).onto(bottom, top);
-        sheet.drawing.text("", Anchor::Start, (left, sheet.top + 8.0), &self.axes[2].label());
-        let at = |step: f64| low + (high - low) * step / f64::from(PARTS);
-        let height = |step: f64| places.position(at(step));
-        sheet.colour_bar((left, right), PARTS, height, |step| diverging(self.share(at(step))));
-        if self.has_both_signs() {
-            let (zero, end) = (places.position(0.0), bottom);
-            let corners = [(left, zero), (right, zero), (right, end), (left, end)];
-            sheet.drawing.fill_with(hatch, &polygon(&corners));
-        }
-        sheet.drawing.rectangle("frame", (left, top), (right, bottom));
-        for tick in places.ticks(26.0) {
-            sheet.drawing.line("tick", (right, tick.position), (right + 6.0, tick.position));
-            if let Some(label) = tick.label {
-                let place = (right + 10.0, tick.position + 4.0);
-                sheet.drawing.text("", Anchor::Start, place, &label);
-            }
-        }
+        let scale = Mapping::spanning(self.axes[2].scale, low, high).onto(bottom, top);
+        let pattern = self.has_both_signs().then(|| (hatch, scale.position(0.0)));
+        let colour = |share: f64| diverging(self.share(low + share * (high - low)));
+        let name = self.axes[2].label();
+        sheet.colour_bar((&name, RIGHT + 26.0, &scale), &scale.ticks(26.0), pattern, colour);
     }
 
     /// The line of bars to the scale of the axis of places, with names below.

@@ -64,42 +64,20 @@ impl Series {
 /// Series over one upward axis.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Panel {
-    y: Axis,
-    series: Vec<Series>,
-    levels: Vec<(f64, String)>,
-    /// From where to where the axis reaches at least.
-    range: Option<(f64, f64)>,
+    pub y: Axis,
+    pub series: Vec<Series>,
+    /// Labelled horizontal lines.
+    pub levels: Vec<(f64, String)>,
+    /// From where to where the axis reaches at least, so that panels can be compared.
+    pub range: Option<(f64, f64)>,
     /// Whether names stand where lines end, and not in a legend.
-    named_at_ends: bool,
+    pub named_at_ends: bool,
 }
 
 impl Panel {
+    /// A panel with a legend, and without levels.
     pub fn new(y: Axis, series: Vec<Series>) -> Panel {
         Panel { y, series, levels: Vec::new(), range: None, named_at_ends: false }
-    }
-
-    /// The same with an axis that reaches from one value to another at least, so that panels can be
-    /// compared.
-    #[must_use]
-    pub fn reaching(self, low: f64, high: f64) -> Panel {
-        Panel { range: Some((low, high)), ..self }
-    }
-
-    /// The same with the names of its series where they end, and not in a legend.
-    #[must_use]
-    pub fn named_at_ends(self) -> Panel {
-        Panel { named_at_ends: true, ..self }
-    }
-
-    /// The same with a labelled horizontal line.
-    #[must_use]
-    pub fn level(mut self, y: f64, name: &str) -> Panel {
-        self.levels.push((y, name.to_owned()));
-        self
-    }
-
-    pub fn series(&self) -> &[Series] {
-        &self.series
     }
 
     /// What a series is called in data: a nameless one as the axis.

@@ -217,18 +217,36 @@ impl Sheet {
         0
     }
 
-    /// A bar of so many colours, its sides across and the heights between which each colour stands.
+    /// A bar of colours beside the area, from `left`, with its name above. `colour` gives the colour at a
+    /// share of the scale; a pattern lies on what is below a height.
     pub fn colour_bar(
         &mut self,
-        (left, right): (f64, f64),
-        steps: u32,
-        height: impl Fn(f64) -> f64,
+        (name, left, scale): (&str, f64, &Mapping),
+        ticks: &[Tick],
+        pattern: Option<(&str, f64)>,
         colour: impl Fn(f64) -> String,
     ) {
-        for step in 0..steps {
-            let (low, high) = (height(f64::from(step)), height(f64::from(step + 1)));
-            let corners = [(left, low), (right, low), (right, high), (left, high)];
-            self.drawing.fill(&colour(f64::from(step) + 0.5), &polygon(&corners));
+        const PARTS: u32 = 128;
+        let right = left + 20.0;
+        let area = |low, high| polygon(&[(left, low), (right, low), (right, high), (left, high)]);
+        let share = |part: f64| part / f64::from(PARTS);
+        let height = |part: u32| scale.from + share(part.into()) * (scale.to - scale.from);
+        self.drawing.text("", Anchor::Start, (left, self.top + 8.0), name);
+        for part in 0..PARTS {
+            let colour = colour(share(f64::from(part) + 0.5));
+            self.drawing.fill(&colour, &area(height(part), height(part + 1)));
+        }
+        if let Some((pattern, below)) = pattern {
+            self.drawing.fill_with(pattern, &area(below, scale.from));
+        }
+        self.drawing.rectangle("frame", (left, scale.to), (right, scale.from));
+        for tick in ticks {
+            let end = right + tick.length();
+            self.drawing.line("tick", (right, tick.position), (end, tick.position));
+            if let Some(label) = &tick.label {
+                let place = (right + 10.0, tick.position + 4.0);
+                self.drawing.text("", Anchor::Start, place, label);
+            }
         }
     }
 

@@ -45,7 +45,7 @@ pub use error::{NotDrawn, PlotError};
 pub use figure::{Figure, Look, Panel, Series};
 pub use frontier::frontier;
 pub use map::Map;
-pub use page::{Listing, Row, Section, Table, page};
+pub use page::{Listing, Row, Section, Table, page, table};
 pub use pdf::pdf;
 pub use png::png;
 pub use text::escape;

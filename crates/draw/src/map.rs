@@ -1,8 +1,8 @@
 //! Maps of the error over two parameters: colour for magnitude, steps where digits are lost.
 
-use super::axis::{Mapping, extremes, on};
+use super::axis::{Mapping, Tick, extremes, on};
 use super::contour::step_lines;
-use super::drawing::{Anchor, Drawing, coordinate, polyline};
+use super::drawing::{Drawing, coordinate, polyline};
 use super::layout::{LEFT, Legend, RIGHT, SAMPLE, Sheet, counted};
 use super::number::{power_of_ten, rounded};
 use super::palette::{DASHES, shade};
@@ -169,40 +169,28 @@ fn level_line(drawing: &mut Drawing, level: usize, points: &[(f64, f64)]) {
 /// The colour bar, labelled in powers of ten, and where it ends.
 fn colour_bar(map: &Map, sheet: &mut Sheet) -> f64 {
     const HEIGHT: f64 = 190.0;
-    const STEPS: u32 = 64;
-    let (left, right, top) = (RIGHT + 22.0, RIGHT + 42.0, sheet.top + 20.0);
-    sheet.drawing.text("", Anchor::Start, (left, sheet.top + 8.0), "error");
-    let place = |step: f64| top + HEIGHT * (1.0 - step / f64::from(STEPS));
-    sheet.colour_bar((left, right), STEPS, place, |step| shade(step / f64::from(STEPS)));
-    sheet.drawing.rectangle("frame", (left, top), (right, top + HEIGHT));
-    let every = (1..).find(|every| {
-        HEIGHT * f64::from(*every) >= 20.0 * f64::from(map.decades.1 - map.decades.0)
-    });
+    let (low, high) = map.decades;
+    let (top, bottom) = (sheet.top + 20.0, sheet.top + 20.0 + HEIGHT);
+    let scale = Mapping::spanning(Scale::Linear, low.into(), high.into()).onto(bottom, top);
+    let every = (1..).find(|every| HEIGHT * f64::from(*every) >= 20.0 * f64::from(high - low));
     let every = every.unwrap_or(1);
-    let errors = || map.cells.iter().flatten().filter(|error| error.is_finite());
-    for exponent in map.decades.0..=map.decades.1 {
-        let share = f64::from(exponent - map.decades.0) / f64::from(map.decades.1 - map.decades.0);
-        let y = top + HEIGHT * (1.0 - share);
-        let labelled = (map.decades.1 - exponent) % every == 0;
-        let length = if labelled { 6.0 } else { 3.0 };
-        if labelled || every < 8 {
-            sheet.drawing.line("tick", (right, y), (right + length, y));
-        }
-        if labelled {
-            let beyond = match exponent {
-                low if low == map.decades.0 && errors().any(|error| map.share(*error) < 0.0) => {
-                    "≤ "
-                }
-                high if high == map.decades.1 && errors().any(|error| map.share(*error) > 1.0) => {
-                    "≥ "
-                }
-                _ => "",
-            };
-            let label = format!("{beyond}{}", power_of_ten(exponent));
-            sheet.drawing.text("", Anchor::Start, (right + 10.0, y + 4.0), &label);
-        }
-    }
-    top + HEIGHT
+    let any = |outside: fn(f64) -> bool| {
+        let mut finite = map.cells.iter().flatten().filter(|error| error.is_finite());
+        finite.any(|error| outside(map.share(*error)))
+    };
+    let tick = |exponent: i32| {
+        let major = (high - exponent) % every == 0;
+        let beyond = match exponent {
+            _ if exponent == low && any(|share| share < 0.0) => "≤ ",
+            _ if exponent == high && any(|share| share > 1.0) => "≥ ",
+            _ => "",
+        };
+        let label = major.then(|| format!("{beyond}{}", power_of_ten(exponent)));
+        Tick { position: scale.pixel(exponent.into()), major, label }
+    };
+    let ticks = (low..=high).map(tick).filter(|tick| tick.major || every < 8);
+    sheet.colour_bar(("error", RIGHT + 22.0, &scale), &ticks.collect::<Vec<_>>(), None, shade);
+    bottom
 }
 
 impl Chart for Map {

@@ -13,26 +13,29 @@ pub struct Listing {
     pub rows: Vec<Vec<String>>,
 }
 
-impl Listing {
-    fn markup(&self) -> String {
-        let cells = |tag: &str, texts: &[String]| -> String {
-            let cell = |text: &String| {
-                format!(
-                    "<{tag} class=\"number\">{}</{}>",
-                    escape(text),
-                    tag.split(' ').next().unwrap_or(tag)
-                )
-            };
-            texts.iter().map(cell).collect()
-        };
-        let row = |row: &Vec<String>| format!("<tr>{}</tr>\n", cells("td", row));
-        format!(
-            "<table>\n<caption>{}</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n",
-            escape(&self.caption),
-            cells("th scope=\"col\"", &self.heads),
-            self.rows.iter().map(row).collect::<String>()
-        )
-    }
+/// A table with a caption; the first cell of a row is its heading. `set` turns texts into markup.
+pub fn table(
+    caption: &str,
+    heads: &[impl AsRef<str>],
+    rows: &[Vec<String>],
+    set: fn(&str) -> String,
+) -> String {
+    let head = |text: &str| match text.is_empty() {
+        true => "<td></td>".to_owned(),
+        false => format!("<th scope=\"col\">{}</th>", set(text)),
+    };
+    let row = |row: &Vec<String>| {
+        let [first, rest @ ..] = &row[..] else { return String::new() };
+        let cells: String = rest.iter().map(|text| format!("<td>{}</td>", set(text))).collect();
+        format!("<tr><th scope=\"row\">{}</th>{cells}</tr>\n", escape(first))
+    };
+    format!(
+        "<div class=\"wide\" role=\"group\" aria-label=\"{0}\" tabindex=\"0\"><table>\
+         <caption>{0}</caption>\n<thead><tr>{1}</tr></thead>\n<tbody>\n{2}</tbody></table></div>\n",
+        set(caption),
+        heads.iter().map(|text| head(text.as_ref())).collect::<String>(),
+        rows.iter().map(row).collect::<String>()
+    )
 }
 
 /// A chart on a page, with what the reader should see in it.
@@ -68,48 +71,31 @@ pub struct Table {
 /// A number of the table: three figures, so that columns can be compared by eye and sorted when
 /// copied.
 fn cell(value: Option<f64>) -> String {
-    let text = match value {
+    match value {
         None => "–".to_owned(),
         Some(0.0) => "0".to_owned(),
         Some(value) => format!("{value:.2e}"),
-    };
-    format!("<td class=\"number\">{text}</td>")
+    }
 }
 
-fn table_markup(table: &Table) -> String {
-    let about = match table.compared_with.is_empty() {
-        true => String::new(),
-        false => {
-            format!(" Speed-up is the time of {} over the time of the row.", table.compared_with)
-        }
-    };
-    let mut markup = format!(
-        "<section>\n<h2>Numbers</h2>\n<table>\n<caption>Error, proven bound and speed of every \
-         setting.{}</caption>\n<thead><tr>",
-        escape(&about)
-    );
+fn numbers(table: &Table) -> String {
+    let mut caption = "Error, proven bound and speed of every setting.".to_owned();
+    if !table.compared_with.is_empty() {
+        let other = &table.compared_with;
+        caption += &format!(" Speed-up is the time of {other} over the time of the row.");
+    }
     let heads =
         ["method", "setting", "error", "bound", "seconds a point", "points a second", "speed-up"];
-    for (i, head) in heads.into_iter().enumerate() {
-        let class = if i < 2 { "" } else { " class=\"number\"" };
-        let _ = write!(markup, "<th scope=\"col\"{class}>{head}</th>");
-    }
-    markup.push_str("</tr></thead>\n<tbody>\n");
-    for row in &table.rows {
-        let _ = write!(
-            markup,
-            "<tr><th scope=\"row\">{}</th><td class=\"setting\">{}</td>",
-            escape(&row.method),
-            escape(&row.setting)
-        );
+    let row = |row: &Row| {
         let numbers = [Some(row.error), row.bound, Some(row.seconds), Some(1.0 / row.seconds)];
-        numbers.into_iter().for_each(|number| markup.push_str(&cell(number)));
-        let speed_up =
-            row.speed_up.map_or_else(|| "–".to_owned(), |ratio| format!("{}×", ratio_text(ratio)));
-        let _ = writeln!(markup, "<td class=\"number\">{speed_up}</td></tr>");
-    }
-    markup.push_str("</tbody>\n</table>\n</section>\n");
-    markup
+        let speed_up = row.speed_up.map(|ratio| format!("{}×", ratio_text(ratio)));
+        let texts = [row.method.clone(), row.setting.clone()].into_iter();
+        let texts = texts.chain(numbers.map(cell));
+        texts.chain([speed_up.unwrap_or_else(|| cell(None))]).collect()
+    };
+    let rows: Vec<Vec<String>> = table.rows.iter().map(row).collect();
+    let markup = self::table(&caption, &heads, &rows, escape);
+    format!("<section class=\"settings\">\n<h2>Numbers</h2>\n{markup}</section>\n")
 }
 
 /// A ratio in three figures: 0.0123, 1.23, 12.3, 1230.
@@ -156,11 +142,13 @@ pub fn page(title: &str, sections: &[Section<'_>], table: &Table) -> String {
             let _ = writeln!(page, "{}", escape(line));
         }
         page.push_str("</pre>\n</details>\n");
-        section.listing.iter().for_each(|listing| page.push_str(&listing.markup()));
+        if let Some(Listing { caption, heads, rows }) = section.listing {
+            page.push_str(&self::table(caption, heads, rows, escape));
+        }
         page.push_str("</section>\n");
     }
     if !table.rows.is_empty() {
-        page.push_str(&table_markup(table));
+        page.push_str(&numbers(table));
     }
     page.push_str("</main>\n</body>\n</html>\n");
     page
@@ -181,11 +169,11 @@ pre{font-size:12px;line-height:1.4;max-height:320px;overflow:auto;border:1px sol
 padding:8px}\
 table{border-collapse:collapse;font-size:14px;width:100%;margin-top:8px}\
 caption{text-align:left;color:#555;padding-bottom:8px}\
-th,td{text-align:left;font-weight:400;padding:4px 10px 4px 0;border-bottom:1px solid #e4e4e4;\
-vertical-align:top}\
+th,td{text-align:right;font-weight:400;padding:4px 10px 4px 0;border-bottom:1px solid #e4e4e4;\
+vertical-align:top;font-variant-numeric:tabular-nums;white-space:nowrap}\
+tr :first-child,.settings tr :nth-child(2){text-align:left}\
 thead th{font-weight:600;border-bottom:2px solid #888}\
-.setting{white-space:nowrap}\
-.number{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}\
+.wide{overflow-x:auto}\
 @media screen and (prefers-color-scheme:dark){body{background:#17191d;color:#e8e8e8}\
 summary,caption{color:#b9bcc2}pre{border-color:#3a3f47}th,td{border-color:#2c3036}\
 thead th{border-color:#757b84}}\

@@ -4,13 +4,6 @@ use crate::symbol::Symbol;
 use crate::term::Monomial;
 use std::sync::Arc;
 
-/// The union of two lists of symbols, and the way from each of them into it.
-pub(crate) struct Alignment {
-    pub symbols: Arc<[Symbol]>,
-    pub left: Places,
-    pub right: Places,
-}
-
 /// Where the symbols of a list stand in a longer one, or `None` where the lists are the same.
 /// Spreading exponents keeps the order of terms.
 pub(crate) struct Places(Option<Vec<usize>>, usize);
@@ -40,14 +33,8 @@ impl Places {
     }
 }
 
-/// The alignment of two lists of symbols. O(symbols · log); O(1) where they are one allocation.
-pub(crate) fn align(left: &Arc<[Symbol]>, right: &Arc<[Symbol]>) -> Alignment {
-    let symbols = common_symbols(left, right);
-    let (left, right) = (Places::new(left, &symbols), Places::new(right, &symbols));
-    Alignment { symbols, left, right }
-}
-
-/// The union of two lists of symbols; one of them itself where it has the other's symbols.
+/// The union of two lists of symbols; one of them itself where it has the other's symbols. O(symbols · log);
+/// O(1) where they are one allocation.
 pub(crate) fn common_symbols(left: &Arc<[Symbol]>, right: &Arc<[Symbol]>) -> Arc<[Symbol]> {
     if Arc::ptr_eq(left, right) || left == right {
         return left.clone();
@@ -75,13 +62,14 @@ mod tests {
             [("", "", ""), ("", "a", "a"), ("ac", "bd", "abcd"), ("abc", "bcd", "abcd")]
         {
             let (left, right) = (list(left), list(right));
-            let aligned = align(&left, &right);
-            assert_eq!(aligned.symbols, list(union));
-            assert_eq!(common_symbols(&right, &left), aligned.symbols);
-            for (list, places) in [(&left, &aligned.left), (&right, &aligned.right)] {
+            let symbols = common_symbols(&left, &right);
+            assert_eq!(symbols, list(union));
+            assert_eq!(common_symbols(&right, &left), symbols);
+            for list in [&left, &right] {
+                let places = Places::new(list, &symbols);
                 let exponents: Monomial = (1..=list.len() as u32).collect();
                 let wide = places.spread(&exponents);
-                let kept = aligned.symbols.iter().zip(&wide).filter(|(_, e)| **e > 0);
+                let kept = symbols.iter().zip(&wide).filter(|(_, e)| **e > 0);
                 assert!(kept.map(|(x, e)| (x, *e)).eq(list.iter().zip(exponents)));
             }
         }

@@ -49,17 +49,9 @@ impl Polynomial {
         if parts.len() > MAX_PARTS {
             return None;
         }
-        gather(parts, |some| {
-            let product = some.iter().fold(vec![BigInt::one()], |p, part| product(&p, part));
-            let Some(factor) = image.preimage(&product) else { return false };
-            let quotient = rest.divide(&factor);
-            let divides = quotient.is_some();
-            if let Some(quotient) = quotient {
-                rest = quotient;
-                add(factor);
-            }
-            divides
-        });
+        gather(parts, &mut rest, |p| image.preimage(p), Polynomial::divide)
+            .into_iter()
+            .for_each(&mut add);
         if rest.as_constant().is_none() {
             add(rest.primitive_part().1);
         }
@@ -88,19 +80,28 @@ impl Polynomial {
     }
 }
 
-/// Takes products of parts off what they are the product of, those of few parts first: `take` tells
-/// whether one was. What is left when all were tried has no factors but itself.
-fn gather<T>(mut parts: Vec<T>, mut take: impl FnMut(&[&T]) -> bool) {
+/// Takes products of parts off what they are the product of, those of few parts first, each as the factor
+/// that it stands for; returns what was taken. What is left has no factors but itself.
+fn gather<P>(
+    mut parts: Vec<Vec<BigInt>>,
+    rest: &mut P,
+    factor: impl Fn(&[BigInt]) -> Option<P>,
+    quotient: impl Fn(&P, &P) -> Option<P>,
+) -> Vec<P> {
+    let mut taken = Vec::new();
     let mut size = 1;
     while 2 * size <= parts.len() {
-        let chosen = |mask: u32| (0..parts.len()).filter(move |i| mask >> i & 1 == 1);
-        let masks = (0..1_u32 << parts.len()).filter(|mask| mask.count_ones() as usize == size);
-        let found = masks.into_iter().find(|mask| {
-            let some: Vec<&T> = chosen(*mask).map(|i| &parts[i]).collect();
-            take(&some)
+        let mut masks = (0..1_u32 << parts.len()).filter(|mask| mask.count_ones() as usize == size);
+        let found = masks.find_map(|mask| {
+            let chosen = (0..parts.len()).filter(|i| mask >> i & 1 == 1);
+            let product = chosen.fold(vec![BigInt::one()], |p, i| product(&p, &parts[i]));
+            let factor = factor(&product)?;
+            Some((mask, quotient(rest, &factor)?, factor))
         });
         match found {
-            Some(mask) => {
+            Some((mask, quotient, factor)) => {
+                *rest = quotient;
+                taken.push(factor);
                 let mut place = 0;
                 parts.retain(|_| {
                     place += 1;
@@ -110,6 +111,7 @@ fn gather<T>(mut parts: Vec<T>, mut take: impl FnMut(&[&T]) -> bool) {
             None => size += 1,
         }
     }
+    taken
 }
 
 /// Kronecker's substitution: each symbol with its degree, and the power of the one variable it becomes.
@@ -232,18 +234,7 @@ fn square_free_factors(p: &[BigInt]) -> Option<Vec<Vec<BigInt>>> {
             return None;
         }
         let mut rest = single;
-        let mut found = Vec::new();
-        gather(parts, |some| {
-            let product = some.iter().fold(vec![BigInt::one()], |p, part| product(&p, part));
-            let factor = whole(&product);
-            let quotient = quotient(&rest, &factor);
-            let divides = quotient.is_some();
-            if let Some(quotient) = quotient {
-                rest = quotient;
-                found.push(factor);
-            }
-            divides
-        });
+        let mut found = gather(parts, &mut rest, |p| Some(whole(p)), |p, q| quotient(p, q));
         // `gather` takes half of the parts at most.
         found.push(rest);
         return Some(found);

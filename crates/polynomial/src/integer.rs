@@ -1,10 +1,9 @@
 //! Integers: greatest common divisors of unequal lengths, long products, reduced fractions.
 
-use num_bigint::{BigInt, BigUint, Sign};
+use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
-use smallvec::SmallVec;
 
 /// The greatest common divisor, not negative. One remainder makes the lengths equal before the
 /// binary algorithm, whose cost is the square of the *longer* length; words have one of their own.
@@ -36,13 +35,6 @@ pub fn fraction(numerator: BigInt, denominator: BigInt) -> BigRational {
     } else {
         BigRational::new_raw(numerator / &common, denominator / common)
     }
-}
-
-/// The integer with these limbs in base `2^64`, the lowest first. One allocation.
-pub(crate) fn from_limbs(sign: Sign, limbs: &[u64]) -> BigInt {
-    let halves = limbs.iter().flat_map(|limb| [*limb as u32, (*limb >> 32) as u32]);
-    let halves: SmallVec<[u32; 64]> = halves.collect();
-    BigInt::from_biguint(sign, BigUint::from_slice(&halves))
 }
 
 #[cfg(test)]

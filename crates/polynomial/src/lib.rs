@@ -30,6 +30,8 @@ pub use num_bigint::BigInt as Integer;
 pub use num_rational::BigRational as Rational;
 pub use ordinary::Ordinary;
 pub use polynomial::Polynomial;
+#[doc(hidden)]
+pub use product::power;
 pub use row::{IntegerRef, IntegerRow};
 pub use symbol::Symbol;
 pub use univariate::Univariate;

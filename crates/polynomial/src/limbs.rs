@@ -4,6 +4,7 @@
 //! stack, and is copied when it is known how long it is.
 
 use num_bigint::BigUint;
+use smallvec::SmallVec;
 use std::cmp::Ordering;
 use std::ops::Deref;
 
@@ -122,12 +123,17 @@ pub fn subtract_shifted(row: &mut [u64], other: &[u64], place: usize, bits: u32)
         rest
     });
     if borrow {
-        let mut carry = true;
-        for limb in row {
-            (*limb, carry) = (!*limb).overflowing_add(carry.into());
-        }
+        negate(row);
     }
     borrow
+}
+
+/// The two's complement.
+pub(crate) fn negate(row: &mut [u64]) {
+    let mut carry = true;
+    for limb in row {
+        (*limb, carry) = (!*limb).overflowing_add(carry.into());
+    }
 }
 
 /// Applies a step to the limbs of a row and of another that is moved to the right by `bits` of a limb and to the left
@@ -235,7 +241,8 @@ pub fn compare(one: &[u64], other: &[u64]) -> Ordering {
     one.iter().rev().cmp(other.iter().rev())
 }
 
-/// A row as a natural number.
+/// A row as a natural number. One allocation, where it has no more than 32 limbs.
 pub fn natural(row: &[u64]) -> BigUint {
-    BigUint::new(row.iter().flat_map(|limb| [*limb as u32, (limb >> 32) as u32]).collect())
+    let halves = row.iter().flat_map(|limb| [*limb as u32, (limb >> 32) as u32]);
+    BigUint::from_slice(&halves.collect::<SmallVec<[u32; 64]>>())
 }

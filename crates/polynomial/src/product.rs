@@ -99,13 +99,19 @@ impl Div<&BigRational> for &Polynomial {
 impl Polynomial {
     /// `p^exponent`, by repeated squaring; `p^0 = 1`, also for 0. O(log exponent) products.
     pub fn pow(&self, exponent: u32) -> Polynomial {
-        let mut power = Polynomial::one();
-        for bit in (0..u32::BITS - exponent.leading_zeros()).rev() {
-            power = &power * &power;
-            if exponent >> bit & 1 == 1 {
-                power = &power * self;
-            }
-        }
-        power
+        power(Polynomial::one(), self, exponent.into(), |a, b| a * b)
     }
+}
+
+/// `base^exponent`, by repeated squaring from `one`. O(log exponent) products.
+#[doc(hidden)]
+pub fn power<T>(one: T, base: &T, exponent: u64, product: impl Fn(&T, &T) -> T) -> T {
+    let mut power = one;
+    for bit in (0..u64::BITS - exponent.leading_zeros()).rev() {
+        power = product(&power, &power);
+        if exponent >> bit & 1 == 1 {
+            power = product(&power, base);
+        }
+    }
+    power
 }

@@ -4,7 +4,7 @@
 //! would cost more than the arithmetic. Only what rows need is here: combinations of two rows,
 //! products with a word, remainders by one. Everything else goes by way of `Integer`.
 
-use crate::integer::from_limbs;
+use crate::limbs::{natural, negate};
 use num_bigint::{BigInt, Sign};
 use num_traits::ToPrimitive;
 use std::borrow::Borrow;
@@ -173,7 +173,8 @@ impl IntegerRow {
 impl IntegerRef<'_> {
     /// The integer itself. One allocation.
     pub fn to_integer(self) -> BigInt {
-        from_limbs(if self.negative { Sign::Minus } else { Sign::Plus }, self.limbs)
+        let sign = if self.negative { Sign::Minus } else { Sign::Plus };
+        BigInt::from_biguint(sign, natural(self.limbs))
     }
 
     /// Whether this is 0. O(1).
@@ -216,14 +217,6 @@ impl fmt::Debug for IntegerRow {
 impl fmt::Debug for IntegerRef<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(&self.to_integer(), f)
-    }
-}
-
-/// The two's complement.
-fn negate(limbs: &mut [u64]) {
-    let mut carry = true;
-    for limb in limbs {
-        (*limb, carry) = (!*limb).overflowing_add(u64::from(carry));
     }
 }
 

@@ -1,6 +1,6 @@
 //! Sums, differences, negatives.
 
-use crate::alignment::align;
+use crate::alignment::{Places, common_symbols};
 use crate::integer::lcm;
 use crate::polynomial::Polynomial;
 use crate::symbol::Symbol;
@@ -24,11 +24,13 @@ enum Sign {
 /// left side, moved or copied as the caller likes; the numerators of the right side are added to
 /// them in place, and copied only where the left side has no such term.
 fn merge(
-    (symbols, denominator, lefts): (&Arc<[Symbol]>, &BigInt, impl Iterator<Item = Term>),
+    (left_symbols, denominator, lefts): (&Arc<[Symbol]>, &BigInt, impl Iterator<Item = Term>),
     right: &Polynomial,
     sign: Sign,
 ) -> Polynomial {
-    let aligned = align(symbols, &right.symbols);
+    let symbols = common_symbols(left_symbols, &right.symbols);
+    let (from_left, from_right) =
+        (Places::new(left_symbols, &symbols), Places::new(&right.symbols, &symbols));
     let common = lcm(denominator, &right.denominator);
     let scale_left = &common / denominator;
     let scale_right = &common / &right.denominator;
@@ -36,7 +38,7 @@ fn merge(
 
     let mut terms = Vec::with_capacity(lefts.size_hint().0.max(right.terms.len()));
     let mut lefts = lefts.map(|mut term| {
-        aligned.left.widen(&mut term.exponents);
+        from_left.widen(&mut term.exponents);
         if rescale_left {
             term.numerator *= &scale_left;
         }
@@ -49,7 +51,7 @@ fn merge(
         } else {
             Cow::Borrowed(numerator)
         };
-        (aligned.right.spread(&term.exponents), scaled)
+        (from_right.spread(&term.exponents), scaled)
     });
     let new_term = |(exponents, value): (_, Cow<'_, BigInt>)| {
         let value = value.into_owned();
@@ -83,7 +85,7 @@ fn merge(
             }
         }
     }
-    Polynomial::from_parts(aligned.symbols, terms, common)
+    Polynomial::from_parts(symbols, terms, common)
 }
 
 /// [`merge`] into `left` itself.

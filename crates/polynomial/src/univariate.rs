@@ -1,6 +1,5 @@
 //! Dense polynomials in one unnamed variable, in the divided-power basis.
 
-use crate::binomial::multiply_by_factorial;
 use crate::integer::{fraction, gcd, lcm};
 use crate::polynomial::Polynomial;
 use crate::row::IntegerRow;
@@ -106,11 +105,6 @@ impl Univariate {
         self.coefficients.is_empty()
     }
 
-    /// The degree, or `None` for 0. O(1).
-    pub fn degree(&self) -> Option<usize> {
-        self.coefficients.len().checked_sub(1)
-    }
-
     /// The integers `c_0, c_1, …` of the divided-power form; the last is not zero. O(1).
     pub fn coefficients(&self) -> &IntegerRow {
         &self.coefficients
@@ -119,17 +113,6 @@ impl Univariate {
     /// The shared denominator `d > 0`. O(1).
     pub fn denominator(&self) -> &BigInt {
         &self.denominator
-    }
-
-    /// The reduced coefficient of `x^j` (ordinary powers), 0 beyond the degree. One gcd.
-    pub fn coefficient(&self, j: usize) -> BigRational {
-        let numerator = self.coefficients.get(j);
-        if numerator.is_zero() {
-            return BigRational::zero();
-        }
-        let mut denominator = self.denominator.clone();
-        multiply_by_factorial(&mut denominator, index(j));
-        fraction(numerator.to_integer(), denominator)
     }
 
     /// `a p + b q`. O(degree) where the factors over the common denominator fit 32 bits.

@@ -1,36 +1,24 @@
 //! The arguments of the command, with their help.
 
 mod advise;
-mod book;
 mod certify;
 mod derive;
-mod dispersion;
-mod eval;
-mod events;
-mod export;
-mod find;
-mod hertz;
 mod locks;
 mod pictures;
-mod report;
+mod studies;
 mod sweep;
 mod tools;
+mod values;
 
 pub use advise::Advise;
-pub use book::Book;
 pub use certify::Certify;
 pub use derive::Derive;
-pub use dispersion::Dispersion;
-pub use eval::Eval;
-pub use events::Events;
-pub use export::Export;
-pub use find::Find;
-pub use hertz::Hertz;
 pub use locks::{Check, Lock};
 pub use pictures::{Chart, Field, Figure, Plot};
-pub use report::Report;
+pub use studies::{Book, Dispersion, Events, Hertz, Report};
 pub use sweep::Sweep;
 pub use tools::{Generate, Generated, Scenes};
+pub use values::{Eval, Export, Find};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand as Subcommands, ValueHint};

@@ -8,7 +8,7 @@ use wavestep::scene::{Drive, ElementIndex};
 
 /// The elements, the ends among them, with the waves that the laws are stated in.
 pub fn line(network: &Network, writer: &mut Writer) -> Json {
-    let layout = &network.as_ref().layout;
+    let layout = &network.layout;
     let drawing = Drawing { network, layout, writer, drawn: Vec::new() };
     drawing.whole()
 }

@@ -40,7 +40,7 @@ impl<'a> Read<'a> {
     ) -> Result<Option<Read<'a>>, Failure> {
         let Ok(network) = problem.network() else { return Ok(None) };
         let line = Line::of(problem, Contacts::of(network.scene()))?;
-        let measured = network.as_ref().measures.iter().find(|measured| measured.name == name);
+        let measured = network.measures.iter().find(|measured| measured.name == name);
         let Some((measured, MeasuredValue::Linear(terms))) = measured.map(|own| (own, &own.value))
         else {
             return Ok(None);
@@ -126,7 +126,7 @@ impl<'a> Read<'a> {
 
 /// `[coefficient, what, element, …]`: of bars with the delays of both waves, of springs with a side.
 fn read(line: &Line<'_>, term: &Term, writer: &mut Writer) -> Option<Json> {
-    let layout = &line.network.as_ref().layout;
+    let layout = &line.network.layout;
     let name = |element: usize| &line.network.scene().elements[element].name;
     let lump = |lump: &Lump| &layout.nodes[lump.node].elements[lump.place];
     let coefficient = writer.function(&term.coefficient);

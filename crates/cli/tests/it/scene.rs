@@ -268,7 +268,7 @@ fn pieces_with_named_rates_are_told_while_they_are_short() {
     }
     let (code, _, told) = run(&folder, &["derive", "springs.wave", "--through", "2"]);
     let remedy = "derive through that order, or evaluate it";
-    assert!(code == 1 && told.contains("echoes of order 1 have 23675 terms"), "{told}");
+    assert!(code == 1 && told.contains("echoes of order 1 have at least "), "{told}");
     assert!(told.contains(remedy), "{told}");
     let (_, out, _) =
         run(&folder, &["derive", "dashpots.wave", "--wave", "f_p1", "--through", "0"]);

@@ -311,8 +311,8 @@ fn texts_do_not_overlap_and_stay_inside() {
 fn pictures() -> Vec<Box<dyn Chart>> {
     let line = |name: &str| Series::new(name, (0..50).map(|i| (f64::from(i), 1.0)).collect());
     let panel = |name: &str| {
-        let panel = Panel::new(Axis::linear(name), vec![line("one"), line("two")]);
-        (1..9).fold(panel, |panel, i| panel.level(1.0 + 0.1 * f64::from(i), "limit"))
+        let levels = (1..9).map(|i| (1.0 + 0.1 * f64::from(i), "limit".to_owned())).collect();
+        Panel { levels, ..Panel::new(Axis::linear(name), vec![line("one"), line("two")]) }
     };
     let panels = vec![panel("velocity"), panel("force")];
     let figure = Figure::new("Figure", Axis::linear("time"), panels, caption()).unwrap();

@@ -8,7 +8,7 @@ use super::error::FixedError;
 use super::multiplier::Multiplier;
 use super::position::{ExactTime, Position, Reduction};
 use super::scheme::Scheme;
-use super::value::{FRACTION_BITS, round_to_double};
+use super::value::{FRACTION_BITS, FixedValue, round_to_double};
 use super::walk::Walk;
 use crate::Limit;
 use crate::exponent::scale;
@@ -67,7 +67,7 @@ pub fn certified<T: ExactTime>(
     }
     seen.sort_by_key(|seen| seen.position.period);
     let sums = match seen.last() {
-        None => vec![Sum::default(); times.len()],
+        None => vec![FixedValue::default(); times.len()],
         Some(last) => {
             let periods = last.position.period + 1;
             let scheme = Scheme::for_doubles(equation, periods)?;
@@ -76,7 +76,7 @@ pub fn certified<T: ExactTime>(
     };
     let fraction_bits = i64::from(FRACTION_BITS) - shift;
     let mut undecided = Vec::new();
-    let double = |(place, Sum { midpoint, radius }): (usize, Sum)| {
+    let double = |(place, FixedValue { midpoint, radius }): (usize, FixedValue)| {
         round_to_double(midpoint, radius, fraction_bits).unwrap_or_else(|| {
             undecided.push(place);
             scale(midpoint as f64, -fraction_bits)
@@ -94,16 +94,13 @@ struct Seen {
     position: Position,
 }
 
-/// A weighted sum in units, and how far it is off at most.
-#[derive(Clone, Copy, Default)]
-struct Sum {
-    midpoint: i128,
-    radius: u128,
-}
-
 /// So many sums of the solution, at positions by ascending periods.
-fn weighted_sums(scheme: Scheme, seen: &[Seen], count: usize) -> Result<Vec<Sum>, FixedError> {
-    let mut sums = vec![Sum::default(); count];
+fn weighted_sums(
+    scheme: Scheme,
+    seen: &[Seen],
+    count: usize,
+) -> Result<Vec<FixedValue>, FixedError> {
+    let mut sums = vec![FixedValue::default(); count];
     let Some(last) = seen.last() else { return Ok(sums) };
     let mut rest = seen;
     Walk::new(scheme).through(last.position.period, |number, period| {

@@ -13,7 +13,7 @@ const LEAST_PLACE: i64 = -1074;
 const LARGEST_PLACE: i64 = 1024;
 
 /// A real number within `radius` of `midpoint`, both in units of `2^−112`.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct FixedValue {
     /// The middle of the interval.
     pub midpoint: i128,

@@ -10,7 +10,6 @@ mod bound;
 pub mod chebyshev;
 mod compensated;
 mod error;
-mod first_order;
 mod number;
 mod reflection;
 mod relaxation;

@@ -73,7 +73,7 @@ pub struct March {
     front: f64,
     drift: f64,
     largest: f64,
-    step: Relaxation,
+    step: Relaxation<f64>,
     certificate: Option<Certificate>,
     failed: Option<MarchError>,
 }

@@ -7,8 +7,8 @@
 
 use super::chebyshev;
 use super::error::MarchError;
-use super::first_order::{FirstOrder, differentiate, value_at_one, value_at_zero};
 use super::number::{Complex, Scalar};
+use super::relaxation::{Relaxation, differentiate, value_at_one, value_at_zero};
 use super::system::{State, Term, WaveStep, WaveSystem};
 use std::borrow::Cow;
 use std::collections::VecDeque;
@@ -35,7 +35,7 @@ struct Piece<T> {
 pub struct WaveMarch<T> {
     system: WaveSystem<T>,
     /// By step, where it has a state: how it is solved on a span, and `z` at the end of the last one.
-    states: Vec<Option<(FirstOrder<T>, T)>>,
+    states: Vec<Option<(Relaxation<T>, T)>>,
     spans: usize,
     period: usize,
     /// The pieces of this period, then of those before: `kept[lag][wave]`.
@@ -62,7 +62,7 @@ impl<T: Scalar> WaveMarch<T> {
         let part = T::from(1.0 / spans as f64);
         let state = |step: &WaveStep<T>| {
             let state = step.state.as_ref()?;
-            Some((FirstOrder::new(state.rate * part), state.initial))
+            Some((Relaxation::new(-(state.rate * part), -T::ONE), state.initial))
         };
         let mut march = WaveMarch {
             states: system.steps.iter().map(state).collect(),
@@ -213,7 +213,7 @@ impl<T: Scalar> WaveMarch<T> {
     fn wave(
         &self,
         step: &WaveStep<T>,
-        state: Option<&mut (FirstOrder<T>, T)>,
+        state: Option<&mut (Relaxation<T>, T)>,
         mut largest: f64,
         [right, z, slope]: &mut [Vec<T>; 3],
     ) -> Result<(Piece<T>, f64), MarchError> {

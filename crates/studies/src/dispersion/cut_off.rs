@@ -11,7 +11,7 @@ use num_traits::{One, Zero};
 use wavestep_polynomial::Rational;
 
 use super::error::{DispersionError, place};
-use super::relation::{Relation, value};
+use super::relation::{Quantity, Relation, value};
 use super::series::Fault;
 use wavestep::ball::Ball;
 
@@ -163,7 +163,7 @@ fn narrowed(
             Some(Less) => from = middle.clone(),
             _ => {}
         }
-        if let Ok(slope) = value(relation.group_velocity(), &whole, working)
+        if let Ok(slope) = value(relation.formula(Quantity::GroupVelocity), &whole, working)
             && let Ok(inverse) = slope.reciprocal(working)
         {
             let (left, right) = at.subtract(&g.multiply(&inverse, working), working).endpoints();

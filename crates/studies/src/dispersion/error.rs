@@ -95,7 +95,7 @@ fn best_known(best: Option<&Ball>) -> String {
     best.map_or_else(String::new, |best| format!("; the best enclosure is {best}"))
 }
 
-/// Why times, lengths and counts make no grid.
+/// Why times and counts make no grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoGrid {
@@ -103,10 +103,6 @@ pub enum NoGrid {
     WaveNumber,
     #[error("the time of travel is not positive")]
     Time,
-    #[error("the length of the grid is not positive")]
-    Length,
-    #[error("the grid is too short: it has fewer than four components")]
-    TooShort,
     #[error(
         "the grid would need more than {limit} points: take a shorter time of travel, or a longer pulse"
     )]

@@ -24,7 +24,7 @@ pub use peak::{
     Component, PeakVelocity, exact_peak_velocity, peak_velocity, peak_velocity_at,
     peak_velocity_by_quadrature, peak_velocity_of_sum,
 };
-pub use propagate::{Seen, Travel, propagate};
+pub use propagate::{Seen, propagate};
 pub use pulse::{Pulse, Shape};
 pub use read::{read_relation, read_spectrum};
 pub use relation::{Quantity, Relation};

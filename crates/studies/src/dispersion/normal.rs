@@ -32,8 +32,10 @@ pub(super) fn sum(terms: impl IntoIterator<Item = Formula>) -> Formula {
         }
     }
     collected.retain(|_, coefficient| !coefficient.is_zero());
-    let terms: Vec<Formula> =
-        collected.iter().map(|(rest, coefficient)| scaled(coefficient, rest)).collect();
+    let terms: Vec<Formula> = collected
+        .iter()
+        .map(|(rest, number)| joined(number, rest.factors().iter().cloned()))
+        .collect();
     match terms.len() {
         0 => Formula::zero(),
         1 => terms.into_iter().next().expect("one term"),
@@ -43,32 +45,10 @@ pub(super) fn sum(terms: impl IntoIterator<Item = Formula>) -> Formula {
 
 /// The number in front, and the rest, which is 1 for a number.
 fn split(term: &Formula) -> (Rational, Formula) {
-    match term.node() {
-        Node::Number(value) => (value.clone(), Formula::one()),
-        Node::Product(factors) => match factors[0].node() {
-            Node::Number(value) if factors.len() == 2 => (value.clone(), factors[1].clone()),
-            Node::Number(value) => {
-                (value.clone(), Formula::new(Node::Product(factors[1..].to_vec())))
-            }
-            _ => (Rational::one(), term.clone()),
-        },
-        _ => (Rational::one(), term.clone()),
-    }
-}
-
-/// A number, not zero, times what [`split`] left.
-fn scaled(coefficient: &Rational, rest: &Formula) -> Formula {
-    if coefficient.is_one() {
-        return rest.clone();
-    }
-    match rest.node() {
-        Node::Number(value) => Formula::number(&(coefficient * value)),
-        Node::Product(factors) => {
-            let mut all = vec![Formula::number(coefficient)];
-            all.extend(factors.iter().cloned());
-            Formula::new(Node::Product(all))
-        }
-        _ => Formula::new(Node::Product(vec![Formula::number(coefficient), rest.clone()])),
+    let factors = term.factors();
+    match factors[0].as_number() {
+        Some(value) => (value.clone(), joined(&Rational::one(), factors[1..].iter().cloned())),
+        None => (Rational::one(), term.clone()),
     }
 }
 
@@ -214,12 +194,12 @@ pub(super) fn power(base: &Formula, exponent: &Rational) -> Formula {
     if exponent.is_one() {
         return base.clone();
     }
+    let plain = || raw_power(base.clone(), exponent.clone());
     match base.node() {
         Node::Number(value) => match rational_power(value, exponent) {
             Some(power) => Formula::number(&power),
-            None => Formula::new(Node::Power(base.clone(), exponent.clone())),
+            None => plain(),
         },
-        Node::Symbol(_) => raw_power(base.clone(), exponent.clone()),
         // Symbols are positive, and so is what a root was taken of.
         Node::Power(inner, first)
             if exponent.is_integer()
@@ -228,7 +208,6 @@ pub(super) fn power(base: &Formula, exponent: &Rational) -> Formula {
         {
             power(inner, &(first * exponent))
         }
-        Node::Power(..) => raw_power(base.clone(), exponent.clone()),
         Node::Product(factors) if exponent.is_integer() => {
             product(factors.iter().map(|factor| power(factor, exponent)))
         }
@@ -253,18 +232,16 @@ pub(super) fn power(base: &Formula, exponent: &Rational) -> Formula {
         Node::Function(Function::Exponential, z) => {
             z.multiply(&Formula::number(exponent)).apply(Function::Exponential)
         }
-        Node::Function(..) => raw_power(base.clone(), exponent.clone()),
-        Node::Sum(_) if exponent.is_integer() && exponent.is_positive() => {
-            product([raw_power(base.clone(), exponent.clone())])
-        }
+        Node::Sum(_) if exponent.is_integer() && exponent.is_positive() => product([plain()]),
         Node::Sum(terms) => match common_monomial(terms) {
-            None => raw_power(base.clone(), exponent.clone()),
+            None => plain(),
             Some(monomial) => {
                 let inverse = power(&monomial, &-Rational::one());
                 let rest = sum(terms.iter().map(|term| product([term.clone(), inverse.clone()])));
                 product([power(&monomial, exponent), raw_power(rest, exponent.clone())])
             }
         },
+        Node::Symbol(_) | Node::Power(..) | Node::Function(..) => plain(),
     }
 }
 

@@ -11,7 +11,7 @@ use super::error::{DispersionError, NoGrid, place};
 use super::formula::{Formula, wave_number};
 use super::pulse::{Pulse, Shape};
 use super::quadrature::integrate;
-use super::relation::{Relation, certified, value};
+use super::relation::{Quantity, Relation, certified, value};
 use crate::ratio;
 use wavestep::ball::{Ball, Value};
 use wavestep::field::Bounded;
@@ -50,7 +50,7 @@ fn power(base: &Formula, exponent: i64) -> Formula {
 
 /// The velocity of all waves, where it is one: then every sum of them has it too.
 fn common_velocity(relation: &Relation) -> Option<Formula> {
-    let velocity = relation.phase_velocity();
+    let velocity = relation.formula(Quantity::PhaseVelocity);
     (!velocity.symbols().contains(&wave_number())).then(|| velocity.clone())
 }
 

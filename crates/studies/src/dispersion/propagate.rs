@@ -24,29 +24,8 @@ const LEAST_WAVES: f64 = 256.0;
 /// the fourth order in the step.
 const END_WEIGHTS: [f64; 3] = [3.0 / 8.0, 7.0 / 6.0, 23.0 / 24.0];
 const MAX_POINTS: usize = 1 << 20;
-/// How near the cut-off a component counts as being there, relatively.
-const ON_GRID: f64 = 1e-9;
 /// Steps of Newton's method for the place of the peak.
 const NEWTON_STEPS: usize = 8;
-
-/// Until when a pulse travels, and on which grid.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Travel {
-    /// The time `T > 0`.
-    pub time: f64,
-    /// The length of the period of the grid; without one, the next multiple of `2π/k_co`, at least
-    /// 256 of them, that holds four times the way of the fastest component.
-    pub length: Option<f64>,
-    /// How many points; without a number, the next power of two that gives the shortest wave sixteen.
-    pub points: Option<usize>,
-}
-
-impl Travel {
-    /// A journey until this time, on a grid that fits.
-    pub const fn until(time: f64) -> Travel {
-        Travel { time, length: None, points: None }
-    }
-}
 
 /// What is seen of a pulse at the end of its way.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,45 +49,34 @@ struct Wave {
     omega: f64,
 }
 
-/// Sends a pulse, made of the components up to its cut-off, on its way.
+/// Sends a pulse, made of the components up to its cut-off, on its way until the time `T > 0`.
 ///
-/// The period of the grid stands for endless space as long as nothing that matters has gone half a
-/// period; the step of wavenumbers is `2π/length`. Where the cut-off is a component of the grid, as it
-/// is without a length of one's own, the sum stands for the integral over wavenumbers, with Gregory's
-/// weights at both ends. Not proven: rank *tested*.
+/// The period of the grid is the next multiple of `2π/k_co`, at least 256 of them, that holds four times
+/// the way of the fastest component. It stands for endless space as long as nothing that matters has gone
+/// half a period; the step of wavenumbers is `2π/length`. The cut-off is a component of the grid, so the
+/// sum stands for the integral over wavenumbers, with Gregory's weights at both ends. Without a number of
+/// points, it is the next power of two that gives the shortest wave sixteen. Not proven: rank *tested*.
 /// Takes a ball evaluation for each component, and a transform of `points` numbers.
 pub fn propagate(
     relation: &Relation,
     pulse: &Pulse,
-    travel: Travel,
+    time: f64,
+    points: Option<usize>,
 ) -> Result<Seen, DispersionError> {
-    let Travel { time, length, points } = travel;
     if !(time > 0.0 && time.is_finite()) {
         return Err(NoGrid::Time.into());
     }
     let (cut_off, _) = pulse.cut_off(relation, BITS)?.to_double();
-    let length = match length {
-        Some(length) if length > 0.0 && length.is_finite() => length,
-        Some(_) => return Err(NoGrid::Length.into()),
-        None => {
-            let wave = 2.0 * PI / cut_off;
-            let way = 4.0 * fastest(relation, cut_off)? * time;
-            (LEAST_WAVES + way / wave).ceil() * wave
-        }
-    };
+    let wave = 2.0 * PI / cut_off;
+    let way = 4.0 * fastest(relation, cut_off)? * time;
+    let last = (LEAST_WAVES + way / wave).ceil();
+    let length = last * wave;
     let step = 2.0 * PI / length;
-    let last = (cut_off / step * (1.0 + ON_GRID)).floor();
-    let on_grid = (last * step / cut_off - 1.0).abs() <= ON_GRID && last >= 8.0;
-    if last < 4.0 {
-        return Err(NoGrid::TooShort.into());
-    }
-    let wanted = length * cut_off / (2.0 * PI) * POINTS_A_WAVE;
+    let wanted = last * POINTS_A_WAVE;
     let points = match points {
         Some(points) => points,
         None if wanted <= MAX_POINTS as f64 => (wanted.ceil() as usize).next_power_of_two(),
-        None => {
-            return Err(NoGrid::TooLong { limit: MAX_POINTS }.into());
-        }
+        None => return Err(NoGrid::TooLong { limit: MAX_POINTS }.into()),
     };
     if points > MAX_POINTS || (points as f64) <= 2.0 * last {
         return Err(NoGrid::Points { limit: MAX_POINTS }.into());
@@ -119,11 +87,7 @@ pub fn propagate(
         let k = step * j as f64;
         let ball = Ball::from_rational(&Rational::from_f64(k).expect("a finite number"), BITS);
         let double = |formula| value(formula, &ball, BITS).map(|ball| ball.to_double().0);
-        let weight = match (on_grid, END_WEIGHTS.get(j.min(last as usize - j))) {
-            (true, Some(weight)) => *weight,
-            (false, _) if j == 0 => 0.5,
-            _ => 1.0,
-        };
+        let weight = END_WEIGHTS.get(j.min(last as usize - j)).unwrap_or(&1.0);
         let amplitude = weight * double(&spectrum)?;
         waves.push(Wave { k, amplitude, omega: double(relation.frequency())? });
     }

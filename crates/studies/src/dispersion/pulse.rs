@@ -10,7 +10,7 @@ use wavestep_polynomial::Rational;
 use super::cut_off::cut_off_of_duration;
 use super::error::DispersionError;
 use super::formula::{Formula, Function, wave_number};
-use super::relation::{Relation, value};
+use super::relation::{Quantity, Relation, value};
 use wavestep::ball::Ball;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,7 +125,7 @@ impl Pulse {
             }
             (Content::Shape(shape), Extent::Duration(duration)) => {
                 let z = relation.frequency().multiply(&Formula::number(duration));
-                shape.spectrum(&z).multiply(relation.group_velocity())
+                shape.spectrum(&z).multiply(relation.formula(Quantity::GroupVelocity))
             }
         }
     }

@@ -50,16 +50,6 @@ impl Relation {
         &self.frequency
     }
 
-    /// `c_p = ω/k`.
-    pub fn phase_velocity(&self) -> &Formula {
-        &self.phase_velocity
-    }
-
-    /// `c_g = dω/dk`.
-    pub fn group_velocity(&self) -> &Formula {
-        &self.group_velocity
-    }
-
     pub fn formula(&self, quantity: Quantity) -> &Formula {
         match quantity {
             Quantity::Frequency => &self.frequency,

@@ -4,12 +4,12 @@
 //! Where `k₀` is a point, the coefficients are those at the point; where it is an interval, each `c_n`
 //! contains `f⁽ⁿ⁾(ξ) hⁿ/n!` for all its points `ξ`, which bounds remainders.
 
-use num_traits::{One, Signed, ToPrimitive as _, Zero};
+use num_traits::{One, Signed, ToPrimitive as _};
 use wavestep_polynomial::{Integer, Rational, Symbol};
 
 use super::formula::{Formula, Function, Node, pi, wave_number};
 use crate::ratio;
-use wavestep::ball::{Ball, BallError, Magnitude};
+use wavestep::ball::{Ball, BallError, Binary, Magnitude};
 
 /// Arguments of `sinc` below this are summed as a power series.
 const SINC_NEAR: i64 = 8;
@@ -80,8 +80,7 @@ impl Series {
 
     /// `(fg)_n = Σ_j f_j g_{n−j}`.
     pub(super) fn multiply(&self, other: &Series, bits: u64) -> Series {
-        let coefficient = |n| dot(&self.0[..=n], &other.0[..=n], bits);
-        Series((0..self.len()).map(coefficient).collect())
+        Series(Ball::product_of_polynomials(&self.0, &other.0, self.len(), bits))
     }
 
     /// `y = f^r` from `f y' = r f' y`: `n f_0 y_n = Σ_{j=1}^n (rj − (n − j)) f_j y_{n−j}`.
@@ -118,10 +117,7 @@ impl Series {
             if !nonnegative || self.len() > 1 || exponent.is_negative() {
                 return Err(Fault::RootOfZero);
             }
-            // All values are between 0 and the largest one.
-            let top = Rational::from(base.midpoint()) + Rational::from(&base.radius().to_binary());
-            let (_, largest) = root_bounds(&top, exponent, bits);
-            return Ok(Series(vec![Ball::between(&Rational::zero(), &largest, bits)]));
+            return Ok(Series(vec![root(base, exponent, bits)?]));
         }
         if base.midpoint().is_negative() {
             return Err(Fault::NotReal);
@@ -131,10 +127,7 @@ impl Series {
             let count = exponent.numer().abs().to_u64().expect("an exponent within limits");
             Series(vec![root]).whole_power(count, bits).0.remove(0)
         } else {
-            let [low, high] = <[_; 2]>::from(base.endpoints()).map(|end| Rational::from(&end));
-            let (low, _) = root_bounds(&low, &exponent.abs(), bits);
-            let (_, high) = root_bounds(&high, &exponent.abs(), bits);
-            Ball::between(&low, &high, bits)
+            root(base, &exponent.abs(), bits)?
         };
         let first = if exponent.is_negative() { first.reciprocal(bits)? } else { first };
         self.power_by_recurrence(exponent, first, bits)
@@ -262,22 +255,15 @@ fn dot(left: &[Ball], right: &[Ball], bits: u64) -> Ball {
     products.fold(Ball::zero(), |sum, product| sum.add(&product, bits))
 }
 
-/// Rationals `a ≤ x^r ≤ b` for `x ≥ 0`, `r > 0`, about `2^{−bits}` apart, from the integer root of
-/// `x^p 2^{qn}`, `r = p/q`.
-fn root_bounds(x: &Rational, r: &Rational, bits: u64) -> (Rational, Rational) {
-    if !x.is_positive() {
-        return (Rational::zero(), Rational::zero());
-    }
-    let degree = r.denom().to_u32().expect("an exponent within limits");
-    let power = x.pow(r.numer().to_i32().expect("an exponent within limits"));
-    // Enough places that small roots have their digits as well.
-    let small = (power.denom().bits() - power.numer().bits().min(power.denom().bits()))
-        .div_ceil(u64::from(degree));
-    let places = bits + small + 8;
-    let scaled = (power.numer() << (places * u64::from(degree))) / power.denom();
-    let root = scaled.nth_root(degree);
-    let unit = Integer::one() << places;
-    (Rational::new(root.clone(), unit.clone()), Rational::new(root + 1, unit))
+/// `x^r` for all numbers of a ball that are not negative, `r > 0`; from 0 on where it contains zero.
+fn root(x: &Ball, r: &Rational, bits: u64) -> Result<Ball, Fault> {
+    let power = |end: Binary| match end.is_negative() || end.is_zero() {
+        true => Ok(Ball::zero()),
+        false => Ball::new(end, Magnitude::ZERO).power(r, bits),
+    };
+    let (low, high) = x.endpoints();
+    let (low, high) = (power(low)?.endpoints().0, power(high)?.endpoints().1);
+    Ok(Ball::between(&Rational::from(&low), &Rational::from(&high), bits))
 }
 
 impl Formula {

@@ -39,14 +39,14 @@ fn snapshots(
     }
     let mut panels = Vec::new();
     for (place, (_, quantity)) in quantities.iter().enumerate() {
-        let own = || found.iter().map(|figure| &figure.panels()[place].series()[0]);
+        let own = || found.iter().map(|figure| &figure.panels()[place].series[0]);
         let values = || own().flat_map(|own| &own.points).map(|point| point.1);
         // NaN, which interrupts a line, is neither least nor greatest.
         let (low, high) = (values().fold(0.0, f64::min), values().fold(0.0, f64::max));
         for (own, (_, name)) in own().zip(times) {
             let series = Series { name: (*name).to_owned(), ..own.clone() }.styled(0);
-            let panel = Panel::new(Axis::linear(quantity), vec![series]).reaching(low, high);
-            panels.push(panel.named_at_ends());
+            let panel = Panel::new(Axis::linear(quantity), vec![series]);
+            panels.push(Panel { range: Some((low, high)), named_at_ends: true, ..panel });
         }
     }
     let (left, right) = found[0].extent();

@@ -24,7 +24,8 @@ pub(super) fn rise(listed: &Listed) -> Drawn {
     };
     let hertz = Series::new("Hertz, m = 3/2", curve(PowerLaw::hertz())?);
     let spring = Series::new("linear spring", curve(PowerLaw::new(ratio(1, 1))?)?);
-    let panel = Panel::new(Axis::linear("X/X_max"), vec![hertz, spring]).level(1.0, "limit");
+    let panel = Panel::new(Axis::linear("X/X_max"), vec![hertz, spring]);
+    let panel = Panel { levels: vec![(1.0, "limit".to_owned())], ..panel };
     let time = Axis::linear("dimensionless time t h^(2/3) V^(1/3)");
     let remarks = [
         "Two long bars; 6.51 and 6.55, values certified. h = k (1/Z1 + 1/Z2), the force is k times the \

@@ -90,7 +90,8 @@ pub(super) fn largest_strains(listed: &Listed) -> Drawn {
     let estimate = dense.map(|ratio| (nearest(&ratio), double(&Estimate::Better.of(&ratio))));
     let estimate = Series::new("estimate 6.86", estimate.collect()).look(Look::Thin);
     series.push(estimate.styled(SOLID_BLACK));
-    let panel = Panel::new(Axis::linear("largest strain −εL c/V"), series).named_at_ends();
+    let panel = Panel::new(Axis::linear("largest strain −εL c/V"), series);
+    let panel = Panel { named_at_ends: true, ..panel };
     let remarks =
         ["2 f_n(0): the front of the n-th period, doubled at the fixed end, as long as the \
                     contact pushes. Marked: where the next period has the largest strain."];

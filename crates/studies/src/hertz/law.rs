@@ -56,10 +56,6 @@ pub struct Share {
     pub compression: Ball,
 }
 
-fn exact(value: &Rational, precision: u64) -> Ball {
-    Ball::from_rational(value, precision)
-}
-
 fn one() -> Ball {
     Ball::from_integer(&1.into())
 }
@@ -109,8 +105,8 @@ impl PowerLaw {
         // For small shares `t̄ ≈ φ^{1/m}`.
         let steep = self.exponent.recip().ceil().to_integer().to_u64().unwrap_or(1);
         let working = precision + below_one(&deficit) + steep * below_one(share) + 16;
-        let force = exact(share, working);
-        let deficit = exact(&deficit, working);
+        let force = Ball::from_rational(share, working);
+        let deficit = Ball::from_rational(&deficit, working);
         match Rise::new(&self.exponent) {
             Some(rise) => {
                 let p = force.power(&ratio(1, rise.exponents[0].into()), working)?;
@@ -127,7 +123,7 @@ impl PowerLaw {
         deficit: &Ball,
         precision: u64,
     ) -> Result<Ball, HertzError> {
-        let half = exact(&ratio(1, 2), 4);
+        let half = Ball::from_rational(&ratio(1, 2), 4);
         if !half.is_below(force) {
             let compression = force.power(&self.exponent.recip(), precision)?;
             return Ok(self.first_series(&compression, force, precision));
@@ -176,7 +172,7 @@ impl PowerLaw {
 
     /// `t̄(1/2) + (ln(1/2) + S(1/2))/m`.
     fn late_constant(&self, precision: u64) -> Result<Ball, HertzError> {
-        let half = exact(&ratio(1, 2), 4);
+        let half = Ball::from_rational(&ratio(1, 2), 4);
         let compression = half.power(&self.exponent.recip(), precision)?;
         let middle = self.first_series(&compression, &half, precision);
         let rest = half.ln(precision)?.add(&self.second_series(&half, precision), precision);
@@ -193,7 +189,7 @@ impl PowerLaw {
         if time.is_negative() {
             return Err(HertzError::Time(time.to_string()));
         }
-        self.share_at(&exact(time, precision + 64), precision)
+        self.share_at(&Ball::from_rational(time, precision + 64), precision)
     }
 
     /// The same for an enclosed time, which must not be negative.
@@ -202,7 +198,7 @@ impl PowerLaw {
         if time.magnitude() == Magnitude::ZERO {
             return Ok(Share { force: Ball::zero(), deficit: one(), compression: Ball::zero() });
         }
-        if exact(&ratio(VERY_LATE, 1), 4).is_below(time) {
+        if Ball::from_rational(&ratio(VERY_LATE, 1), 4).is_below(time) {
             // 1 − φ ≤ max(1, m) e^{−t̄ min(1, m)} ≤ 100 e^{−t̄/10}: from 1 − β^m ≥ 1 − β where m ≥ 1, else
             // from t̄ ≤ −ln(1 − φ)/m.
             let deficit = Ball::zero().widened(&Magnitude::power_of_two(-VERY_LATE / 8));
@@ -216,7 +212,7 @@ impl PowerLaw {
             let force = one().subtract(&deficit, working);
             return Ok(Share { compression: force.clone(), force, deficit });
         }
-        let half = exact(&ratio(1, 2), 4);
+        let half = Ball::from_rational(&ratio(1, 2), 4);
         let compression = half.power(&self.exponent.recip(), working)?;
         let middle = self.first_series(&compression, &half, working);
         if time.is_below(&middle) { self.early(time, working) } else { self.late(time, working) }
@@ -295,20 +291,16 @@ fn newton(
     step: impl Fn(&Ball, u64) -> Result<[Ball; 2], HertzError>,
 ) -> Result<[Ball; 2], HertzError> {
     let precisions = Precisions::doubling(80, working);
-    let (mut near, mut good) = (rational(start), precisions.first());
+    let mut near = Rational::from_float(start).expect("a finite number");
+    let mut good = precisions.first();
     loop {
         let bits = good + 16;
-        let at = exact(&near, bits);
+        let at = Ball::from_rational(&near, bits);
         let [residual, slope] = step(&at, bits)?;
         let Some(more) = precisions.after(good) else { return Ok([at, residual]) };
         near = Rational::from(at.add(&residual.multiply(&slope, bits), bits).midpoint());
         good = more;
     }
-}
-
-fn rational(value: f64) -> Rational {
-    let ball = wavestep::ball::Binary::from_double(value).expect("a finite number");
-    Rational::from(&ball)
 }
 
 /// The closed form by `p = φ^{1/P}` and `1 − φ`.

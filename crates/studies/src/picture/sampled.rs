@@ -41,14 +41,11 @@ pub fn sampled(function: &dyn Signal) -> Result<Sampled, EvaluateError> {
         form.foresee(to)?;
     }
     let count = function.count()?;
-    let ends: Result<Vec<Ends>, _> =
-        (0..count).map(|stretch| Ends::of(function, stretch)).collect();
-    let sampler = Sampler { function, ends: ends?, largest: Cell::new(0.0) };
-    let [first, last] = [sampler.ends.first(), sampler.ends.last()].map(|ends| {
-        let ends = ends.expect("a window has a stretch");
-        [double(&ends.from), double(&ends.to)]
-    });
-    let window = last[1] - first[0];
+    let ends = (0..count).map(|stretch| ends(function, stretch)).collect::<Result<Vec<_>, _>>()?;
+    let sampler = Sampler { function, ends, largest: Cell::new(0.0) };
+    let ends = sampler.ends.first().zip(sampler.ends.last());
+    let ([first, _], [_, last]) = ends.expect("a window has a stretch");
+    let window = double(last) - double(first);
     let mut coarse = Vec::with_capacity(count);
     for stretch in 0..count {
         coarse.push(sampler.coarse(stretch, window)?);
@@ -78,21 +75,12 @@ pub fn sampled(function: &dyn Signal) -> Result<Sampled, EvaluateError> {
 type Point = (f64, f64, f64);
 
 /// Where a stretch begins and ends: exactly, or as near as no picture shows.
-struct Ends {
-    from: Rational,
-    to: Rational,
-}
-
-impl Ends {
-    fn of(function: &dyn Signal, stretch: usize) -> Result<Ends, EvaluateError> {
-        let near = |end| -> Result<Rational, EvaluateError> {
-            Ok(match function.exact_time(stretch, end) {
-                Some(time) => time,
-                None => Rational::from(function.time(stretch, end, FIRST_BITS)?.midpoint()),
-            })
-        };
-        Ok(Ends { from: near(Limit::Right)?, to: near(Limit::Left)? })
-    }
+fn ends(function: &dyn Signal, stretch: usize) -> Result<[Rational; 2], EvaluateError> {
+    let near = |end| match function.exact_time(stretch, end) {
+        Some(time) => Ok(time),
+        None => function.time(stretch, end, FIRST_BITS).map(|ball| Rational::from(ball.midpoint())),
+    };
+    Ok([near(Limit::Right)?, near(Limit::Left)?])
 }
 
 fn double(time: &Rational) -> f64 {
@@ -101,7 +89,7 @@ fn double(time: &Rational) -> f64 {
 
 struct Sampler<'a> {
     function: &'a dyn Signal,
-    ends: Vec<Ends>,
+    ends: Vec<[Rational; 2]>,
     /// The largest absolute value so far.
     largest: Cell<f64>,
 }
@@ -109,7 +97,7 @@ struct Sampler<'a> {
 impl Sampler<'_> {
     /// The point at a share of a stretch; at its ends the limits from within.
     fn point(&self, stretch: usize, share: f64) -> Result<Point, EvaluateError> {
-        let Ends { from, to } = &self.ends[stretch];
+        let [from, to] = &self.ends[stretch];
         let time = from + (to - from) * Rational::from_float(share).expect("a finite share");
         let at = match share {
             0.0 => At::End(Limit::Right),
@@ -133,7 +121,7 @@ impl Sampler<'_> {
     }
 
     fn coarse(&self, stretch: usize, window: f64) -> Result<Vec<Point>, EvaluateError> {
-        let Ends { from, to } = &self.ends[stretch];
+        let [from, to] = &self.ends[stretch];
         let length = double(to) - double(from);
         if length <= 0.0 {
             // An arrival at the end of the window.

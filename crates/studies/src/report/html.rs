@@ -1,4 +1,4 @@
-//! Markup: escaped texts, tables, sections.
+//! Markup: escaped texts, sections, lists.
 
 pub use wavestep_draw::escape;
 
@@ -16,26 +16,6 @@ pub fn set(text: &str) -> String {
         _ => format!("<code>{}</code>", escape(part)),
     });
     parts.collect()
-}
-
-/// A table with a caption; the first cell of a row is its heading.
-pub fn table(caption: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
-    let head = |text: &&str| match text.is_empty() {
-        true => "<td></td>".to_owned(),
-        false => format!("<th scope=\"col\">{}</th>", set(text)),
-    };
-    let row = |row: &Vec<String>| {
-        let [first, rest @ ..] = &row[..] else { return String::new() };
-        let cells: String = rest.iter().map(|text| format!("<td>{}</td>", set(text))).collect();
-        format!("<tr><th scope=\"row\">{}</th>{cells}</tr>\n", escape(first))
-    };
-    format!(
-        "<div class=\"wide\" role=\"group\" aria-label=\"{0}\" tabindex=\"0\"><table>\
-         <caption>{0}</caption>\n<thead><tr>{1}</tr></thead>\n<tbody>\n{2}</tbody></table></div>\n",
-        set(caption),
-        heads.iter().map(head).collect::<String>(),
-        rows.iter().map(row).collect::<String>()
-    )
 }
 
 pub fn section(id: &str, heading: &str, contents: &str) -> String {

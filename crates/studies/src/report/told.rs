@@ -1,7 +1,7 @@
 //! Events, extrema and energies of a scene.
 
 use super::Observed;
-use super::html::{left_out, list, paragraph, set, table};
+use super::html::{left_out, list, paragraph, set};
 use crate::picture::PictureError;
 use crate::told::Teller;
 use wavestep::history::Ending;
@@ -9,6 +9,7 @@ use wavestep::limits::{SEARCH_BITS, VALUE_BITS};
 use wavestep::problem::Problem;
 use wavestep::scene::Measure;
 use wavestep::signal::{Goal, Limit, Place, Search, Value, digits};
+use wavestep_draw::table;
 use wavestep_polynomial::Rational;
 
 /// Significant digits of what is told.
@@ -76,7 +77,7 @@ pub fn extrema(
     }
     let [from, to] = window.map(|time| teller.time(&Value::Exact(time.clone())));
     let caption = format!("Proven for the whole window {from} <= t <= {to}");
-    Ok(table(&caption, &["observable", "", "value", "where"], &rows))
+    Ok(table(&caption, &["observable", "", "value", "where"], &rows, set))
 }
 
 /// Places, with plateaus as one where they follow one another, and with the value at their ends.
@@ -128,5 +129,5 @@ pub fn energies(
         return Ok(left_out(&reason));
     }
     let heads = window.map(|time| format!("at t = {}", teller.time(&Value::Exact(time.clone()))));
-    Ok(table("Energies at the ends of the window", &["energy", &heads[0], &heads[1]], &rows))
+    Ok(table("Energies at the ends of the window", &["energy", &heads[0], &heads[1]], &rows, set))
 }

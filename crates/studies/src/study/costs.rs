@@ -69,12 +69,6 @@ fn seconds<T>(
     Ok(least(settings, Duration::MAX, run)?.as_secs_f64())
 }
 
-fn recurrence(text: &str, mu: Option<i64>) -> Result<Problem, ProblemError> {
-    let whole = |mu: i64| Rational::from_integer(mu.into());
-    let values: Values = mu.into_iter().map(|mu| ("mu".to_owned(), whole(mu))).collect();
-    Problem::of_text("costs", text, &values)
-}
-
 /// A time shortly before the end of so many periods of 2.
 fn late(order: i64) -> Rational {
     Rational::new((6 * order - 1).into(), 3.into())
@@ -82,7 +76,8 @@ fn late(order: i64) -> Rational {
 
 fn one_pole(settings: Settings, put: &mut impl FnMut(Work, f64)) -> Result<(), ProblemError> {
     let text = scenes::find("rigid-mass").expect("a built-in scene").text;
-    let problem = recurrence(text, Some(1))?;
+    let values = Values::from([("mu".to_owned(), Rational::from_integer(1.into()))]);
+    let problem = Problem::of_text("costs", text, &values)?;
     let question =
         problem.question("f", [0, 2 * ORDER].map(|t| Rational::from_integer(t.into())))?;
     let (signal, late) = (&*question.signal, late(ORDER));
@@ -113,7 +108,7 @@ fn one_pole(settings: Settings, put: &mut impl FnMut(Work, f64)) -> Result<(), P
 }
 
 fn two_poles(settings: Settings, put: &mut impl FnMut(Work, f64)) -> Result<(), ProblemError> {
-    let problem = recurrence(TWO_POLES, None)?;
+    let problem = Problem::of_text("costs", TWO_POLES, &Values::new())?;
     let until = |order: i64| {
         problem.question("f", [0, 2 * order].map(|t| Rational::from_integer(t.into())))
     };

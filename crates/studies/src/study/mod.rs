@@ -27,5 +27,5 @@ pub use harness::{Measured, Settings, Subject, errors, measure, worst};
 pub use loss::{Loss, first_losses, losses};
 pub use map::{OrderRow, errors_by_order, order_law, order_map};
 pub use reference::{Reference, Sampling};
-pub use work::{LADDER, Outcome, Step, ladder, work_precision};
+pub use work::{Outcome, Step, ladder, steps, work_precision};
 pub use zeros::{near_zeros, simple_roots};

@@ -11,41 +11,24 @@ use wavestep_draw::{Caption, PlotError, Point, Row, Table, WorkPrecision};
 pub type Step = (Method, Option<f64>);
 
 /// The ways that are measured, and their settings in order.
-pub const LADDER: [Step; 33] = [
-    (Method::Rigid, None),
-    (Method::Third, None),
-    (Method::Modes { count: 10 }, None),
-    (Method::Modes { count: 100 }, None),
-    (Method::Modes { count: 1_000 }, None),
-    (Method::Modes { count: 10_000 }, None),
-    (Method::Leapfrog { cells: 50, courant: 0.9 }, None),
-    (Method::Leapfrog { cells: 200, courant: 0.9 }, None),
-    (Method::Leapfrog { cells: 800, courant: 0.9 }, None),
-    (Method::Leapfrog { cells: 50, courant: 1.0 }, None),
-    (Method::Leapfrog { cells: 200, courant: 1.0 }, None),
-    (Method::Leapfrog { cells: 800, courant: 1.0 }, None),
-    (Method::Steps { tolerance: 1e-3 }, None),
-    (Method::Steps { tolerance: 1e-5 }, None),
-    (Method::Steps { tolerance: 1e-7 }, None),
-    (Method::Steps { tolerance: 1e-9 }, None),
-    (Method::Steps { tolerance: 1e-11 }, None),
-    (Method::Expanded, None),
-    (Method::Plain, None),
-    (Method::Stable(StablePrecision::Double), None),
-    (Method::Stable(StablePrecision::DoubleDouble), None),
-    (Method::Marched { proven: true }, None),
-    (Method::Compiled, Some(1e-2)),
-    (Method::Compiled, Some(1e-3)),
-    (Method::Compiled, Some(1e-4)),
-    (Method::Compiled, Some(1e-6)),
-    (Method::Compiled, Some(1e-8)),
-    (Method::Compiled, Some(1e-10)),
-    (Method::Compiled, Some(1e-12)),
-    (Method::Compiled, Some(1e-13)),
-    (Method::Compiled, Some(1e-14)),
-    (Method::Compiled, None),
-    (Method::Certified, None),
-];
+pub fn steps() -> impl Iterator<Item = Step> {
+    let modes = [10, 100, 1_000, 10_000].map(|count| Method::Modes { count });
+    let leapfrog = |courant| [50, 200, 800].map(|cells| Method::Leapfrog { cells, courant });
+    let steps = [1e-3, 1e-5, 1e-7, 1e-9, 1e-11].map(|tolerance| Method::Steps { tolerance });
+    let exact = [
+        Method::Expanded,
+        Method::Plain,
+        Method::Stable(StablePrecision::Double),
+        Method::Stable(StablePrecision::DoubleDouble),
+        Method::Marched { proven: true },
+    ];
+    let models = [Method::Rigid, Method::Third].into_iter().chain(modes);
+    let models = models.chain(leapfrog(0.9)).chain(leapfrog(1.0)).chain(steps);
+    let compiled = [1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13, 1e-14].map(Some);
+    let compiled = compiled.into_iter().chain([None]).map(|step| (Method::Compiled, step));
+    let others = models.chain(exact).map(|method| (method, None));
+    others.chain(compiled).chain([(Method::Certified, None)])
+}
 
 #[derive(Clone, Debug)]
 pub struct Outcome {
@@ -109,7 +92,7 @@ pub fn ladder(
             .and_then(|()| measure(asked, (method, absolute), reference, settings));
         Outcome { step, result }
     };
-    LADDER.into_iter().filter(|(method, _)| !(quick && is_heavy(*method))).map(outcome).collect()
+    steps().filter(|(method, _)| !(quick && is_heavy(*method))).map(outcome).collect()
 }
 
 /// The diagram and the table of outcomes. Ways that refused are named in the caption, with the reason.

@@ -6,9 +6,9 @@ use wavestep::answer::{Method, Question};
 use wavestep::problem::Problem;
 use wavestep_draw::{Axis, Caption, Curves};
 use wavestep_studies::study::{
-    LADDER, Loss, Measured, Outcome, Reference, Sampling, Settings, Subject, at_arrivals,
-    cost_over_order, derivation_cost, errors_by_order, ladder, losses, near_confluence, near_jump,
-    order_map, over_courant, over_order, over_time, work_precision,
+    Loss, Measured, Outcome, Reference, Sampling, Settings, Subject, at_arrivals, cost_over_order,
+    derivation_cost, errors_by_order, ladder, losses, near_confluence, near_jump, order_map,
+    over_courant, over_order, over_time, steps, work_precision,
 };
 
 const ONCE: Settings = Settings { runs: 1, time: Duration::ZERO };
@@ -103,8 +103,8 @@ fn models_miss_jumps_and_keep_to_the_courant_number() {
 #[test]
 fn the_ladder_keeps_its_bounds() {
     // Tolerances of one way descend, so that its line goes from coarse to fine.
-    let compiled = LADDER.iter().filter(|(method, _)| *method == Method::Compiled);
-    let tolerances: Vec<f64> = compiled.filter_map(|(_, tolerance)| *tolerance).collect();
+    let compiled = steps().filter(|(method, _)| *method == Method::Compiled);
+    let tolerances: Vec<f64> = compiled.filter_map(|(_, tolerance)| tolerance).collect();
     assert!(tolerances.is_sorted_by(|a, b| a > b) && tolerances.len() > 5);
     with_wave(8.0, |subject, question| {
         let reference = reference(question, 8.0);

@@ -53,16 +53,6 @@ pub(super) fn equal_bars() -> Result<Checked, Refusal> {
     }
 }
 
-/// The estimate without number that comes before 6.86.
-pub(super) fn energy_estimate() -> Result<Checked, Refusal> {
-    estimate(Estimate::Energy)
-}
-
-/// 6.86.
-pub(super) fn better_estimate() -> Result<Checked, Refusal> {
-    estimate(Estimate::Better)
-}
-
 /// The largest strains for these masses, which all estimates are held against.
 static LARGEST: LazyLock<Result<Vec<Ball>, Refusal>> = LazyLock::new(|| {
     let strain = |own: &i64| {
@@ -72,7 +62,7 @@ static LARGEST: LazyLock<Result<Vec<Ball>, Refusal>> = LazyLock::new(|| {
 });
 
 /// An estimate of the largest strain, by the mass, held against the exact one.
-fn estimate(of: Estimate) -> Result<Checked, Refusal> {
+pub(super) fn estimate(of: Estimate) -> Result<Checked, Refusal> {
     let mut worst = (Rational::default(), Rational::default());
     let mut steps = vec![
         "Held against the largest compressive strain at the fixed end while the mass touches the bar, \

@@ -8,6 +8,7 @@ mod estimates;
 
 use crate::book::refusal::Refusal;
 use crate::book::verdict::{Ground, Verdict};
+use crate::estimates::Estimate;
 use wavestep::export::Formula;
 use wavestep::expression::Expression;
 use wavestep::language::{Source, read_expression};
@@ -32,8 +33,9 @@ pub type Check = fn() -> Result<Checked, Refusal>;
 /// All checks that entries may ask for, by their names.
 pub const CHECKS: [(&str, Check); 13] = [
     ("equal-bars", estimates::equal_bars),
-    ("energy-estimate", estimates::energy_estimate),
-    ("better-estimate", estimates::better_estimate),
+    // The estimate without number that comes before 6.86, and 6.86.
+    ("energy-estimate", || estimates::estimate(Estimate::Energy)),
+    ("better-estimate", || estimates::estimate(Estimate::Better)),
     ("hertz-stiffness", contact::stiffness),
     ("hertz-integral", contact::integral),
     ("hertz-time", contact::time),
