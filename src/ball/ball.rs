@@ -144,6 +144,11 @@ impl Ball {
         (self.midpoint.add(&radius.clone().negate()), self.midpoint.add(&radius))
     }
 
+    /// The same as rational numbers.
+    pub fn bounds(&self) -> [BigRational; 2] {
+        <[_; 2]>::from(self.endpoints()).map(|end| BigRational::from(&end))
+    }
+
     /// The same points and at most a few more, with a midpoint of at most `precision` bits.
     pub fn round(self, precision: u64) -> Self {
         let (midpoint, error) = self.midpoint.round(precision);

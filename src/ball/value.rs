@@ -145,10 +145,7 @@ impl Value {
     pub fn bounds(&self) -> [Rational; 2] {
         match self {
             Value::Exact(value) => [value.clone(), value.clone()],
-            Value::Certified { ball, .. } | Value::Enclosed(ball) => {
-                let (lower, upper) = ball.endpoints();
-                [(&lower).into(), (&upper).into()]
-            }
+            Value::Certified { ball, .. } | Value::Enclosed(ball) => ball.bounds(),
         }
     }
 

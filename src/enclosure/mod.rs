@@ -12,4 +12,5 @@ pub use error::EnclosureError;
 pub use expression::enclose_expression;
 pub(crate) use expression::real_part;
 pub use numbers::Numbers;
+pub(crate) use numbers::sorted;
 pub use zero::enclose_zero;

@@ -99,8 +99,7 @@ impl Numbers {
 
     /// Positive rational bounds of a symbol, where its enclosure has some.
     pub fn bounds(&self, symbol: &Symbol) -> Option<(Rational, Rational)> {
-        let (lower, upper) = self.value(symbol, BOUND_BITS)?.endpoints();
-        let (lower, upper) = (Rational::from(&lower), Rational::from(&upper));
+        let [lower, upper] = self.value(symbol, BOUND_BITS)?.bounds();
         (lower > Rational::default()).then_some((lower, upper))
     }
 
@@ -201,20 +200,13 @@ impl Numbers {
         Precisions::doubling(64, COMPARISON_BITS).raise(attempt).and_then(Attempt::done)
     }
 
-    /// Puts items into the ascending order of their values.
-    pub fn sort<T>(
+    /// The items in the ascending order of their values.
+    pub fn sorted<T>(
         &self,
-        items: &mut [T],
+        items: Vec<T>,
         value: impl Fn(&T) -> &Fraction,
-    ) -> Result<(), EnclosureError> {
-        let mut failed = Ok(());
-        items.sort_by(|left, right| {
-            self.compare(value(left), value(right)).unwrap_or_else(|error| {
-                failed = Err(error);
-                Ordering::Equal
-            })
-        });
-        failed
+    ) -> Result<Vec<T>, EnclosureError> {
+        sorted(items, &|left, right| self.compare(value(left), value(right)))
     }
 
     /// Where a value stands among ascending ones, or where it would.
@@ -239,6 +231,31 @@ impl Numbers {
     pub fn field(&self, bits: u64) -> Enclosing<'_> {
         Enclosing { numbers: self, bits }
     }
+}
+
+/// The items in ascending order, equal ones as they were, by a comparison that may fail; the first failure ends it. With an
+/// answer made up in its place `sort_by` may panic. Items that are in order already take one comparison each.
+pub(crate) fn sorted<T, E>(
+    mut items: Vec<T>,
+    compare: &impl Fn(&T, &T) -> Result<Ordering, E>,
+) -> Result<Vec<T>, E> {
+    if items.len() < 2 {
+        return Ok(items);
+    }
+    let later = items.split_off(items.len() / 2);
+    let (mut earlier, later) = (sorted(items, compare)?, sorted(later, compare)?);
+    if compare(&earlier[earlier.len() - 1], &later[0])?.is_le() {
+        earlier.extend(later);
+        return Ok(earlier);
+    }
+    let (mut earlier, mut later) = (earlier.into_iter().peekable(), later.into_iter().peekable());
+    let mut all = Vec::new();
+    while let (Some(left), Some(right)) = (earlier.peek(), later.peek()) {
+        let is_after = compare(left, right)?.is_gt();
+        all.extend(if is_after { later.next() } else { earlier.next() });
+    }
+    all.extend(earlier.chain(later));
+    Ok(all)
 }
 
 /// Coefficients as enclosures.

@@ -60,7 +60,7 @@ impl FieldEvaluator<'_> {
                 places.push(if grows { delay } else { &span - &delay });
             }
         }
-        self.waves.numbers.sort(&mut places, |place| place)?;
+        let mut places = self.waves.numbers.sorted(places, |place| place)?;
         places.dedup();
         let whole = self.double_of(&span)?;
         for pair in places.windows(2) {

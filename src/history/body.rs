@@ -3,7 +3,7 @@
 use crate::ball::{Ball, Magnitude, Number};
 use crate::history::energy::Integrand;
 use crate::history::engine::Engine;
-use crate::history::error::HistoryError;
+use crate::history::error::Outcome;
 use crate::history::moment::Moment;
 use crate::network::{ElementLaw, Network};
 use crate::scene::{ElementIndex, End, Kind};
@@ -11,8 +11,6 @@ use crate::signal::Limit;
 use std::cmp::Ordering;
 use std::ops::Range;
 use wavestep_polynomial::Rational;
-
-type Outcome<T> = Result<T, HistoryError>;
 
 /// Energy and momentum; none where they are infinite.
 #[derive(Clone, PartialEq, Debug)]
@@ -198,17 +196,10 @@ impl Engine {
                 continue;
             }
             let node = self.layout.node_of(*element).expect("an element of a node");
-            if let Some(load) = self.loads.get(element) {
-                let ended = match &load.until {
-                    Some(until) => {
-                        let until = Moment::at(until.clone());
-                        self.clock.compare(&until, moment)? != Ordering::Greater
-                    }
-                    None => false,
-                };
-                if !ended {
-                    return Ok(Drift::Unknown);
-                }
+            if let Some(load) = self.loads.get(element)
+                && !load.has_ended(&self.clock, moment)?
+            {
+                return Ok(Drift::Unknown);
             }
             let mut elements = self.nodes[node].elements.iter();
             let own = elements.find(|own| own.element == *element);

@@ -1,6 +1,6 @@
 //! What is known of something cell by cell, and kept no longer than it is asked for.
 
-use crate::history::error::HistoryError;
+use crate::history::error::{HistoryError, Outcome};
 use crate::history::moment::{Clock, Moment};
 use crate::signal::Limit;
 use std::cmp::Ordering;
@@ -84,7 +84,7 @@ impl<T> Cells<T> {
         clock: &Clock,
         (moment, limit): (&Moment, Limit),
         end: &Moment,
-    ) -> Result<usize, HistoryError> {
+    ) -> Outcome<usize> {
         let (mut low, mut high) = (self.forgotten, self.count());
         // The first cell that ends behind the instant.
         while low < high {

@@ -46,11 +46,11 @@ pub fn opening(network: &Network, joint: usize, instant: &Ball) -> Option<Expres
     let solution = Solution::new(recurrence);
     let first = last.saturating_sub(1);
     let stretches = solution.observed_between_arrivals(&force, first, last).ok()?;
-    let (lower, upper) = instant.endpoints();
+    let [lower, upper] = instant.bounds();
     let stretch = stretches.into_iter().find(|stretch| {
         let ends = [&stretch.from, &stretch.to].map(Fraction::as_constant);
         matches!(ends, [Some(from), Some(to)]
-            if from < Rational::from(&lower) && Rational::from(&upper) < to)
+            if from < lower && upper < to)
     })?;
     let root = &linear_root(&stretch.value, &local)? + &Expression::from(stretch.from);
     let bits = 2 * instant.midpoint().bits() + 64;

@@ -7,7 +7,7 @@
 use crate::ball::{Magnitude, Number};
 use crate::history::crossing::{Beginning, Course, Errors, beginning, follow, tied_beginning};
 use crate::history::engine::Engine;
-use crate::history::error::{HistoryError, Question};
+use crate::history::error::{HistoryError, Outcome, Question};
 use crate::history::moment::Moment;
 use crate::history::motion::Motion;
 use crate::history::passivity::Passivity;
@@ -154,8 +154,7 @@ impl Guard {
         let errors = Errors::new(skipped, bound);
         let kept = self.series.coefficients.iter().skip(skipped).cloned().collect();
         let kept = Series::new(kept, self.series.rest).with_error(error, Magnitude::ZERO);
-        let kept = kept.of_roughness(self.series.roughness);
-        (kept, errors)
+        (Series { roughness: self.series.roughness, ..kept }, errors)
     }
 
     /// The size of the first derivatives that may be zero, besides those that are, in the norm of cells.
@@ -173,8 +172,6 @@ impl Guard {
         }
     }
 }
-
-type Outcome<T> = Result<T, HistoryError>;
 
 impl Engine {
     fn between(&self, contact: usize) -> String {

@@ -103,13 +103,6 @@ impl Energy {
     }
 }
 
-/// An antiderivative of a wave or of its square.
-#[derive(Debug)]
-enum Antiderivative {
-    Wave(Series),
-    Square(Energy),
-}
-
 /// A wave on one cell: its series, with its integrals over the cell once they have been asked for.
 ///
 /// # Invariants
@@ -140,15 +133,6 @@ impl Integrand {
 /// The precision of what is worked out roughly.
 const ROUGH_BITS: u64 = 64;
 
-impl Antiderivative {
-    fn value(&self, x: &Number, cut: &Truncation) -> Number {
-        match self {
-            Antiderivative::Wave(series) => series.value(x, cut),
-            Antiderivative::Square(energy) => energy.value(x),
-        }
-    }
-}
-
 impl Wave {
     /// A wave on a cell of this length.
     pub fn new(series: Series, length: Number) -> Wave {
@@ -175,23 +159,18 @@ impl Wave {
         !self.series.is_exact() && bits < cut.bits
     }
 
-    /// The antiderivative; of a square with fewer bits that of the polynomial with as many terms as these
-    /// tell, of an exact one all of it.
-    fn antiderivative(&self, integrand: Integrand, cut: &Truncation) -> Antiderivative {
+    /// An integral from the start of the cell to a time after it; of a square with fewer bits that of the polynomial
+    /// with as many terms as these tell, of an exact one all of it.
+    pub fn until(&self, integrand: Integrand, time: &Number, cut: &Truncation) -> Number {
         match integrand {
-            Integrand::Wave => Antiderivative::Wave(self.series.integral(Number::zero(), cut)),
+            Integrand::Wave => self.series.integral(Number::zero(), cut).value(time, cut),
             Integrand::Square { bits } if self.is_rough(bits, cut) => {
                 let few = Truncation { bits, ..*cut };
                 let norm = CellNorm::new(self.length.magnitude(), &few);
-                Antiderivative::Square(self.series.bare(&norm, &few).energy(&few))
+                self.series.bare(&norm, &few).energy(&few).value(time)
             }
-            Integrand::Square { .. } => Antiderivative::Square(self.series.energy(cut)),
+            Integrand::Square { .. } => self.series.energy(cut).value(time),
         }
-    }
-
-    /// An integral from the start of the cell to a time after it.
-    pub fn until(&self, integrand: Integrand, time: &Number, cut: &Truncation) -> Number {
-        self.antiderivative(integrand, cut).value(time, cut)
     }
 
     /// An integral over the whole cell.

@@ -9,14 +9,14 @@ use crate::ball::{Magnitude, Number};
 use crate::expression::Fraction;
 use crate::history::cells::Cells;
 use crate::history::contacts::{Cause, Contact, Guard, Happening};
-use crate::history::error::{HistoryError, NotFollowed, Question};
+use crate::history::error::{HistoryError, NotFollowed, Outcome, Question};
 use crate::history::leaving::Passing;
 use crate::history::load::Course;
 use crate::history::moment::{Clock, Moment};
 use crate::history::motion::Motion;
 use crate::history::part::Source;
 use crate::history::passive::ErrorEnergy;
-use crate::history::passivity::{Passivity, StateError};
+use crate::history::passivity::{Known, Passivity, StateError};
 use crate::history::pressing::TooLong;
 use crate::history::series::{CellNorm, LONGEST_CELL, Series, Truncation};
 use crate::history::track::{Arriving, Track};
@@ -76,6 +76,14 @@ pub(crate) struct Load {
     pub until: Option<Fraction>,
 }
 
+impl Load {
+    /// Whether it acts no more after an instant.
+    pub fn has_ended(&self, clock: &Clock, now: &Moment) -> Outcome<bool> {
+        let Some(until) = &self.until else { return Ok(false) };
+        Ok(clock.compare(&Moment::at(until.clone()), now)?.is_le())
+    }
+}
+
 /// How far a cell reaches, and what acts on the node there.
 pub(crate) struct Reach {
     end: Moment,
@@ -131,6 +139,12 @@ pub(crate) struct State {
     pressed_for: Option<Rational>,
 }
 
+impl State {
+    pub fn known(&self) -> Known<'_> {
+        self.passivity.known(&self.state, &self.errors)
+    }
+}
+
 /// Scene, waves and nodes as far as they are known.
 pub(crate) struct Engine {
     pub clock: Clock,
@@ -167,8 +181,6 @@ pub(crate) struct Engine {
     /// The energy of all errors so far; not known where there are local contacts, which are not linear.
     pub errors: Option<ErrorEnergy>,
 }
-
-type Outcome<T> = Result<T, HistoryError>;
 
 /// The impedance and the two waves of a bar before the start: `(V ± X_0/Z)/2`.
 fn before(network: &Network, layout: &Layout, clock: &Clock, bar: usize) -> Outcome<[Number; 2]> {
@@ -517,7 +529,8 @@ impl Engine {
         let arriving = |own: &Arriving| own.series(&self.waves, &state.now, &self.clock, &self.cut);
         let arriving = state.arriving.iter().map(arriving).collect::<Result<Vec<_>, _>>()?;
         let roughness = arriving.iter().filter_map(|series| series.roughness).max();
-        let norm = CellNorm::new(length, &self.cut).of_roughness(roughness);
+        let mut norm = CellNorm::new(length, &self.cut);
+        norm.roughness = roughness;
         let settled = arriving.iter().map(|series| series.settled(&norm, &self.cut));
         let mut inputs: Vec<Series> = settled.collect();
         for own in self.nodes[node].elements.iter().filter(|own| own.law.is_driven()) {
@@ -526,15 +539,7 @@ impl Engine {
                 continue;
             };
             let begun = self.clock.compare(&Moment::at(load.from.clone()), &state.now)?;
-            let acts = begun != Ordering::Greater
-                && match &load.until {
-                    Some(until) => {
-                        let until = Moment::at(until.clone());
-                        self.clock.compare(&until, &state.now)? == Ordering::Greater
-                    }
-                    None => true,
-                };
-            inputs.push(match acts {
+            inputs.push(match begun.is_le() && !load.has_ended(&self.clock, &state.now)? {
                 true => load.course.series(&self.clock.time(&state.now)?, &norm, &self.cut)?,
                 false => Series::zero(),
             });
@@ -617,9 +622,8 @@ impl Engine {
             return Ok(reach);
         }
         let state = &self.states[node];
-        let known = (&state.state[..], &state.errors[..]);
         let cell = (&reach.norm, &self.cut);
-        let free = state.system.free_rate(&state.passivity, known, &reach.inputs, cell);
+        let free = state.system.free_rate(state.known(), &reach.inputs, cell);
         if free.scale(1) < fastest {
             return self.reach(node, Longest { rate: free, share, most: None });
         }
@@ -648,14 +652,8 @@ impl Engine {
         let mut reach = self.next_cell(node, share, most.as_ref())?;
         loop {
             let state = &self.states[node];
-            let (system, cut) = (&state.system, &self.cut);
-            let known = (&state.state[..], &state.errors[..]);
-            let cell = (&reach.norm, cut);
-            if state.passivity.blocks.iter().all(|block| block.pressed.is_empty()) {
-                let motion = system.solve(&state.passivity, known, &reach.inputs, cell);
-                return Ok((reach, motion));
-            }
-            match system.press(&state.passivity, known, &mut reach.inputs, cell) {
+            let cell = (&reach.norm, &self.cut);
+            match state.system.solve(state.known(), &mut reach.inputs, cell) {
                 Ok(motion) => return Ok((reach, motion)),
                 Err(TooLong(most)) => {
                     reach = self.reach(node, Longest { rate, share, most: Some(&most) })?;

@@ -6,6 +6,9 @@ use crate::signal::EvaluateError;
 use std::fmt;
 use wavestep_polynomial::Symbol;
 
+/// What following yields, or why it cannot go on.
+pub(crate) type Outcome<T> = Result<T, HistoryError>;
+
 /// Why a history cannot be followed to its end.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 #[non_exhaustive]

@@ -2,7 +2,7 @@
 
 use crate::ball::{Attempt, Precisions};
 use crate::history::engine::Engine;
-use crate::history::error::HistoryError;
+use crate::history::error::{HistoryError, Outcome};
 use crate::history::history::undecided;
 use crate::history::memory::Asked;
 use crate::history::moment::Moment;
@@ -45,7 +45,7 @@ impl<'a> Follower<'a> {
         observed: Option<&Observed>,
         [from, to]: [&Rational; 2],
         digits: Option<usize>,
-    ) -> Result<Rc<Follower<'a>>, HistoryError> {
+    ) -> Outcome<Rc<Follower<'a>>> {
         let asked = Asked::of(network, observed, from);
         let until = Moment::at(network.scaled_time(to));
         let attempt = |bits| match Follower::follow(network, &asked, &until, bits) {
@@ -63,12 +63,7 @@ impl<'a> Follower<'a> {
         Ok(Rc::new(Follower { network, asked, until, known, too_many_bits, refusal, scale }))
     }
 
-    fn follow(
-        network: &Network,
-        asked: &Asked,
-        until: &Moment,
-        bits: u64,
-    ) -> Result<Rc<Engine>, HistoryError> {
+    fn follow(network: &Network, asked: &Asked, until: &Moment, bits: u64) -> Outcome<Rc<Engine>> {
         let mut engine = Engine::new(network, Contacts::of(network.scene()), bits)?;
         engine.ask_for(network, asked)?;
         engine.follow_until(until)?;

@@ -4,7 +4,7 @@ use crate::ball::{Attempt, Number, Precisions, Value};
 use crate::enclosure::{EnclosureError, Numbers};
 use crate::expression::{Expression, Root};
 use crate::history::engine::Engine;
-use crate::history::error::HistoryError;
+use crate::history::error::{HistoryError, Outcome};
 use crate::history::moment::Moment;
 use crate::history::story::Story;
 use crate::limits::MAX_HISTORY_BITS;
@@ -188,8 +188,6 @@ pub struct History {
     pub cells: usize,
 }
 
-type Outcome<T> = Result<T, HistoryError>;
-
 /// A unit as a number.
 pub(crate) fn unit(root: &Root, numbers: &Numbers, bits: u64) -> Result<Number, EnclosureError> {
     match root.exact().and_then(|value| value.as_constant()) {
@@ -245,11 +243,7 @@ impl History {
     /// # Cost
     /// A few products of small matrices with vectors for each coefficient of each cell; a cell begins where
     /// something arrives at a node. All is done again with half as much precision again until the digits are proven.
-    pub fn of(
-        network: &Network,
-        until: Option<&Rational>,
-        digits: usize,
-    ) -> Result<History, HistoryError> {
+    pub fn of(network: &Network, until: Option<&Rational>, digits: usize) -> Outcome<History> {
         let attempt = |bits| match History::with(network, until, digits, bits) {
             Ok(history) => {
                 let is_determined = history.is_determined();

@@ -7,7 +7,7 @@
 
 use crate::ball::Number;
 use crate::history::engine::{Engine, Planned};
-use crate::history::error::HistoryError;
+use crate::history::error::Outcome;
 use crate::history::moment::Moment;
 use crate::history::motion::combined;
 use crate::history::passive::Passage;
@@ -19,8 +19,6 @@ use std::cmp::Ordering;
 /// Cells are short below this part of the longest, as a power of two: to work a series out for longer than it lasts
 /// costs as much as some cells do.
 const SHORT: i64 = 4;
-
-type Outcome<T> = Result<T, HistoryError>;
 
 /// What the last cell of a leaving wave is made of, where that is nothing but what arrives.
 pub(crate) struct Passing {

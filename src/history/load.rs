@@ -7,6 +7,7 @@ use crate::ball::{Ball, ComplexBall, Magnitude, Number};
 use crate::enclosure::{EnclosureError, Numbers, enclose_expression};
 use crate::expression::{Expression, Transform};
 use crate::history::series::{CellNorm, Series, Truncation};
+use crate::signal::divide;
 use wavestep_polynomial::{Rational, Symbol, factorial};
 
 /// Polynomials of this degree or a higher one are not kept exactly.
@@ -79,11 +80,7 @@ impl Course {
         let mut rest = Magnitude::ZERO;
         for (rate, polynomial) in &self.terms {
             let mut shifted = polynomial.clone();
-            for first in 0..shifted.len() {
-                for k in (first..shifted.len() - 1).rev() {
-                    shifted[k] = shifted[k].add(&shifted[k + 1].multiply(&now, bits), bits);
-                }
-            }
+            divide(&mut shifted, |c, next| c.add(&next.multiply(&now, bits), bits));
             let size = rate.multiply(&now, bits).exp(bits)?;
             let mut power = ComplexBall::one();
             for i in 0..=order {

@@ -4,7 +4,7 @@ use crate::ball::Number;
 use crate::expression::Fraction;
 use crate::history::cells::Cells;
 use crate::history::engine::{Engine, Reach, TOLD_APART};
-use crate::history::error::{HistoryError, When};
+use crate::history::error::{HistoryError, Outcome, When};
 use crate::history::moment::Moment;
 use crate::history::part::Source;
 use crate::history::series::LONGEST_CELL;
@@ -18,8 +18,6 @@ const TELLING: f64 = 1.0 / 16.0;
 
 /// What short cells take is known to this factor at best.
 const MUCH_MORE: usize = 4;
-
-type Outcome<T> = Result<T, HistoryError>;
 
 /// What is asked for of a motion that is followed.
 pub struct Asked {
@@ -167,9 +165,8 @@ impl Engine {
         if (self.whole - state.about) * rate <= enough {
             return Ok(());
         }
-        let known = (&state.state[..], &state.errors[..]);
         let cell = (&reach.norm, &self.cut);
-        let gone = state.system.cells_until_gone(&state.passivity, known, &reach.inputs, cell);
+        let gone = state.system.cells_until_gone(state.known(), &reach.inputs, cell);
         match gone.is_some_and(|cells| cells <= enough) {
             true => Ok(()),
             false => Err(self.too_many_cells(node)?),

@@ -7,7 +7,7 @@
 use crate::ball::{Ball, Magnitude, Number, Value};
 use crate::enclosure::{EnclosureError, Numbers};
 use crate::expression::Fraction;
-use crate::history::error::{HistoryError, Question, When};
+use crate::history::error::{HistoryError, Outcome, Question, When};
 use crate::network::Assumed;
 use num_traits::Zero;
 use std::cell::RefCell;
@@ -92,7 +92,7 @@ impl Clock {
     ///
     /// # Errors
     /// [`HistoryError::Undecided`].
-    pub fn tie(&self, what: Question, at: &Number, size: &Magnitude) -> Result<(), HistoryError> {
+    pub fn tie(&self, what: Question, at: &Number, size: &Magnitude) -> Outcome<()> {
         if self.tie_size().is_none_or(|tie| *size > tie) {
             return Err(self.undecided(what, at));
         }
@@ -156,7 +156,7 @@ impl Clock {
     ///
     /// # Errors
     /// [`HistoryError::Undecided`] where their enclosures meet.
-    pub fn compare(&self, left: &Moment, right: &Moment) -> Result<Ordering, HistoryError> {
+    pub fn compare(&self, left: &Moment, right: &Moment) -> Outcome<Ordering> {
         if left.event == right.event {
             if left.delay == right.delay {
                 return Ok(Ordering::Equal);
@@ -177,7 +177,7 @@ impl Clock {
     ///
     /// # Errors
     /// As [`Clock::compare`].
-    pub fn earlier(&self, left: Moment, right: Moment) -> Result<Moment, HistoryError> {
+    pub fn earlier(&self, left: Moment, right: Moment) -> Outcome<Moment> {
         Ok(if self.compare(&left, &right)? == Ordering::Greater { right } else { left })
     }
 

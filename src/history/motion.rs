@@ -1,9 +1,9 @@
 //! What a node does on a cell: the answer of its system to what arrives, as series with a proven rest.
 
 use crate::ball::{Magnitude, Number};
-use crate::history::error::{HistoryError, NotFollowed};
+use crate::history::error::{NotFollowed, Outcome};
 use crate::history::passive::ErrorEnergy;
-use crate::history::passivity::{Block, Passivity, StateError};
+use crate::history::passivity::{Block, Known, Passivity, StateError};
 use crate::history::separation::{Rows, Separation};
 use crate::history::series::{CellNorm, LONGEST_CELL, Roughness, Series, Truncation};
 use crate::network::{Node, System, dot};
@@ -138,23 +138,6 @@ pub fn combined<'a>(row: &[Number], parts: impl Iterator<Item = &'a Series>, bit
 }
 
 impl System<Number> {
-    /// Solves the equations on a cell: `(k+1) y_(k+1) = A y_k + B u_k`.
-    ///
-    /// # Cost
-    /// N times the products of small matrices with vectors.
-    pub fn solve(
-        &self,
-        passivity: &Passivity,
-        (state, errors): (&[Number], &[StateError]),
-        input: &[Series],
-        (norm, cut): (&CellNorm, &Truncation),
-    ) -> Motion {
-        let given = Given::new(input, norm, cut);
-        let blocks = passivity.blocks.iter().zip(errors);
-        let courses = blocks.map(|(block, error)| self.course(block, state, error, &given));
-        self.motion(passivity, (state, courses.collect()), input, cut)
-    }
-
     /// What a node does from a state on, by the courses of its blocks.
     pub(super) fn motion(
         &self,
@@ -177,11 +160,11 @@ impl System<Number> {
                     true => Magnitude::ZERO,
                     false => entry(&course.at_start),
                 };
-                states[*member] = Series::new(own, entry(&course.rest))
+                let series = Series::new(own, entry(&course.rest))
                     .with_error(entry(&course.error), entry(&course.fresh))
-                    .with_error_at_start(at_start)
-                    .of_flatness(flat[*member])
-                    .of_roughness(course.roughness);
+                    .with_error_at_start(at_start);
+                states[*member] =
+                    Series { flat: flat[*member], roughness: course.roughness, ..series };
             }
             added.push(course.added);
         }
@@ -241,11 +224,10 @@ impl System<Number> {
     pub(super) fn course(
         &self,
         block: &Block,
-        state: &[Number],
+        own: Vec<Number>,
         error: &StateError,
         given: &Given<'_>,
     ) -> Course {
-        let own: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
         if block.is_still() {
             return Course::exact(vec![own]);
         }
@@ -264,14 +246,12 @@ impl System<Number> {
     /// The largest rate of the motions that have not died out, as far as the precision tells.
     pub fn free_rate(
         &self,
-        passivity: &Passivity,
-        (state, errors): (&[Number], &[StateError]),
+        known: Known<'_>,
         input: &[Series],
         (norm, cut): (&CellNorm, &Truncation),
     ) -> Magnitude {
         let given = Given::new(input, norm, cut);
-        let rates = passivity.blocks.iter().zip(errors).map(|(block, error)| {
-            let own: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
+        let rates = known.blocks().map(|(block, own, error)| {
             if !block.pressed.is_empty() {
                 let rests = self.pressing(block, &given).rest(&own, error).is_some();
                 return if rests { Magnitude::ZERO } else { block.rate };
@@ -290,15 +270,12 @@ impl System<Number> {
     /// About how many cells, as short as its fastest motions need, the fastest block takes until these have died out.
     pub fn cells_until_gone(
         &self,
-        passivity: &Passivity,
-        (state, errors): (&[Number], &[StateError]),
+        known: Known<'_>,
         input: &[Series],
         (norm, cut): (&CellNorm, &Truncation),
     ) -> Option<f64> {
-        let blocks = passivity.blocks.iter().zip(errors);
-        let (block, error) = blocks.max_by_key(|(block, _)| block.rate)?;
+        let (block, own, error) = known.blocks().max_by_key(|(block, ..)| block.rate)?;
         let separation = block.separations.last()?;
-        let own: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
         let columns = self.slow_columns(block, separation, &own, &Given::new(input, norm, cut));
         let free = free_motion(block, &own, &columns, cut).top()?;
         let halvings = (free - told(error, cut).top()?).max(0) as f64;
@@ -563,7 +540,7 @@ impl System<Number> {
         displaced: &[Number],
         impact: impl Fn([usize; 2]) -> NotFollowed,
         bits: u64,
-    ) -> Result<Vec<Number>, HistoryError> {
+    ) -> Outcome<Vec<Number>> {
         let mut state = Vec::with_capacity(self.states());
         let with_mass = |group: usize| {
             let own = (0..node.runs()).filter(move |run| self.group[*run] == group);

@@ -5,7 +5,7 @@ use crate::ball::Number;
 use crate::expression::{Fraction, Root};
 use crate::history::energy::Integrand;
 use crate::history::engine::Engine;
-use crate::history::error::HistoryError;
+use crate::history::error::Outcome;
 use crate::history::history::unit;
 use crate::history::moment::Moment;
 use crate::history::part::{NodeQuantity, Part, Source};
@@ -14,8 +14,6 @@ use crate::network::{
 };
 use crate::scene::ElementIndex;
 use crate::signal::Limit;
-
-type Outcome<T> = Result<T, HistoryError>;
 
 impl Engine {
     /// The elements of the scene, with what they hold.

@@ -6,15 +6,13 @@ use crate::expression::Fraction;
 use crate::history::contacts::Cause;
 use crate::history::energy::Integrand;
 use crate::history::engine::{Cell, Engine};
-use crate::history::error::HistoryError;
+use crate::history::error::Outcome;
 use crate::history::moment::Moment;
 use crate::history::series::{Series, Truncation};
 use crate::history::track::Track;
 use crate::network::{ElementLaw, Lump, Side, Window};
 use crate::signal::Limit;
 use std::borrow::Cow;
-
-type Outcome<T> = Result<T, HistoryError>;
 
 /// What changes with time by itself.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -52,6 +52,10 @@ fn norm(matrix: &Matrix, weights: &[Ball], inverses: &[Ball]) -> Magnitude {
     (0..4).fold(trace, |root, _| root.square_root())
 }
 
+pub(super) fn root_of_squares(all: impl Iterator<Item = Magnitude>) -> Magnitude {
+    all.fold(Magnitude::ZERO, |sum, own| sum.add(&own.multiply(&own))).square_root()
+}
+
 /// States of a node that act on each other.
 pub struct Block {
     /// Their places in the state.
@@ -143,18 +147,19 @@ impl Passivity {
             }
             left.retain(|other| !members.contains(other));
             members.sort_unstable();
-            blocks.push(Block::of(system, members, &weights)?.with_pressed(&pressed));
+            blocks.push(Block::new(system, members, &weights)?.with_pressed(&pressed));
         }
         Ok(Passivity { blocks })
     }
 
     /// The errors of a state of which enclosures are known.
     pub fn errors(&self, state: &[Number]) -> Vec<StateError> {
-        let own = |block: &Block| {
-            let values: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
-            StateError::of(block, &values)
-        };
-        self.blocks.iter().map(own).collect()
+        self.blocks.iter().map(|block| StateError::of(block, &block.of(state))).collect()
+    }
+
+    /// With the state of the node at the start of a cell, and its errors.
+    pub fn known<'a>(&'a self, state: &'a [Number], errors: &'a [StateError]) -> Known<'a> {
+        Known { passivity: self, state, errors }
     }
 
     /// Whether the springs that stand for local contacts are about as stiff as these at a state.
@@ -179,6 +184,23 @@ impl Passivity {
     }
 }
 
+/// What is known of a node at the start of a cell.
+#[derive(Clone, Copy)]
+pub struct Known<'a> {
+    pub passivity: &'a Passivity,
+    pub state: &'a [Number],
+    /// Of each block of the state.
+    pub errors: &'a [StateError],
+}
+
+impl<'a> Known<'a> {
+    /// Each block with its part of the state and its error.
+    pub fn blocks(self) -> impl Iterator<Item = (&'a Block, Vec<Number>, &'a StateError)> {
+        let blocks = self.passivity.blocks.iter().zip(self.errors);
+        blocks.map(move |(block, error)| (block, block.of(self.state), error))
+    }
+}
+
 /// The masses and stiffnesses of a state: it holds the energy `½ Σ w y²`.
 fn weights(node: &Node<Number>, system: &System<Number>, pressed: &[Pressed]) -> Vec<Number> {
     let mass = |group: &usize| {
@@ -197,7 +219,7 @@ fn weights(node: &Node<Number>, system: &System<Number>, pressed: &[Pressed]) ->
 }
 
 impl Block {
-    fn of(
+    fn new(
         system: &System<Number>,
         members: Vec<usize>,
         weights: &[Number],
@@ -246,6 +268,11 @@ impl Block {
         stretches.fold(Magnitude::ZERO, Magnitude::max)
     }
 
+    /// Its part of a state.
+    fn of(&self, state: &[Number]) -> Vec<Number> {
+        self.members.iter().map(|member| state[*member].clone()).collect()
+    }
+
     /// `|B_j|` of an input.
     pub fn pushed_by(&self, input: usize) -> &Magnitude {
         &self.driven[input]
@@ -285,11 +312,7 @@ impl Block {
     fn norm_of(&self, rows: &Rows) -> Magnitude {
         let row = |row: &Vec<Number>| {
             let entries = row.iter().zip(&self.inverse_roots);
-            let squares = entries.map(|(entry, root)| {
-                let own = entry.magnitude().multiply(root);
-                own.multiply(&own)
-            });
-            squares.fold(Magnitude::ZERO, |sum, square| sum.add(&square)).square_root()
+            root_of_squares(entries.map(|(entry, root)| entry.magnitude().multiply(root)))
         };
         self.size(rows.iter().map(row))
     }
@@ -302,11 +325,7 @@ impl Block {
 
     /// The size of a state, by the sizes of its entries.
     pub fn size(&self, entries: impl Iterator<Item = Magnitude>) -> Magnitude {
-        let squares = self.roots.iter().zip(entries).map(|(root, entry)| {
-            let part = root.multiply(&entry);
-            part.multiply(&part)
-        });
-        squares.fold(Magnitude::ZERO, |sum, square| sum.add(&square)).square_root()
+        root_of_squares(self.roots.iter().zip(entries).map(|(root, entry)| root.multiply(&entry)))
     }
 
     /// A state without radii, and the size of those of its exact entries: the radius of an enclosure is within the error

@@ -4,7 +4,7 @@ use crate::ball::{Attempt, Ball, Magnitude, Number, Precisions};
 use crate::enclosure::EnclosureError;
 use crate::expression::{Expression, Fraction, Root};
 use crate::history::engine::Engine;
-use crate::history::error::HistoryError;
+use crate::history::error::{HistoryError, Outcome};
 use crate::history::follower::Follower;
 use crate::history::moment::Moment;
 use crate::history::part::{Part, Source};
@@ -13,8 +13,8 @@ use crate::limits::MAX_HISTORY_BITS;
 use crate::network::{Network, Observed, Squared, Term};
 use crate::scene::Dimension;
 use crate::signal::{
-    At, Effort, EvaluateError, Instant, Known, Limit, MAX_FLATNESS, Point, Signal, Signed, Silence,
-    Taylor,
+    At, Effort, EvaluateError, Instant, Known, Limit, MAX_FLATNESS, Near, Point, Signal, Signed,
+    Silence, Taylor,
 };
 use num_traits::Zero as _;
 use std::borrow::Cow;
@@ -83,7 +83,7 @@ struct Followed {
 }
 
 /// The parts of what is seen, at the precision of an engine.
-type Parts<'a> = Box<dyn Fn(&Engine) -> Result<Vec<Part>, HistoryError> + 'a>;
+type Parts<'a> = Box<dyn Fn(&Engine) -> Outcome<Vec<Part>> + 'a>;
 
 /// What is seen of a scene.
 struct Seen<'a> {
@@ -104,7 +104,7 @@ pub(crate) struct FollowedSignal<'a> {
     other_stretches: Cell<u64>,
     known: RefCell<Rc<Followed>>,
     /// How many stretches there are, once that is asked.
-    count: OnceCell<Result<usize, HistoryError>>,
+    count: OnceCell<Outcome<usize>>,
 }
 
 impl<'a> FollowedSignal<'a> {
@@ -114,7 +114,7 @@ impl<'a> FollowedSignal<'a> {
         observed: &Observed,
         window: [&Rational; 2],
         digits: Option<usize>,
-    ) -> Result<Self, HistoryError> {
+    ) -> Outcome<Self> {
         if window[1] < window[0] || *window[0] < Rational::zero() {
             return Err(EvaluateError::EmptyWindow.into());
         }
@@ -129,7 +129,7 @@ impl<'a> FollowedSignal<'a> {
         follower: &Rc<Follower<'a>>,
         (readings, unit): (&[Term], &Root),
         window: [&Rational; 2],
-    ) -> Result<Self, HistoryError> {
+    ) -> Outcome<Self> {
         let (network, readings, unit) = (follower.network, readings.to_vec(), unit.clone());
         let parts = Box::new(move |engine: &Engine| engine.parts(network, &readings, &unit));
         FollowedSignal::seen(follower, Seen { parts, integrated: 0 }, window)
@@ -141,7 +141,7 @@ impl<'a> FollowedSignal<'a> {
         follower: &Rc<Follower<'a>>,
         squared: &Squared,
         window: [&Rational; 2],
-    ) -> Result<Self, HistoryError> {
+    ) -> Outcome<Self> {
         let (network, squared) = (follower.network, squared.clone());
         let parts = Box::new(move |engine: &Engine| match &squared {
             Squared::Reading(reading) => {
@@ -161,7 +161,7 @@ impl<'a> FollowedSignal<'a> {
         (bar, direction): (usize, usize),
         integrated: usize,
         window: [&Rational; 2],
-    ) -> Result<Self, HistoryError> {
+    ) -> Outcome<Self> {
         let parts = Box::new(move |_: &Engine| {
             let before = Source::Wave { bar, direction, delay: None };
             Ok(vec![entering(bar, direction), Part::of(before, Number::integer(-1))])
@@ -171,11 +171,7 @@ impl<'a> FollowedSignal<'a> {
         Ok(FollowedSignal { most_bits, ..signal })
     }
 
-    fn seen(
-        follower: &Rc<Follower<'a>>,
-        seen: Seen<'a>,
-        window: [&Rational; 2],
-    ) -> Result<Self, HistoryError> {
+    fn seen(follower: &Rc<Follower<'a>>, seen: Seen<'a>, window: [&Rational; 2]) -> Outcome<Self> {
         let engine = Rc::clone(&follower.known.borrow());
         let most_bits = SEARCH_BITS.min(follower.most_bits(&engine));
         let known = RefCell::new(Rc::new(Followed::of(follower.network, engine, &seen)?));
@@ -194,19 +190,19 @@ impl<'a> FollowedSignal<'a> {
     }
 
     /// Finds all breaks, so that stretches can be asked for.
-    pub fn cut_at_breaks(self) -> Result<Self, HistoryError> {
+    pub fn cut_at_breaks(self) -> Outcome<Self> {
         self.counted()?;
         Ok(self)
     }
 
     /// How many stretches there are, which is found out once.
-    fn counted(&self) -> Result<usize, HistoryError> {
+    fn counted(&self) -> Outcome<usize> {
         self.count.get_or_init(|| self.counted_with_enough()).clone()
     }
 
     /// The same with so many bits that half of them are left at the ends of all stretches, if that can be: a light mass between
     /// long bars loses some at each return of a wave.
-    fn counted_with_enough(&self) -> Result<usize, HistoryError> {
+    fn counted_with_enough(&self) -> Outcome<usize> {
         let is_local = self.follower.network.local_contact().is_some();
         loop {
             let known = Rc::clone(&self.known.borrow());
@@ -328,11 +324,7 @@ fn entering(bar: usize, direction: usize) -> Part {
 }
 
 impl Followed {
-    fn of(
-        network: &Network,
-        engine: Rc<Engine>,
-        seen: &Seen<'_>,
-    ) -> Result<Followed, HistoryError> {
+    fn of(network: &Network, engine: Rc<Engine>, seen: &Seen<'_>) -> Outcome<Followed> {
         let parts = (seen.parts)(&engine)?;
         let time = engine.unit(network, Dimension::TIME)?;
         let inverse = time.reciprocal(engine.cut.bits)?;
@@ -340,7 +332,7 @@ impl Followed {
         Ok(Followed { engine, parts, integrated, pieces, unit: [time, inverse] })
     }
 
-    fn pieces(&self, network: &Network, window: &[Rational; 2]) -> Result<&[Piece], HistoryError> {
+    fn pieces(&self, network: &Network, window: &[Rational; 2]) -> Outcome<&[Piece]> {
         if let Some(pieces) = self.pieces.get() {
             return Ok(pieces);
         }
@@ -423,7 +415,7 @@ fn integrate(pieces: &mut [Piece], engine: &Engine) {
 }
 
 /// The sum of parts from an instant on, and of their sizes.
-fn sum(engine: &Engine, parts: &[Part], now: &Moment) -> Result<(Series, Magnitude), HistoryError> {
+fn sum(engine: &Engine, parts: &[Part], now: &Moment) -> Outcome<(Series, Magnitude)> {
     let (mut sum, mut size) = (Series::zero(), Magnitude::ZERO);
     for part in parts {
         let series = engine.series_of(part, now)?;
@@ -436,11 +428,7 @@ fn sum(engine: &Engine, parts: &[Part], now: &Moment) -> Result<(Series, Magnitu
 impl Engine {
     /// When any of some parts may change its series, after a first instant and until a last one, in
     /// order.
-    fn breaks(
-        &self,
-        parts: &[Part],
-        [from, to]: &[Moment; 2],
-    ) -> Result<Vec<Moment>, HistoryError> {
+    fn breaks(&self, parts: &[Part], [from, to]: &[Moment; 2]) -> Outcome<Vec<Moment>> {
         let mut breaks: Vec<Moment> = Vec::new();
         for list in parts.iter().flat_map(|part| self.breaks_of(part)) {
             let mut own = Vec::new();
@@ -456,7 +444,7 @@ impl Engine {
     }
 
     /// Two lists of instants in order as one, each instant once.
-    fn merged(&self, one: Vec<Moment>, other: Vec<Moment>) -> Result<Vec<Moment>, HistoryError> {
+    fn merged(&self, one: Vec<Moment>, other: Vec<Moment>) -> Outcome<Vec<Moment>> {
         let mut merged = Vec::with_capacity(one.len() + other.len());
         let mut one = one.into_iter().peekable();
         for moment in other {
@@ -632,10 +620,7 @@ impl Signal for FollowedSignal<'_> {
     fn taylor(
         &self,
         stretch: usize,
-        order: usize,
-        (middle, half): (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
+        Near { order, place: (middle, half), terms, bits }: Near<'_>,
     ) -> Result<Taylor, EvaluateError> {
         let followed = self.cut(bits)?;
         // A finer history may be known than is asked for.

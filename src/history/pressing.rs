@@ -15,7 +15,7 @@
 
 use crate::ball::{BallError, Magnitude, Number};
 use crate::history::motion::{Added, Course, Given, Motion};
-use crate::history::passivity::{Block, Passivity, StateError};
+use crate::history::passivity::{Block, Known, StateError};
 use crate::history::power::{PowerLaw, PowerSeries};
 use crate::history::series::{CellNorm, Roughness, Series, Truncation};
 use crate::network::{ElementLaw, Node, System};
@@ -193,29 +193,28 @@ impl System<Number> {
         system
     }
 
-    /// Solves the equations on a cell beside pressed local contacts, whose forces are added to the input.
+    /// Solves the equations on a cell, `(k+1) y_(k+1) = A y_k + B u_k`. The forces of local contacts that are pressed are
+    /// added to the input.
     ///
     /// # Errors
-    /// [`TooLong`].
+    /// [`TooLong`], beside pressed local contacts only.
     ///
     /// # Cost
-    /// `N²` products for each pressed contact, beside those of [`System::solve`].
-    pub fn press(
+    /// N times the products of small matrices with vectors, and `N²` products for each pressed contact.
+    pub fn solve(
         &self,
-        passivity: &Passivity,
-        (state, errors): (&[Number], &[StateError]),
+        known: Known<'_>,
         input: &mut [Series],
         (norm, cut): (&CellNorm, &Truncation),
     ) -> Result<Motion, TooLong> {
         let given = Given::new(input, norm, cut);
         let (mut courses, mut forces) = (Vec::new(), Vec::new());
-        for (block, error) in passivity.blocks.iter().zip(errors) {
+        for (block, own, error) in known.blocks() {
             if block.pressed.is_empty() {
-                courses.push(self.course(block, state, error, &given));
+                courses.push(self.course(block, own, error, &given));
                 continue;
             }
             let pressing = self.pressing(block, &given);
-            let own: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
             if let Some(columns) = pressing.untouched(&own) {
                 courses.push(Course::exact(columns));
                 continue;
@@ -230,7 +229,7 @@ impl System<Number> {
         for (place, force) in forces {
             input[place] = force;
         }
-        Ok(self.motion(passivity, (state, courses), input, cut))
+        Ok(self.motion(known.passivity, (known.state, courses), input, cut))
     }
 
     pub(super) fn pressing<'a>(&'a self, block: &'a Block, given: &'a Given<'a>) -> Pressing<'a> {
@@ -461,8 +460,7 @@ impl Pressing<'_> {
         }
         // Between this disc and the last one there may be a larger one.
         let larger = [15_u64, 13, 11, 9];
-        let mut larger = larger.map(|part| radius.multiply(&Magnitude::from_u64(part)).scale(-3));
-        larger.sort_unstable_by(|a, b| b.cmp(a));
+        let larger = larger.map(|part| radius.multiply(&Magnitude::from_u64(part)).scale(-3));
         let radius = larger.into_iter().find(is_kept).unwrap_or(radius);
         TooLong::than(&radius.scale(-REACH))
     }
@@ -661,19 +659,15 @@ impl Pressing<'_> {
             if own.is_light {
                 let first = law.law.bound(&own.start.add(&own.off)).unwrap_or(*light);
                 let roughness = (!light.is_zero()).then_some(Roughness::Values);
-                let series = Series::new(Vec::new(), *light)
-                    .with_error_at_start(first.min(*light))
-                    .of_roughness(roughness)
-                    .of_sign(signed.filter(|_| !light.is_zero()));
-                all.push(series);
+                let signed = signed.filter(|_| !light.is_zero());
+                let series = Series::new(Vec::new(), *light).with_error_at_start(first.min(*light));
+                all.push(Series { roughness, signed, ..series });
                 continue;
             }
             let rest = own.stiffest.multiply(&self.block.entry(own.place, &bounds.rest));
             let series = Series::new(force, rest.add(&own.force.multiply(&bounds.left_out)))
-                .with_error_at_start(own.stiffest.multiply(&own.off))
-                .of_roughness(bounds.roughness)
-                .of_sign(signed);
-            all.push(series);
+                .with_error_at_start(own.stiffest.multiply(&own.off));
+            all.push(Series { roughness: bounds.roughness, signed, ..series });
         }
         all
     }

@@ -3,14 +3,12 @@
 use crate::ball::Number;
 use crate::expression::Fraction;
 use crate::history::engine::{Cell, Engine};
-use crate::history::error::HistoryError;
+use crate::history::error::Outcome;
 use crate::history::moment::Moment;
 use crate::history::series::Series;
 use crate::network::{Contact, Node, Side};
 use crate::signal::Limit;
 use std::cmp::Ordering;
-
-type Outcome<T> = Result<T, HistoryError>;
 
 impl Engine {
     /// The force of a contact and the velocities beside it at an instant.

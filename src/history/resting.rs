@@ -110,10 +110,8 @@ impl Pressing<'_> {
             let error = |size: &Magnitude| {
                 own.stiffest.multiply(&self.block.entry(own.place, size)).add(&rounding)
             };
-            Series::new(vec![force], error(&rest))
-                .with_error_at_start(error(&at_start))
-                .of_roughness(roughness)
-                .of_sign(Some(pressed))
+            let own = Series::new(vec![force], error(&rest)).with_error_at_start(error(&at_start));
+            Series { roughness, signed: Some(pressed), ..own }
         };
         let forces = contacts.iter().zip(forces).map(force).collect();
         let course = Course {

@@ -14,7 +14,7 @@
 //! errors are bounded in a weaker norm, that of a [`Roughness`].
 
 use crate::ball::{Ball, Magnitude, Number};
-use crate::signal::Signed;
+use crate::signal::{Signed, divide};
 use std::cmp::Ordering;
 
 /// How near to its cell a function may cease to be analytic. Sums, integrals, shifts and the equations of a node keep
@@ -148,12 +148,7 @@ impl CellNorm {
         cut: &Truncation,
     ) -> CellNorm {
         let roughness = known.filter_map(|series| series.roughness).max();
-        CellNorm::new(length.magnitude(), cut).of_roughness(roughness)
-    }
-
-    /// The norm of errors of a roughness.
-    pub fn of_roughness(self, roughness: Option<Roughness>) -> CellNorm {
-        CellNorm { roughness, ..self }
+        CellNorm { roughness, ..CellNorm::new(length.magnitude(), cut) }
     }
 
     /// `1/γ`, or the distance within which a rough function is bounded.
@@ -205,17 +200,8 @@ impl CellNorm {
     }
 }
 
-/// Divides a polynomial by `x − a` again and again, where `step(c, d) = c + a d`: what is left are its
-/// coefficients at `a`.
-fn divide(coefficients: &mut [Number], step: impl Fn(&Number, &Number) -> Number) {
-    for first in 0..coefficients.len() {
-        for k in (first..coefficients.len().saturating_sub(1)).rev() {
-            coefficients[k] = step(&coefficients[k], &coefficients[k + 1]);
-        }
-    }
-}
-
-/// The same in balls, for a number `a` without radius: once `c_k` is scaled by `a^k`, division by `x − a` takes additions only.
+/// The coefficients at `a` of a polynomial in balls, for a number `a` without radius: once `c_k` is scaled by `a^k`,
+/// division by `x − a` takes additions only.
 fn recentered(coefficients: &[Number], a: &Number, bits: u64) -> Vec<Number> {
     if a.magnitude().is_zero() {
         return coefficients.to_vec();
@@ -259,9 +245,9 @@ pub struct Series {
     pub rest: Magnitude,
     pub error: Magnitude,
     pub fresh: Magnitude,
-    error_at_start: Magnitude,
-    flat: usize,
-    slope: Option<Magnitude>,
+    pub(super) error_at_start: Magnitude,
+    pub(super) flat: usize,
+    pub(super) slope: Option<Magnitude>,
     pub roughness: Option<Roughness>,
     /// Its sign on the cell, where that is known otherwise.
     pub signed: Option<Signed>,
@@ -321,11 +307,6 @@ impl Series {
         Series { error, fresh, error_at_start, ..self }
     }
 
-    /// The same function, of which so many derivatives are known to be zero at the start.
-    pub fn of_flatness(self, flat: usize) -> Series {
-        Series { flat, ..self }
-    }
-
     /// How many derivatives are known to be exactly zero at the start; all of them where it is zero.
     pub fn flatness(&self) -> usize {
         let leading = || self.coefficients.iter().take_while(|c| c.is_zero()).count();
@@ -336,26 +317,11 @@ impl Series {
         }
     }
 
-    fn with_slope(self, slope: Option<Magnitude>) -> Series {
-        Series { slope, ..self }
-    }
-
     /// The same polynomial with other coefficients, as far as its errors go.
     fn with_coefficients(&self, coefficients: Vec<Number>) -> Series {
-        Series::new(coefficients, self.rest)
-            .of_roughness(self.roughness)
-            .with_slope(self.slope)
-            .with_error(self.error, self.fresh)
-    }
-
-    /// The same function, whose rest is a bound of this roughness or of its own, whichever is the larger.
-    pub fn of_roughness(self, roughness: Option<Roughness>) -> Series {
-        Series { roughness: self.roughness.max(roughness), ..self }
-    }
-
-    /// The same function, of which a sign is known.
-    pub fn of_sign(self, signed: Option<Signed>) -> Series {
-        Series { signed, ..self }
+        let (slope, roughness) = (self.slope, self.roughness);
+        let own = Series::new(coefficients, self.rest).with_error(self.error, self.fresh);
+        Series { slope, roughness, ..own }
     }
 
     /// Keeps its sign where that was proven, but not at the end of a cell where a contact opens.
@@ -457,13 +423,16 @@ impl Series {
             false => series.flatness(),
         };
         let flat = flatness(self, a).min(flatness(other, b));
-        Series::new((0..length).map(term).collect(), sum(&self.rest, &other.rest))
-            .with_slope(slopes.map(|(own, other)| sum(&own, &other)))
-            .with_error(sum(&self.error, &other.error), sum(&self.fresh, &other.fresh))
-            .with_error_at_start(sum(&self.error_at_start, &other.error_at_start))
-            .of_flatness(flat)
-            .of_roughness(self.roughness.max(other.roughness))
-            .of_sign(sign_of_sum([(self, a), (other, b)]))
+        Series {
+            error: sum(&self.error, &other.error),
+            fresh: sum(&self.fresh, &other.fresh),
+            error_at_start: sum(&self.error_at_start, &other.error_at_start),
+            flat,
+            slope: slopes.map(|(own, other)| sum(&own, &other)),
+            roughness: self.roughness.max(other.roughness),
+            signed: sign_of_sum([(self, a), (other, b)]),
+            ..Series::new((0..length).map(term).collect(), sum(&self.rest, &other.rest))
+        }
     }
 
     pub fn add(&self, other: &Series, bits: u64) -> Series {
@@ -500,7 +469,7 @@ impl Series {
                 *c = c.widened(&moved(&sizes, j, &radius), bits);
             }
         }
-        self.with_coefficients(shifted).of_sign(signed)
+        Series { signed, ..self.with_coefficients(shifted) }
     }
 
     /// The same function, its coefficients without radii and without the last ones that tell nothing on a
@@ -546,12 +515,15 @@ impl Series {
             .rev()
             .fold(Magnitude::ZERO, |sum, radius| sum.multiply(&norm.length).add(radius));
         let rounded = rounded.add(&added);
-        Series::new(coefficients, self.rest.add(&added).add(&norm.of_sizes(&radii)))
-            .with_error(self.error.add(&rounded), self.fresh.add(&rounded))
-            .with_error_at_start(self.error_at_start.add(&off))
-            .of_flatness(self.flat)
-            .of_roughness(self.roughness.max(norm.roughness))
-            .of_sign(self.signed)
+        Series {
+            error: self.error.add(&rounded),
+            fresh: self.fresh.add(&rounded),
+            error_at_start: self.error_at_start.add(&off),
+            flat: self.flat,
+            roughness: self.roughness.max(norm.roughness),
+            signed: self.signed,
+            ..Series::new(coefficients, self.rest.add(&added).add(&norm.of_sizes(&radii)))
+        }
     }
 
     /// The same function so much beyond the ends of the cell.
@@ -648,12 +620,15 @@ impl Series {
         }
         let longest = (*length).max(Magnitude::power_of_two(-cut.rate));
         let flat = if coefficients[0].is_zero() { self.flatness().saturating_add(1) } else { 0 };
-        Series::new(coefficients, self.rest.multiply(&longest))
-            .with_slope(Some(self.error))
-            .with_error(self.error.multiply(length), self.fresh.multiply(length))
-            .with_error_at_start(Magnitude::ZERO)
-            .of_flatness(flat)
-            .of_roughness(self.roughness)
+        Series {
+            error: self.error.multiply(length),
+            fresh: self.fresh.multiply(length),
+            error_at_start: Magnitude::ZERO,
+            flat,
+            slope: Some(self.error),
+            roughness: self.roughness,
+            ..Series::new(coefficients, self.rest.multiply(&longest))
+        }
     }
 
     /// `f'`, its error below `slope` where that is known: `‖e'‖ ≤ γ ‖e‖`; of a rough function `(j+1)! 2^(r(j+1)) ≤ 2^r · j! 2^((r+1)j)`.
@@ -662,9 +637,8 @@ impl Series {
         let slopes = terms.map(|(k, c)| c.multiply(&Number::integer(k as i64), cut.bits));
         let rest = self.bound_of_derivative(&self.rest, 1, cut);
         let error = self.slope.unwrap_or(rest);
-        Series::new(slopes.collect(), rest)
-            .with_error(error, error)
-            .of_flatness(self.flat.saturating_sub(1))
-            .of_roughness(self.roughness.map(Roughness::halved))
+        let (flat, roughness) =
+            (self.flat.saturating_sub(1), self.roughness.map(Roughness::halved));
+        Series { flat, roughness, ..Series::new(slopes.collect(), rest).with_error(error, error) }
     }
 }

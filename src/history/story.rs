@@ -5,13 +5,14 @@
 //! stays closed nothing is forgotten: what may still be told happened when it lost it.
 
 use crate::ball::{Number, Value};
+use crate::enclosure::sorted;
 use crate::expression::{Expression, Fraction};
 use crate::history::body::parts;
 use crate::history::closed_form;
 use crate::history::contacts::Happening;
 use crate::history::energy::Integrand;
 use crate::history::engine::Engine;
-use crate::history::error::HistoryError;
+use crate::history::error::Outcome;
 use crate::history::history::{
     Body, ContactSummary, Ending, Event, EventKind, History, precisions,
 };
@@ -36,8 +37,6 @@ const MANY_CELLS: usize = MAX_HISTORY_CELLS / 4;
 
 /// Events are told on the way where what is kept takes more than this share of the memory.
 const MUCH: u64 = 64;
-
-type Outcome<T> = Result<T, HistoryError>;
 
 /// The longest travel time; one unit where nothing travels.
 pub(crate) fn longest(engine: &Engine) -> Outcome<Fraction> {
@@ -282,13 +281,13 @@ impl Story<'_> {
     }
 
     /// Tells events in the order of time.
-    fn tell(&mut self, mut rows: Vec<Row>) -> Outcome<()> {
+    fn tell(&mut self, rows: Vec<Row>) -> Outcome<()> {
         let clock = &self.engine.clock;
         let about = |row: &Row| clock.about(&row.moment);
-        rows.sort_by(|a, b| {
+        let rows = sorted(rows, &|a: &Row, b: &Row| -> Outcome<Ordering> {
             let order = clock.compare(&a.moment, &b.moment);
-            order.unwrap_or_else(|_| about(a).total_cmp(&about(b)))
-        });
+            Ok(order.unwrap_or_else(|_| about(a).total_cmp(&about(b))))
+        })?;
         for row in rows {
             self.closed[row.contact] = matches!(row.kind, EventKind::Impact | EventKind::Closing);
             let mut event = self.event(&row)?;

@@ -5,7 +5,7 @@ use crate::enclosure::EnclosureError;
 use crate::expression::Fraction;
 use crate::history::cells::Cells;
 use crate::history::energy::{Integrand, Wave};
-use crate::history::error::HistoryError;
+use crate::history::error::Outcome;
 use crate::history::moment::{Clock, Moment};
 use crate::history::series::{Series, Truncation};
 use crate::signal::Limit;
@@ -100,12 +100,7 @@ impl Track {
     ///
     /// # Errors
     /// As [`Cells::find`].
-    pub fn cell(
-        &self,
-        clock: &Clock,
-        moment: &Moment,
-        limit: Limit,
-    ) -> Result<usize, HistoryError> {
+    pub fn cell(&self, clock: &Clock, moment: &Moment, limit: Limit) -> Outcome<usize> {
         self.cells.find(clock, (moment, limit), &self.end)
     }
 
@@ -119,7 +114,7 @@ impl Track {
         moment: &Moment,
         limit: Limit,
         cut: &Truncation,
-    ) -> Result<Number, HistoryError> {
+    ) -> Outcome<Number> {
         let (start, wave) = self.cells.get(self.cell(clock, moment, limit)?);
         Ok(wave.series().value(&clock.since(start, moment)?, cut))
     }
@@ -136,11 +131,11 @@ impl Track {
         clock: &Clock,
         [from, to]: [&Moment; 2],
         cut: &Truncation,
-    ) -> Result<Number, HistoryError> {
+    ) -> Outcome<Number> {
         if clock.compare(from, to)? != Ordering::Less {
             return Ok(Number::zero());
         }
-        let until = |(start, wave): &(Moment, Wave), moment: &Moment| -> Result<_, HistoryError> {
+        let until = |(start, wave): &(Moment, Wave), moment: &Moment| -> Outcome<_> {
             Ok(wave.until(integrand, &clock.since(start, moment)?, cut))
         };
         let forgotten = self.cells.forgotten();

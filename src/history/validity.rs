@@ -6,7 +6,7 @@
 use crate::ball::{Attempt, Ball, Value};
 use crate::history::contacts::Happening;
 use crate::history::engine::Engine;
-use crate::history::error::{HistoryError, When};
+use crate::history::error::{HistoryError, Outcome, When};
 use crate::history::history::{precisions, undecided};
 use crate::history::moment::{Moment, TOLD_DIGITS};
 use crate::history::story::{PATIENCE, longest};
@@ -66,7 +66,7 @@ impl Validity {
         until: Option<&Rational>,
         digits: usize,
         cells: usize,
-    ) -> Result<Validity, HistoryError> {
+    ) -> Outcome<Validity> {
         let attempt = |bits| match followed(network, until, digits, (bits, cells)) {
             Ok(told) => {
                 let is_open = matches!(told, Validity::Until { time: Value::Enclosed(_), .. });
@@ -86,7 +86,7 @@ const MOST_CELLS: usize = 5_000;
 /// # Errors
 /// [`HistoryError::Opens`]; [`HistoryError::TooManyCells`] where that is not known after [`MOST_CELLS`]; else as
 /// [`Validity::of`].
-pub fn stays_closed(network: &Network, until: &Rational) -> Result<(), HistoryError> {
+pub fn stays_closed(network: &Network, until: &Rational) -> Outcome<()> {
     match Validity::of(network, Some(until), TOLD_DIGITS, MOST_CELLS)? {
         Validity::Followed(time) => {
             let time = time.ball(MAX_HISTORY_BITS);
@@ -114,7 +114,7 @@ fn followed(
     until: Option<&Rational>,
     digits: usize,
     (bits, cells): (u64, usize),
-) -> Result<Validity, HistoryError> {
+) -> Outcome<Validity> {
     let mut engine = Engine::new(network, network.contacts_that_may_open(), bits)?;
     let until = Moment::at(match until {
         Some(until) => network.scaled_time(until),
@@ -147,7 +147,7 @@ impl Engine {
         &mut self,
         until: &Moment,
         limit: usize,
-    ) -> Result<(Option<Happening>, Moment), HistoryError> {
+    ) -> Outcome<(Option<Happening>, Moment)> {
         loop {
             let first = self.earliest_opening()?;
             let end = match &first {
@@ -166,7 +166,7 @@ impl Engine {
     }
 
     /// The opening known so far at which a contact would have pulled first.
-    fn earliest_opening(&self) -> Result<Option<Happening>, HistoryError> {
+    fn earliest_opening(&self) -> Outcome<Option<Happening>> {
         let mut first: Option<&Happening> = None;
         for (number, own) in self.happenings.iter().enumerate() {
             let back = |later: &Happening| {

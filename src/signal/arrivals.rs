@@ -4,7 +4,7 @@ use crate::enclosure::Numbers;
 use crate::expression::{Expression, Fraction};
 use crate::network::Network;
 use crate::recurrence::WaveIndex;
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use crate::solution::{Demand, EchoByEcho};
 use std::cmp::Ordering;
 use wavestep_polynomial::Symbol;
@@ -25,11 +25,7 @@ pub struct Arrival {
 /// The echoes of some waves that are not zero, of at most `through` periods of the lattice together:
 /// where the periods are numbers those are left out that others may come before, and the rest is in
 /// order of arrival; else they are in order of their counts.
-pub fn arrivals(
-    network: &Network,
-    waves: &[WaveIndex],
-    through: usize,
-) -> Result<Vec<Arrival>, EvaluateError> {
+pub fn arrivals(network: &Network, waves: &[WaveIndex], through: usize) -> Outcome<Vec<Arrival>> {
     let numbers = Numbers::new(&network.model().constants);
     let periods = network.lattice().periods();
     let bounds = vec![through; periods.len()];
@@ -67,7 +63,7 @@ fn in_order(
     numbers: &Numbers,
     periods: &[Fraction],
     through: usize,
-) -> Result<Vec<Arrival>, EvaluateError> {
+) -> Outcome<Vec<Arrival>> {
     let told = periods.iter().all(|period| numbers.enclose(period, 64).is_ok());
     if !told {
         let total = |arrival: &Arrival| arrival.counts.iter().sum::<usize>();

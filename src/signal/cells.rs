@@ -10,10 +10,10 @@
 
 use crate::ball::{Attempt, Ball, Magnitude, Precisions, at_or_after, at_or_before, rational};
 use crate::limits::{MAX_PIECES, MAX_POLYNOMIALS, pause};
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::marched_pieces::MarchedPieces;
 use crate::signal::signal::{At, Enclosure, Limit, Signal};
-use crate::signal::taylor::Taylor;
+use crate::signal::taylor::{Near, Taylor};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 use wavestep_kernels::Piece;
@@ -90,7 +90,7 @@ impl<'a> Window<'a> {
     }
 
     /// The smallest doubles of the stretches; refused where there are too many.
-    fn firsts(&self) -> Result<&[f64], EvaluateError> {
+    fn firsts(&self) -> Outcome<&[f64]> {
         if let Some(firsts) = self.firsts.get() {
             return Ok(firsts);
         }
@@ -116,13 +116,13 @@ impl<'a> Window<'a> {
     }
 
     /// How many stretches there are.
-    pub(crate) fn count(&self) -> Result<usize, EvaluateError> {
+    pub(crate) fn count(&self) -> Outcome<usize> {
         Ok(self.firsts()?.len())
     }
 
     /// The double nearest to the value at a time, or next to it where that is not decided: balls with
     /// bits enough for all but ties.
-    pub(crate) fn enclosed(&self, at: &Rational, side: Limit) -> Result<f64, EvaluateError> {
+    pub(crate) fn enclosed(&self, at: &Rational, side: Limit) -> Outcome<f64> {
         let enclose = enclosure(self.signal, at, side)?;
         let attempt = |bits| {
             let ball = enclose(bits)?;
@@ -149,7 +149,7 @@ impl<'a> Window<'a> {
     }
 
     /// The doubles of each stretch, the first and the last, where there are some.
-    fn doubles(&self) -> Result<impl Iterator<Item = (usize, (f64, f64))>, EvaluateError> {
+    fn doubles(&self) -> Outcome<impl Iterator<Item = (usize, (f64, f64))>> {
         let firsts = self.firsts()?;
         let end = at_or_before(self.signal.window()[1]);
         let lasts = firsts.iter().skip(1).map(|next| next.next_down()).chain([end]);
@@ -160,7 +160,7 @@ impl<'a> Window<'a> {
     /// About the largest absolute value, by samples: at both ends of some of the stretches, in the middle, and where stretches
     /// are few, at times ever nearer to the beginning. The largest one on the window is at least that, but for one part in
     /// 2^18.
-    pub(crate) fn scale(&self) -> Result<Magnitude, EvaluateError> {
+    pub(crate) fn scale(&self) -> Outcome<Magnitude> {
         /// How many stretches are looked at.
         const SAMPLES: usize = 40;
         let doubles = self.doubles()?.map(|(_, doubles)| doubles);
@@ -195,7 +195,7 @@ impl<'a> Window<'a> {
     }
 
     /// Whether the signal is zero on every stretch, also where waves cancel each other, as exact values prove.
-    fn is_zero(&self) -> Result<bool, EvaluateError> {
+    fn is_zero(&self) -> Outcome<bool> {
         let (signal, zero) = (self.signal, Rational::default());
         for stretch in 0..self.count()? {
             if signal.is_zero(stretch) {
@@ -209,9 +209,8 @@ impl<'a> Window<'a> {
             }
             // Within the stretch: values there are what it is judged by.
             let time = |end| signal.time(stretch, end, LOOK_BITS);
-            let [(_, from), (to, _)] =
-                [time(Limit::Right)?.endpoints(), time(Limit::Left)?.endpoints()];
-            let bounds = [Rational::from(&from), Rational::from(&to)];
+            let ([_, from], [to, _]) = (time(Limit::Right)?.bounds(), time(Limit::Left)?.bounds());
+            let bounds = [from, to];
             if bounds[0] >= bounds[1] || !signal.equals(stretch, &zero, &bounds, LOOK_BITS)? {
                 return Ok(false);
             }
@@ -221,7 +220,7 @@ impl<'a> Window<'a> {
 
     /// What errors are compared with: the largest value, or where no value but zero was found, what the
     /// signal comes to a little later.
-    pub(crate) fn scale_of_errors(&self) -> Result<Magnitude, EvaluateError> {
+    pub(crate) fn scale_of_errors(&self) -> Outcome<Magnitude> {
         const TERMS: usize = 12;
         /// How much later, as powers of two: the first at which terms fall off.
         const LATER: [i64; 5] = [-20, -30, -40, -60, -100];
@@ -234,7 +233,8 @@ impl<'a> Window<'a> {
         let mut size = Magnitude::ZERO;
         for later in LATER {
             let later = Rational::from(&Magnitude::power_of_two(later));
-            let taylor = self.signal.taylor(last, 0, (to, &later), TERMS, LOOK_BITS)?;
+            let near = Near { order: 0, place: (to, &later), terms: TERMS, bits: LOOK_BITS };
+            let taylor = self.signal.taylor(last, near)?;
             size = taylor.tail(0);
             if taylor.remainder <= size.scale(-1) {
                 break;
@@ -244,7 +244,7 @@ impl<'a> Window<'a> {
     }
 
     /// So many times within a stretch: about its middle, and each next one half as far from its beginning.
-    fn between(&self, stretch: usize, count: usize) -> Result<Vec<Rational>, EvaluateError> {
+    fn between(&self, stretch: usize, count: usize) -> Outcome<Vec<Rational>> {
         let time = |end| match self.signal.exact_time(stretch, end) {
             Some(time) => Ok::<_, EvaluateError>(time),
             None => Ok(Rational::from(self.signal.time(stretch, end, LOOK_BITS)?.midpoint())),
@@ -258,7 +258,7 @@ impl<'a> Window<'a> {
     }
 
     /// The polynomials of all cells, fitting as they shall.
-    pub(crate) fn pieces(&self, fit: Fit) -> Result<Pieces, EvaluateError> {
+    pub(crate) fn pieces(&self, fit: Fit) -> Outcome<Pieces> {
         let mut pieces = Pieces { all: Vec::new(), firsts: Vec::new(), end: f64::NAN };
         // Stretches are much alike: each is first cut as often as its predecessor at least was.
         let mut depth = 0;
@@ -309,7 +309,7 @@ impl<'a> Window<'a> {
         stretch: usize,
         (first, last): (f64, f64),
         fit: Fit,
-    ) -> Result<Option<Piece>, EvaluateError> {
+    ) -> Outcome<Option<Piece>> {
         let middle = first + (last - first) / 2.0;
         // The difference of two doubles may be rounded: the next one is large enough. Times between
         // the cell's doubles and the next ones belong to it as well.
@@ -342,12 +342,7 @@ impl<'a> Window<'a> {
 
     /// The polynomial in `(t − middle)/half`, its terms beyond the degree in the remainder; where it can
     /// fit, with coefficients that are far finer than the error.
-    fn expand(
-        &self,
-        stretch: usize,
-        (middle, half): (f64, f64),
-        fit: Fit,
-    ) -> Result<Taylor, EvaluateError> {
+    fn expand(&self, stretch: usize, (middle, half): (f64, f64), fit: Fit) -> Outcome<Taylor> {
         if self.vanishes.get() {
             return Ok(Taylor::polynomial(vec![Ball::zero(); fit.degree + 1]));
         }
@@ -360,7 +355,8 @@ impl<'a> Window<'a> {
                     self.bits.set(bits);
                     // Twice as many terms tell what those beyond the degree are.
                     let terms = 2 * fit.degree + 6;
-                    let taylor = self.signal.taylor(stretch, 0, place, terms, bits)?;
+                    let taylor =
+                        self.signal.taylor(stretch, Near { order: 0, place, terms, bits })?;
                     let radii = taylor.coefficients.iter().map(Ball::radius);
                     let radius = radii.fold(Magnitude::ZERO, |sum, radius| sum.add(radius));
                     let fine =
@@ -388,7 +384,7 @@ pub fn reaching_a_double([from, to]: [Rational; 2]) -> [Rational; 2] {
 
 /// About the largest absolute value of a signal on its window, from the beginnings, middles and ends of
 /// some stretches; the largest one is not smaller by more than one part in 2^18.
-pub fn scale(signal: &dyn Signal) -> Result<f64, EvaluateError> {
+pub fn scale(signal: &dyn Signal) -> Outcome<f64> {
     Ok(Window::new(signal).scale()?.to_double())
 }
 
@@ -407,7 +403,7 @@ pub(crate) fn enclosure<'a>(
     signal: &'a dyn Signal,
     at: &'a Rational,
     side: Limit,
-) -> Result<Enclosure<'a>, EvaluateError> {
+) -> Outcome<Enclosure<'a>> {
     Ok(match signal.stretch_at(at, side)? {
         Some(stretch) => Box::new(move |bits| signal.enclose(stretch, 0, At::Time(at), bits)),
         None => signal.point(at, side)?.enclose,
@@ -415,7 +411,7 @@ pub(crate) fn enclosure<'a>(
 }
 
 /// Refuses more polynomials than are made.
-fn admit(count: usize) -> Result<(), EvaluateError> {
+fn admit(count: usize) -> Outcome<()> {
     match count > MAX_POLYNOMIALS {
         true => Err(EvaluateError::TooManyCells { limit: MAX_POLYNOMIALS }),
         false => Ok(()),
@@ -443,7 +439,7 @@ fn power_of_two_above(value: f64) -> f64 {
 
 /// The smallest doubles that are not before the beginnings of the stretches, that of the window
 /// included.
-pub fn first_doubles(signal: &dyn Signal) -> Result<Vec<f64>, EvaluateError> {
+pub fn first_doubles(signal: &dyn Signal) -> Outcome<Vec<f64>> {
     let mut firsts = vec![at_or_after(signal.window()[0])];
     for stretch in 1..signal.count()? {
         firsts.push(first_double(signal, stretch)?);
@@ -452,11 +448,11 @@ pub fn first_doubles(signal: &dyn Signal) -> Result<Vec<f64>, EvaluateError> {
 }
 
 /// The smallest double that is not before the beginning of a stretch.
-fn first_double(signal: &dyn Signal, stretch: usize) -> Result<f64, EvaluateError> {
+fn first_double(signal: &dyn Signal, stretch: usize) -> Outcome<f64> {
     if let Some(time) = signal.exact_time(stretch, Limit::Right) {
         return Ok(at_or_after(&time));
     }
-    let follows = |double: f64| -> Result<bool, EvaluateError> {
+    let follows = |double: f64| -> Outcome<bool> {
         let time = signal.scaled_time(&rational(double));
         Ok(signal.begins(stretch, &time)? != Ordering::Greater)
     };

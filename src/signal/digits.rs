@@ -5,7 +5,7 @@
 //! suspected, exact arithmetic is asked once more, at whatever cost.
 
 use crate::ball::{Attempt, NEGLIGIBLE_BITS, Precisions, Value};
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::signal::{Known, Limit, Point, Signal};
 use wavestep_polynomial::Rational;
 
@@ -24,7 +24,7 @@ pub fn value(
     limit: Limit,
     digits: usize,
     limit_bits: u64,
-) -> Result<Value, EvaluateError> {
+) -> Outcome<Value> {
     signal.point(at, limit)?.value(digits, limit_bits)
 }
 
@@ -35,7 +35,7 @@ pub fn digits(
     limit: Limit,
     digits: usize,
     limit_bits: u64,
-) -> Result<Value, EvaluateError> {
+) -> Outcome<Value> {
     match value(signal, at, limit, digits, limit_bits)? {
         Value::Enclosed(best) => {
             Err(EvaluateError::AccuracyNotReached { best: Box::new(best), bits: limit_bits })
@@ -50,7 +50,7 @@ pub(crate) fn rational_value(
     signal: &dyn Signal,
     at: &Rational,
     limit: Limit,
-) -> Result<Option<Rational>, EvaluateError> {
+) -> Outcome<Option<Rational>> {
     match signal.point(at, limit).and_then(|point| point.rational()) {
         Err(
             EvaluateError::TooManyPeriods { .. }
@@ -64,7 +64,7 @@ pub(crate) fn rational_value(
 
 impl Point<'_> {
     /// See [`value`].
-    pub(crate) fn value(&self, digits: usize, limit_bits: u64) -> Result<Value, EvaluateError> {
+    pub(crate) fn value(&self, digits: usize, limit_bits: u64) -> Outcome<Value> {
         let limit_bits = limit_bits.min(self.most_bits.max(16 * digits as u64));
         match &self.known {
             Known::Rational(value) => Ok(Value::Exact(value.clone())),
@@ -74,7 +74,7 @@ impl Point<'_> {
     }
 
     /// The value where it is a rational number of which one look tells, or zero.
-    pub(crate) fn rational(&self) -> Result<Option<Rational>, EvaluateError> {
+    pub(crate) fn rational(&self) -> Outcome<Option<Rational>> {
         Ok(match &self.known {
             Known::Rational(value) => Some(value.clone()),
             Known::Irrational => None,
@@ -89,7 +89,7 @@ impl Point<'_> {
     }
 
     /// The digits of what may be zero, or half-way between two decimals.
-    fn suspicious(&self, digits: usize, limit_bits: u64) -> Result<Value, EvaluateError> {
+    fn suspicious(&self, digits: usize, limit_bits: u64) -> Outcome<Value> {
         let mut limit_bits = limit_bits;
         let told = self.told_from_zero(limit_bits)?;
         if told.is_none() {
@@ -126,7 +126,7 @@ impl Point<'_> {
     }
 
     /// What is nothing beside other values, where a scene would be followed once more for its digits.
-    fn nothing(&self, digits: usize, limit_bits: u64) -> Result<Option<Value>, EvaluateError> {
+    fn nothing(&self, digits: usize, limit_bits: u64) -> Outcome<Option<Value>> {
         if self.most_bits == u64::MAX {
             return Ok(None);
         }
@@ -140,7 +140,7 @@ impl Point<'_> {
     }
 
     /// The bits that tell a value from zero, rising; none where it is so small that it may be zero.
-    fn told_from_zero(&self, limit_bits: u64) -> Result<Option<u64>, EvaluateError> {
+    fn told_from_zero(&self, limit_bits: u64) -> Outcome<Option<u64>> {
         let attempt = |bits| {
             let ball = (self.enclose)(bits)?;
             Ok(match ball.contains_zero() {

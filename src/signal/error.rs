@@ -7,6 +7,9 @@ use crate::network::NetworkError;
 use crate::solution::SolveError;
 use wavestep_polynomial::{Integer, Symbol};
 
+/// A value, or why there is none.
+pub(crate) type Outcome<T> = Result<T, EvaluateError>;
+
 /// Why there is no value.
 #[expect(missing_docs, reason = "the messages say it")]
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]

@@ -7,7 +7,7 @@
 use crate::ball::{Arithmetic as _, Ball, Binary, ComplexBall, Magnitude, at_or_after, rational};
 use crate::enclosure::Numbers;
 use crate::expression::{Field as _, Fraction, Transform};
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::signal::{Limit, Signal};
 use crate::signal::taps::{Extra, Tap, Taps};
 use crate::signal::taylor::Taylor;
@@ -209,7 +209,7 @@ impl MarchedPieces {
         &self,
         (middle, half): (&Rational, &Rational),
         bits: u64,
-    ) -> Result<Taylor, EvaluateError> {
+    ) -> Outcome<Taylor> {
         let march = self.march().ok_or(EvaluateError::AfterLast)?;
         let pieces = march.pieces_per_period();
         let doubled = Rational::from_integer((2 * pieces).into());

@@ -44,6 +44,6 @@ pub use signal::{At, EchoCount, Effort, Instant, Limit, Point, Signal, Signed};
 pub(crate) use signal::{Enclosure, Known, MAX_FLATNESS, has_begun, last_begun, later, zeros_of};
 pub(crate) use silence::Silence;
 pub use taps::{NoTaps, Taps};
-pub(crate) use taylor::of_exponential;
-pub use taylor::{Expansion, Taylor};
+pub use taylor::{Expansion, Near, Taylor};
+pub(crate) use taylor::{divide, of_exponential};
 pub use varying::{Varying, complex_product};

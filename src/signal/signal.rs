@@ -3,8 +3,8 @@
 use crate::ball::{Ball, Magnitude};
 use crate::expression::{Expression, Fraction, Root};
 use crate::signal::closed::ClosedForm;
-use crate::signal::error::EvaluateError;
-use crate::signal::taylor::Taylor;
+use crate::signal::error::{EvaluateError, Outcome};
+use crate::signal::taylor::{Near, Taylor};
 use std::cmp::Ordering;
 pub use wavestep_kernels::Limit;
 use wavestep_polynomial::{Rational, Symbol};
@@ -18,7 +18,7 @@ pub(crate) fn zeros_of(
     clock: &Symbol,
     at: &Fraction,
     order: usize,
-) -> Result<usize, EvaluateError> {
+) -> Outcome<usize> {
     let mut slope = (0..order).fold(function, |slope, _| slope.derivative(clock));
     let mut count = 0;
     while count < MAX_FLATNESS && slope.substitute(clock, at)?.is_zero() {
@@ -126,7 +126,7 @@ pub enum Effort {
 }
 
 /// `f(bits)`: an enclosure with about so many bits.
-pub(crate) type Enclosure<'a> = Box<dyn Fn(u64) -> Result<Ball, EvaluateError> + 'a>;
+pub(crate) type Enclosure<'a> = Box<dyn Fn(u64) -> Outcome<Ball> + 'a>;
 
 /// One limit of a signal at one time, prepared for enclosures.
 pub struct Point<'a> {
@@ -149,9 +149,7 @@ impl<'a> Point<'a> {
     }
 
     /// A value that is no rational number.
-    pub(crate) fn irrational(
-        enclose: impl Fn(u64) -> Result<Ball, EvaluateError> + 'a,
-    ) -> Point<'a> {
+    pub(crate) fn irrational(enclose: impl Fn(u64) -> Outcome<Ball> + 'a) -> Point<'a> {
         Point {
             known: Known::Irrational,
             enclose: Box::new(enclose),
@@ -197,14 +195,14 @@ pub trait Signal {
     fn window(&self) -> [&Rational; 2];
 
     /// One limit at a time of the window, zero before time 0.
-    fn point(&self, at: &Rational, side: Limit) -> Result<Point<'_>, EvaluateError>;
+    fn point(&self, at: &Rational, side: Limit) -> Outcome<Point<'_>>;
 
     /// The waves that it is seen in, where these are known in closed form: what methods for doubles
     /// that sum echoes or march from period to period need.
     ///
     /// # Errors
     /// [`EvaluateError::NotLinear`] for energies, [`EvaluateError::NoClosedForm`] where contacts open.
-    fn closed_form(&self) -> Result<&ClosedForm, EvaluateError> {
+    fn closed_form(&self) -> Outcome<&ClosedForm> {
         Err(EvaluateError::NoClosedForm)
     }
 
@@ -228,10 +226,7 @@ pub trait Signal {
     ///
     /// # Errors
     /// [`EvaluateError`] where arrivals cannot be told or are too many.
-    fn within<'s>(
-        &'s self,
-        _most: &Magnitude,
-    ) -> Result<Option<Box<dyn Signal + 's>>, EvaluateError> {
+    fn within<'s>(&'s self, _most: &Magnitude) -> Outcome<Option<Box<dyn Signal + 's>>> {
         Ok(None)
     }
 
@@ -241,20 +236,20 @@ pub trait Signal {
     }
 
     /// How many stretches there are, with numbers from 0 on; to tell that, all breaks are found.
-    fn count(&self) -> Result<usize, EvaluateError>;
+    fn count(&self) -> Outcome<usize>;
 
     /// A time of the user's in the scale of the scene.
     fn scaled_time(&self, time: &Rational) -> Fraction;
 
     /// How the beginning of a stretch compares with a time in the scale of the scene.
-    fn begins(&self, stretch: usize, at: &Fraction) -> Result<Ordering, EvaluateError>;
+    fn begins(&self, stretch: usize, at: &Fraction) -> Outcome<Ordering>;
 
     /// The stretch of a time: for the limit from the left the one that ends there, which is not known
     /// where the window begins.
     ///
     /// # Errors
     /// [`EvaluateError::AfterLast`] outside the window; [`EvaluateError`] where the order of two times is not decided.
-    fn stretch_at(&self, at: &Rational, side: Limit) -> Result<Option<usize>, EvaluateError> {
+    fn stretch_at(&self, at: &Rational, side: Limit) -> Outcome<Option<usize>> {
         let [from, to] = self.window();
         if at < from || at > to {
             return Err(EvaluateError::AfterLast);
@@ -268,6 +263,11 @@ pub trait Signal {
 
     /// Whether a stretch is the last instant of the window alone.
     fn is_instant(&self, stretch: usize) -> bool;
+
+    /// Whether the function is known to have no jumps.
+    fn is_continuous(&self) -> bool {
+        false
+    }
 
     /// Whether the function is known to be zero on a stretch.
     fn is_zero(&self, stretch: usize) -> bool;
@@ -293,39 +293,18 @@ pub trait Signal {
     fn exact_at(&self, stretch: usize, at: &Fraction, effort: Effort) -> Option<Expression>;
 
     /// An enclosure of the time of an end.
-    fn time(&self, stretch: usize, end: Limit, bits: u64) -> Result<Ball, EvaluateError>;
+    fn time(&self, stretch: usize, end: Limit, bits: u64) -> Outcome<Ball>;
 
     /// An enclosure of the derivative of an order.
-    fn enclose(
-        &self,
-        stretch: usize,
-        order: usize,
-        at: At<'_>,
-        bits: u64,
-    ) -> Result<Ball, EvaluateError>;
+    fn enclose(&self, stretch: usize, order: usize, at: At<'_>, bits: u64) -> Outcome<Ball>;
 
-    /// The derivative of an order at `m + hu` as a polynomial in `−1 ≤ u ≤ 1` with so many terms, and
-    /// a bound of what is left out.
-    fn taylor(
-        &self,
-        stretch: usize,
-        order: usize,
-        place: (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
-    ) -> Result<Taylor, EvaluateError>;
+    /// A derivative near a time as a polynomial, and a bound of what is left out.
+    fn taylor(&self, stretch: usize, near: Near<'_>) -> Outcome<Taylor>;
 
     /// As [`Signal::taylor`], of the same function times one that is positive on the cell and 1 in its middle: what
     /// decays has a sign where its values tell nothing.
-    fn taylor_of_sign(
-        &self,
-        stretch: usize,
-        order: usize,
-        place: (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
-    ) -> Result<Taylor, EvaluateError> {
-        self.taylor(stretch, order, place, terms, bits)
+    fn taylor_of_sign(&self, stretch: usize, near: Near<'_>) -> Outcome<Taylor> {
+        self.taylor(stretch, near)
     }
 
     /// The size of the largest of those functions whose sum is the derivative of an order, at a time,
@@ -336,14 +315,14 @@ pub trait Signal {
         order: usize,
         at: &Rational,
         bits: u64,
-    ) -> Result<(Magnitude, Magnitude), EvaluateError>;
+    ) -> Outcome<(Magnitude, Magnitude)>;
 
     /// The value, where it is known to be rational.
-    fn exact(&self, stretch: usize, at: At<'_>) -> Result<Option<Rational>, EvaluateError>;
+    fn exact(&self, stretch: usize, at: At<'_>) -> Outcome<Option<Rational>>;
 
     /// How many derivatives, from that of an order on, are known to be exactly zero in the limit at an end;
     /// at most `MAX_FLATNESS`.
-    fn flatness(&self, _: usize, _: Limit, _: usize) -> Result<usize, EvaluateError> {
+    fn flatness(&self, _: usize, _: Limit, _: usize) -> Outcome<usize> {
         Ok(0)
     }
 
@@ -355,5 +334,5 @@ pub trait Signal {
         value: &Rational,
         bounds: &[Rational; 2],
         bits: u64,
-    ) -> Result<bool, EvaluateError>;
+    ) -> Outcome<bool>;
 }

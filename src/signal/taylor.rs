@@ -19,7 +19,7 @@
 use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::{EnclosureError, Numbers, real_part};
 use crate::expression::{Field as _, Fraction, Transform};
-use crate::signal::error::EvaluateError;
+use crate::signal::error::Outcome;
 use crate::signal::transforms::{divided_powers, dot, exponential};
 use std::collections::BTreeMap;
 use wavestep_polynomial::Rational;
@@ -29,6 +29,29 @@ const TAIL_SHIFTS: [i64; 5] = [1, 2, 3, 4, 6];
 
 /// A remainder as a power of two that tells nothing.
 const WIDE: i64 = 1 << 20;
+
+/// Divides a polynomial by `x − a` again and again, where `step(c, d) = c + a d`: what is left are its
+/// coefficients at `a`.
+pub(crate) fn divide<V>(coefficients: &mut [V], step: impl Fn(&V, &V) -> V) {
+    for first in 0..coefficients.len() {
+        for k in (first..coefficients.len().saturating_sub(1)).rev() {
+            coefficients[k] = step(&coefficients[k], &coefficients[k + 1]);
+        }
+    }
+}
+
+/// Which polynomial is asked for, of a function or one of its derivatives.
+#[derive(Clone, Copy)]
+pub struct Near<'a> {
+    /// How often the function is differentiated.
+    pub order: usize,
+    /// The middle `m` and half the length `h` of a cell: the polynomial is that at `m + hu` for `−1 ≤ u ≤ 1`.
+    pub place: (&'a Rational, &'a Rational),
+    /// The number of its coefficients.
+    pub terms: usize,
+    /// The precision of these in bits.
+    pub bits: u64,
+}
 
 /// `|f − Σ_m c_m u^m| ≤ remainder` for `|u| ≤ 1`.
 ///
@@ -63,7 +86,7 @@ impl Taylor<ComplexBall> {
         terms: usize,
         numbers: &Numbers,
         bits: u64,
-    ) -> Result<Self, EvaluateError> {
+    ) -> Outcome<Self> {
         let weight = Ball::zero();
         let mut expansion = Expansion::new((h, &weight), terms, numbers, bits);
         expansion.add(function, x, &ComplexBall::one());
@@ -176,7 +199,7 @@ impl<'a> Expansion<'a> {
     }
 
     /// The sum of all that was added.
-    pub fn sum(self) -> Result<Taylor<ComplexBall>, EvaluateError> {
+    pub fn sum(self) -> Outcome<Taylor<ComplexBall>> {
         let (field, bits) = (self.numbers.field(self.bits), self.bits);
         let weight = ComplexBall::from(self.weight.clone().negate());
         let mut sum = Taylor::zero(self.terms);
@@ -339,12 +362,7 @@ impl Taylor {
     pub(crate) fn part(&self, a: &Rational, b: &Rational, bits: u64) -> Taylor {
         let mut coefficients = self.coefficients.clone();
         let a = Ball::from_rational(a, bits);
-        for start in 0..coefficients.len() {
-            for m in (start..coefficients.len().saturating_sub(1)).rev() {
-                let shifted = coefficients[m + 1].multiply(&a, bits);
-                coefficients[m] = coefficients[m].add(&shifted, bits);
-            }
-        }
+        divide(&mut coefficients, |c, next| c.add(&next.multiply(&a, bits), bits));
         let scale = Ball::from_rational(b, bits);
         let mut power = Ball::from_integer(&1.into());
         for coefficient in &mut coefficients {

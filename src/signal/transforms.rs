@@ -5,7 +5,7 @@
 use crate::ball::ComplexBall;
 use crate::enclosure::Numbers;
 use crate::expression::{Field as _, Fraction, Transform};
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use std::collections::BTreeMap;
 
 /// `Σ_j c_j x^j/j!`, by Horner's rule.
@@ -44,7 +44,7 @@ pub(crate) fn exponential(
     x: &ComplexBall,
     numbers: &Numbers,
     bits: u64,
-) -> Result<ComplexBall, EvaluateError> {
+) -> Outcome<ComplexBall> {
     if pole.is_zero() {
         return Ok(ComplexBall::one());
     }
@@ -58,7 +58,7 @@ pub fn value_at(
     x: &ComplexBall,
     numbers: &Numbers,
     bits: u64,
-) -> Result<ComplexBall, EvaluateError> {
+) -> Outcome<ComplexBall> {
     let mut sum = ComplexBall::zero();
     for (pole, coefficients) in function.poles() {
         let value = in_divided_powers(coefficients, x, bits);
@@ -73,7 +73,7 @@ pub(crate) fn later(
     by: &ComplexBall,
     numbers: &Numbers,
     bits: u64,
-) -> Result<Transform<ComplexBall>, EvaluateError> {
+) -> Outcome<Transform<ComplexBall>> {
     let mut poles = BTreeMap::new();
     for (pole, coefficients) in function.poles() {
         let factor = exponential(pole, by, numbers, bits)?;

@@ -434,11 +434,13 @@ fn rough_series_bound_values_and_derivatives() {
     cut.longest = Magnitude::power_of_two(-3);
     let roughness = Roughness::within(&Magnitude::power_of_two(-2), &cut);
     assert_eq!(roughness, Roughness::within(&Magnitude::power_of_two(-9), &cut).min(roughness));
-    let norm = CellNorm::new(cut.longest, &cut).of_roughness(Some(roughness));
+    let mut norm = CellNorm::new(cut.longest, &cut);
+    norm.roughness = Some(roughness);
     let signs = (0..12).map(|k| Number::integer(if k % 2 == 0 { 1 } else { -1 }));
     // What is left out is `x^12/(1 + x)`, of which the factor is at most 2 nearby.
     let rest = norm.of_term(12, &Magnitude::from_u64(2));
-    let f = Series::new(signs.collect(), rest).of_roughness(Some(roughness));
+    let mut f = Series::new(signs.collect(), rest);
+    f.roughness = Some(roughness);
     let x = Rational::new(1.into(), 16.into());
     let inverse = (Rational::from_integer(1.into()) + &x).recip();
     let mut exact = inverse.clone();

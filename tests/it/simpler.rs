@@ -4,7 +4,7 @@ use num_traits::Signed as _;
 use wavestep::language::{Change, changed};
 use wavestep::planner::Purpose;
 use wavestep::problem::{Against, MapRequest, Need, Other, ProblemError, Simpler, Size, Verdict};
-use wavestep::signal::{At, Limit, Search, value};
+use wavestep::signal::{At, Limit, Near, Search, value};
 use wavestep::{Method, Problem};
 use wavestep_polynomial::Rational;
 
@@ -418,7 +418,8 @@ fn modes_are_a_signal() {
         let half = rational(1, 50);
         let beside = &at + rational(1, 100);
         for order in 0..3 {
-            let taylor = signal.taylor(stretch, order, (&at, &half), 24, 192).unwrap();
+            let near = Near { order, place: (&at, &half), terms: 24, bits: 192 };
+            let taylor = signal.taylor(stretch, near).unwrap();
             let sum = taylor
                 .coefficients
                 .iter()

@@ -6,7 +6,7 @@ use wavestep::network::Network;
 use wavestep::planner::{Purpose, of_scene};
 use wavestep::problem::Simpler;
 use wavestep::scenes::SCENES;
-use wavestep::signal::{At, Compiled, Evaluator as _, Limit};
+use wavestep::signal::{At, Compiled, Evaluator as _, Limit, Near};
 use wavestep::{Error, Goal, Place, Problem, Root, Value};
 use wavestep_polynomial::Rational;
 
@@ -256,7 +256,8 @@ fn polynomials_hold_beyond_their_stretches() {
     let [length, middle] = [&ends[1] - &ends[0], ends[1].clone()];
     for (reach, is_sharp) in [((1, 4096), true), ((1, 1), false), ((8, 1), false)] {
         let half = &length * wavestep::Rational::new(reach.0.into(), reach.1.into());
-        let taylor = signal.taylor(1, 0, (&middle, &half), 200, 192).unwrap();
+        let near = Near { order: 0, place: (&middle, &half), terms: 200, bits: 192 };
+        let taylor = signal.taylor(1, near).unwrap();
         for u in [-1, 0, 1].map(|u| wavestep::Rational::from_integer(u.into())) {
             let time = Ball::from_rational(&-(&middle + &half * &u), 400);
             let off = taylor.value(&Ball::from_rational(&u, 400), 400);

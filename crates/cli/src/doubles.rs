@@ -3,7 +3,7 @@
 use super::arguments::{Eval, Format};
 use super::failure::Failure;
 use super::json::SCHEMA_VERSION;
-use super::rows::{csv, lines};
+use super::rows::{csv, lines, with_units};
 use num_rational::BigRational;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -163,7 +163,7 @@ pub fn written(
         }
         Format::Json => {
             let row = |(time, value): (&BigRational, &f64)| json!({"time": time.to_string(), "value": value});
-            let mut document = json!({
+            let document = json!({
                 "schema_version": SCHEMA_VERSION,
                 "title": problem.title(),
                 "quantity": wanted.name,
@@ -175,11 +175,7 @@ pub fn written(
                 "tolerance": options.tol,
                 "values": rows.map(row).collect::<Vec<_>>(),
             });
-            if problem.has_units() {
-                document["unit"] = json!(wanted.unit());
-                document["time_unit"] = json!(problem.time_unit());
-            }
-            format!("{document}\n")
+            format!("{}\n", with_units(document, problem, wanted))
         }
         _ => {
             let rows = rows.map(|(time, value)| (time, double(*value)));

@@ -3,7 +3,7 @@
 use super::arguments::{Find, Format};
 use super::json::SCHEMA_VERSION;
 use super::output::plural;
-use super::rows::ALL_DIGITS;
+use super::rows::{ALL_DIGITS, with_units};
 use super::table;
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
@@ -307,11 +307,7 @@ fn document(told: &Told<'_>, body: Json) -> String {
     });
     let Json::Object(body) = body else { unreachable!("bodies are objects") };
     document.as_object_mut().expect("an object").extend(body);
-    if told.problem.has_units() {
-        document["unit"] = json!(told.wanted.unit());
-        document["time_unit"] = json!("s");
-    }
-    format!("{document}\n")
+    format!("{}\n", with_units(document, told.problem, told.wanted))
 }
 
 /// A heading, then a line of columns each: the time, or the first and last one of an interval, as a fraction

@@ -185,8 +185,7 @@ fn json_document(
     let rows = times.iter().zip(values);
     let values: Vec<Json> =
         rows.map(|(time, value)| json_value(time, value, options.digits)).collect();
-    let unit = wanted.unit();
-    let mut document = json!({
+    let document = json!({
         "schema_version": SCHEMA_VERSION,
         "title": problem.title(),
         "quantity": wanted.name,
@@ -195,11 +194,16 @@ fn json_document(
         "side": if options.side == Limit::Left { "left" } else { "right" },
         "values": values,
     });
-    if !unit.is_empty() {
-        document["unit"] = json!(unit);
-        document["time_unit"] = json!("s");
+    format!("{}\n", with_units(document, problem, wanted))
+}
+
+/// A document with the units of values and times, where the scene has units.
+pub fn with_units(mut document: Json, problem: &Problem, wanted: &Wanted) -> Json {
+    if problem.has_units() {
+        document["unit"] = json!(wanted.unit());
+        document["time_unit"] = json!(problem.time_unit());
     }
-    format!("{document}\n")
+    document
 }
 
 /// `value` has the digits asked for, correctly rounded. `midpoint` and `radius` enclose the number

@@ -4,7 +4,7 @@
 
 use super::{NotOverSymbol, Outcome};
 use crate::ball::{Arithmetic as _, Magnitude};
-use crate::history::passivity::Passivity;
+use crate::history::passivity::{Passivity, root_of_squares};
 use crate::network::{Link, Node, System};
 use crate::signal::Varying;
 use std::ops::Range;
@@ -184,8 +184,4 @@ impl Norm {
     pub(super) fn size(&self, entries: &[Magnitude]) -> Magnitude {
         root_of_squares(self.roots.iter().zip(entries).map(|(root, own)| root.multiply(own)))
     }
-}
-
-pub(super) fn root_of_squares(all: impl Iterator<Item = Magnitude>) -> Magnitude {
-    all.fold(Magnitude::ZERO, |sum, own| sum.add(&own.multiply(&own))).square_root()
 }

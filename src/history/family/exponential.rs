@@ -8,7 +8,7 @@ use super::symbol::OverSymbol;
 use crate::ball::{Arithmetic as _, BallError, Magnitude};
 use crate::expression::{Expression, Fraction, Transform};
 use crate::limits::MAX_SYMBOL_BITS as BITS;
-use crate::signal::{Varying, complex_product, of_exponential};
+use crate::signal::{Varying, complex_product, divide, of_exponential};
 use wavestep_polynomial::{Rational, Symbol};
 
 /// Exponentials are worked out at the first of so many steps, and multiplied with those of the steps between.
@@ -136,12 +136,10 @@ impl Exponential {
     fn on_cell(&self, grid: &Grid, cell: usize, factor: &Complex, series: &Series) -> OnCell {
         let start = grid.start(cell);
         let mut shifted = self.polynomial.clone();
-        for first in 0..shifted.len() {
-            for k in (first..shifted.len() - 1).rev() {
-                let next = scaled(&shifted[k + 1], &start);
-                shifted[k] = [0, 1].map(|part| shifted[k][part].add(&next[part], BITS));
-            }
-        }
+        divide(&mut shifted, |c, next| {
+            let next = scaled(next, &start);
+            [0, 1].map(|part| c[part].add(&next[part], BITS))
+        });
         let count = TERMS.min(shifted.len() + series.terms.len() - 1);
         let mut sum = vec![Varying::zero(); count];
         let mut error = Magnitude::ZERO;

@@ -183,8 +183,8 @@ impl<'a> Over<'a> {
     /// As [`OverSymbol::root`].
     pub fn in_steps(&self, time: &Fraction, step: &Root) -> Outcome<[Rational; 2]> {
         let steps = self.symbol.root(&Root::from(time).over(step)?)?;
-        let (low, high) = steps.range().endpoints();
-        Ok([Rational::from(&low).max(Rational::zero()), Rational::from(&high)])
+        let [low, high] = steps.range().bounds();
+        Ok([low.max(Rational::zero()), high])
     }
 
     /// The first steps, and what is observed on them in the user's unit. Where contacts open and close, the grid is cut; it may

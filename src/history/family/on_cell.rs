@@ -3,7 +3,7 @@
 use crate::ball::{Arithmetic as _, Ball, Magnitude};
 use crate::limits::MAX_SYMBOL_BITS as BITS;
 use crate::network::dot;
-use crate::signal::{Taylor, Varying, middle_and_half};
+use crate::signal::{Taylor, Varying, divide, middle_and_half};
 use num_traits::{One as _, Zero as _};
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
@@ -233,11 +233,7 @@ impl OnCell {
     fn part(&self, [from, to]: [&Rational; 2]) -> OnCell {
         let mut own = self.coefficients.clone();
         let [at, length] = [from.clone(), to - from].map(|own| Ball::from_rational(&own, BITS));
-        for start in 0..own.len() {
-            for k in (start..own.len().saturating_sub(1)).rev() {
-                own[k] = own[k].add(&own[k + 1].clone().scaled(&at, BITS), BITS);
-            }
-        }
+        divide(&mut own, |c, next| c.add(&next.clone().scaled(&at, BITS), BITS));
         let (mut power, mut error) = (Ball::from_integer(&1.into()), self.error);
         for coefficient in &mut own {
             let (scaled, off) =

@@ -28,12 +28,12 @@
 //! With `s` the largest `|e|` on a cell of length `h` this gives `s² ≤ s₀² + 2as + 2q`, so `s ≤ s₀ + 2a + √(2q)`. Once the gap of `Z`
 //! is larger than its error, `Y` is open for certain.
 
-use super::compared::{CLOSED, Compared, OPEN, loose, root_of_squares};
+use super::compared::{CLOSED, Compared, OPEN, loose};
 use super::node::{NodeError, NodeState, Way};
 use super::on_cell::OnCell;
 use super::{NotOverSymbol, Outcome};
 use crate::ball::{Arithmetic as _, Ball, Magnitude};
-use crate::history::passivity::Passivity;
+use crate::history::passivity::{Passivity, root_of_squares};
 use crate::limits::MAX_SYMBOL_BITS as BITS;
 use crate::network::{ElementLaw, Node, System};
 use crate::scene::Drive;
@@ -443,8 +443,7 @@ pub(super) fn first_zero(gap: &OnCell) -> Outcome<Option<Varying>> {
 
 /// Between which numbers a number lies.
 pub(super) fn ends(value: &Varying) -> [Rational; 2] {
-    let (low, high) = value.range().endpoints();
-    [Rational::from(&low), Rational::from(&high)]
+    value.range().bounds()
 }
 
 /// About half way to where a velocity that is positive at first changes its sign, one place for all values of the symbol.

@@ -5,7 +5,7 @@ use crate::ball::{Ball, BallError, evaluate_divided, exp_of_rational};
 use crate::expression::{Expression, Fraction};
 use crate::signal::closed::modular;
 use crate::signal::closed::modular::Residue;
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use num_traits::Zero;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -48,7 +48,7 @@ impl Parts {
         &mut self,
         expression: &Expression,
         at: Option<(&Symbol, &Rational)>,
-    ) -> Result<(), EvaluateError> {
+    ) -> Outcome<()> {
         let value = |x: &Symbol| at.filter(|(own, _)| *own == x).map(|(_, value)| value.clone());
         match expression.evaluate(&value) {
             Ok(sum) => self.rational.extend(sum.into_iter().map(|(exponent, value)| {

@@ -7,7 +7,7 @@ use crate::limits::MAX_ECHOES;
 use crate::network::{Network, Unfolded};
 use crate::recurrence::{Recurrence, WaveIndex};
 use crate::signal::closed::memory::Memory;
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::signal::{Limit, has_begun};
 use crate::solution::{Demand, EchoByEcho};
 use num_traits::{One, Signed, ToPrimitive};
@@ -34,7 +34,7 @@ pub(super) struct Arriving {
 
 impl Arriving {
     /// Those that arrive until a time; every symbol has a value, and they are not too many.
-    pub fn of(network: &Network, last: &Fraction) -> Result<Arriving, EvaluateError> {
+    pub fn of(network: &Network, last: &Fraction) -> Outcome<Arriving> {
         let numbers = Numbers::new(&network.model().constants);
         let mut symbols = network.model().assumptions.symbols().map(|(symbol, _)| symbol);
         if let Some(symbol) = symbols.find(|symbol| numbers.value(symbol, 64).is_none()) {
@@ -107,7 +107,7 @@ impl Arriving {
 }
 
 /// The number of the last echo that there is, where waves have one period and do not return.
-fn last_number(network: &Network) -> Result<Option<usize>, EvaluateError> {
+fn last_number(network: &Network) -> Outcome<Option<usize>> {
     if network.lattice().periods().len() > 1 {
         return Ok(None);
     }
@@ -120,7 +120,7 @@ pub(crate) fn whole_periods(
     time: &Fraction,
     period: &Fraction,
     limit: usize,
-) -> Result<usize, EvaluateError> {
+) -> Outcome<usize> {
     let time = numbers.enclose(time, 64)?;
     let inverse = numbers.enclose(period, 64)?.reciprocal(64).map_err(EvaluateError::Ball)?;
     let upper = Rational::from(&time.multiply(&inverse, 64).endpoints().1);

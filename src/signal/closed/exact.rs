@@ -5,7 +5,7 @@ use crate::expression::{EchoSum, Expression, Fraction};
 use crate::limits::{MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM};
 use crate::recurrence::{Observation, ObservedWave, Recurrence, Statement, WaveIndex};
 use crate::signal::closed::contribution::{Contribution, Parts, enclose, rational_value};
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::signal::{Limit, Point};
 use crate::solution::{EchoRow, EchoTable, GeneralForm, Solution};
 use num_traits::{Signed, ToPrimitive, Zero};
@@ -33,7 +33,7 @@ pub(super) struct ExactEchoes<'a> {
 }
 
 impl<'a> ExactEchoes<'a> {
-    pub fn new(solution: Cow<'a, Solution>) -> Result<ExactEchoes<'a>, EvaluateError> {
+    pub fn new(solution: Cow<'a, Solution>) -> Outcome<ExactEchoes<'a>> {
         let recurrence = solution.recurrence();
         if let Some(symbol) = recurrence.symbols().next() {
             return Err(EvaluateError::MissingValue(symbol.clone()));
@@ -55,7 +55,7 @@ impl<'a> ExactEchoes<'a> {
         observation: &Observation,
         at: &Rational,
         side: Limit,
-    ) -> Result<Point<'static>, EvaluateError> {
+    ) -> Outcome<Point<'static>> {
         let parts = self.parts(observation, at, side)?;
         if !parts.algebraic.is_zero() {
             return algebraic(parts.into_expression());
@@ -96,17 +96,12 @@ impl<'a> ExactEchoes<'a> {
         Some(sum)
     }
 
-    fn parts(
-        &self,
-        observation: &Observation,
-        at: &Rational,
-        side: Limit,
-    ) -> Result<Parts, EvaluateError> {
+    fn parts(&self, observation: &Observation, at: &Rational, side: Limit) -> Outcome<Parts> {
         let mut parts = Parts::default();
         for seen in &observation.waves {
             let delay = seen.delay.as_constant().expect("a delay without symbols is a number");
             let time = at - delay;
-            let wave = || -> Result<Parts, EvaluateError> {
+            let wave = || -> Outcome<Parts> {
                 let mut wave = Parts::default();
                 self.add_wave(seen.wave, seen.slope, &time, side, &mut wave)?;
                 Ok(wave)
@@ -139,7 +134,7 @@ impl<'a> ExactEchoes<'a> {
         time: &Rational,
         side: Limit,
         parts: &mut Parts,
-    ) -> Result<(), EvaluateError> {
+    ) -> Outcome<()> {
         let Some(last) = self.last_arrival(wave, time, side)? else { return Ok(()) };
         if let Ok(GeneralForm::Geometric(sequence)) = self.solution.general(wave) {
             // Constant on each period: no echo needs to be added up, and slopes are zero.
@@ -172,7 +167,7 @@ impl<'a> ExactEchoes<'a> {
         wave: WaveIndex,
         time: &Rational,
         side: Limit,
-    ) -> Result<Option<usize>, EvaluateError> {
+    ) -> Outcome<Option<usize>> {
         let periods = time / &self.period;
         let last = match side {
             Limit::Right => periods.floor().to_integer(),
@@ -197,7 +192,7 @@ impl<'a> ExactEchoes<'a> {
         }
     }
 
-    fn echoes(&self, wave: WaveIndex, last: usize) -> Result<Rc<Echoes>, EvaluateError> {
+    fn echoes(&self, wave: WaveIndex, last: usize) -> Outcome<Rc<Echoes>> {
         if let Some((known, echoes)) = self.echoes.borrow().get(&wave)
             && *known >= last
         {
@@ -240,7 +235,7 @@ fn add_row(row: &EchoRow, slope: bool, x: Rational, contributions: &mut Vec<Cont
 /// By the theorem of Lindemann and Weierstrass, in algebraic exponents and coefficients, it is a
 /// rational number exactly when it is one as an expression; and it is real exactly when it is its
 /// own conjugate, since the conjugates of different exponents are different.
-fn algebraic(sum: Expression) -> Result<Point<'static>, EvaluateError> {
+fn algebraic(sum: Expression) -> Outcome<Point<'static>> {
     if let Some(value) = sum.as_constant() {
         return Ok(Point::exact(value));
     }

@@ -17,7 +17,7 @@ use crate::expression::{Expression, Fraction, Root};
 use crate::limits::{MAX_ECHOES, MAX_PIECES};
 use crate::network::Network;
 use crate::recurrence::{Observation, ObservedWave, Recurrence, WaveIndex};
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use crate::solution::Demand;
 use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -83,7 +83,7 @@ impl ClosedForm {
     pub fn of_recurrence(
         recurrence: &Recurrence,
         observation: &Observation,
-    ) -> Result<ClosedForm, EvaluateError> {
+    ) -> Outcome<ClosedForm> {
         ClosedForm::on_grid(recurrence, observation, Root::from(Fraction::one()), Fraction::one())
     }
 
@@ -92,7 +92,7 @@ impl ClosedForm {
         network: &Network,
         recurrence: &Recurrence,
         course: &Observation,
-    ) -> Result<ClosedForm, EvaluateError> {
+    ) -> Outcome<ClosedForm> {
         let (unit, slowness) = (Root::from(Fraction::one()), network.model().slowness.clone());
         ClosedForm::on_grid(recurrence, course, unit, slowness)
     }
@@ -103,7 +103,7 @@ impl ClosedForm {
         observation: &Observation,
         unit: Root,
         last: &Rational,
-    ) -> Result<ClosedForm, EvaluateError> {
+    ) -> Outcome<ClosedForm> {
         let slowness = network.model().slowness.clone();
         if network.lattice().periods().len() == 1 {
             let recurrence = network.recurrence()?;
@@ -120,7 +120,7 @@ impl ClosedForm {
         observation: &Observation,
         unit: Root,
         slowness: Fraction,
-    ) -> Result<ClosedForm, EvaluateError> {
+    ) -> Outcome<ClosedForm> {
         if let Some(symbol) = recurrence.symbols().next() {
             return Err(EvaluateError::MissingValue(symbol.clone()));
         }
@@ -149,11 +149,7 @@ impl ClosedForm {
     /// The same from fewer echoes: those that are left out come to no more than `most` together, at any time until the end of
     /// the window, and enclosures of values hold as much more. `None` on a grid where later echoes do not become smaller,
     /// or all are needed.
-    pub(super) fn within(
-        &self,
-        most: &Magnitude,
-        to: &Rational,
-    ) -> Result<Option<ClosedForm>, EvaluateError> {
+    pub(super) fn within(&self, most: &Magnitude, to: &Rational) -> Outcome<Option<ClosedForm>> {
         let shares = match self.shares.get() {
             Some(shares) => shares,
             None => {
@@ -179,7 +175,7 @@ impl ClosedForm {
         Ok(Some(ClosedForm { kept, seen, solved, arrivals, ..self.clone() }))
     }
 
-    fn bounded_shares(&self, to: &Rational) -> Result<Option<Shares>, EvaluateError> {
+    fn bounded_shares(&self, to: &Rational) -> Outcome<Option<Shares>> {
         match &self.lattice {
             Some(lattice) => {
                 Shares::of(lattice, &self.observation, &self.unit, &self.numbers).map(Some)
@@ -190,16 +186,16 @@ impl ClosedForm {
     }
 
     /// Whether waves on a grid are known to die out, and a window until this time is long enough for it.
-    pub fn falls(&self, to: &Rational) -> Result<bool, EvaluateError> {
+    pub fn falls(&self, to: &Rational) -> Outcome<bool> {
         let is_long = self.is_on_grid() && (TELLING..=MAX_ECHOES).contains(&self.order(to)?);
         Ok(is_long && self.shares_on_grid(to, TELLING)?.fall(TELLING))
     }
 
-    fn shares_on_grid(&self, to: &Rational, most: usize) -> Result<Shares, EvaluateError> {
+    fn shares_on_grid(&self, to: &Rational, most: usize) -> Outcome<Shares> {
         let until = self.slowness.scale(to);
         let last_piece = |seen| Ok(self.last_piece(seen, &until, MAX_ECHOES)?.min(most));
         let waves = self.observation.waves.iter();
-        let last = waves.map(last_piece).collect::<Result<Vec<_>, EvaluateError>>()?;
+        let last = waves.map(last_piece).collect::<Outcome<Vec<_>>>()?;
         let wanted = (&self.recurrence, &last[..]);
         Shares::on_grid(wanted, &self.observation, &self.unit, (&self.numbers, &until))
     }
@@ -266,7 +262,7 @@ impl ClosedForm {
         seen: &ObservedWave,
         at: &Fraction,
         limit: usize,
-    ) -> Result<usize, EvaluateError> {
+    ) -> Outcome<usize> {
         let last = self.arrivals(seen.wave).map(last_of);
         let limit = if last.is_some() { usize::MAX } else { limit };
         up_to(last, || self.whole_periods(&(at - &seen.delay), limit))
@@ -281,12 +277,12 @@ impl ClosedForm {
         self.arrivals.as_deref().or_else(|| self.recurrence.arrivals())
     }
 
-    fn whole_periods(&self, time: &Fraction, limit: usize) -> Result<usize, EvaluateError> {
+    fn whole_periods(&self, time: &Fraction, limit: usize) -> Outcome<usize> {
         whole_periods(&self.numbers, time, &self.recurrence.statement().period, limit)
     }
 
     /// How many periods of the waves that are seen have begun at a time, or one more.
-    pub fn periods(&self, at: &Rational) -> Result<usize, EvaluateError> {
+    pub fn periods(&self, at: &Rational) -> Outcome<usize> {
         let at = self.slowness.scale(at);
         // A wave may be seen before its own clock.
         let mut periods = self.whole_periods(&at, MAX_ORDER)?;
@@ -298,7 +294,7 @@ impl ClosedForm {
 
     /// The number of the last piece that has begun at a time, or the next one; on a lattice, the largest number of echoes of
     /// one wave, of those that are worked out.
-    pub fn order(&self, at: &Rational) -> Result<usize, EvaluateError> {
+    pub fn order(&self, at: &Rational) -> Outcome<usize> {
         let Some(lattice) = &self.lattice else {
             let last = self.all_arrivals().and_then(|all| all.iter().map(last_of).max());
             return up_to(last, || self.periods(at));
@@ -317,7 +313,7 @@ impl ClosedForm {
         known.get(&bits).or(made_room.then_some(with_least)).cloned()
     }
 
-    pub(super) fn solved(&self, bits: u64) -> Result<Rc<RefCell<Solved>>, EvaluateError> {
+    pub(super) fn solved(&self, bits: u64) -> Outcome<Rc<RefCell<Solved>>> {
         if let Some(known) = self.known(bits) {
             return Ok(known);
         }
@@ -352,7 +348,7 @@ impl ClosedForm {
     ///
     /// # Errors
     /// As [`ClosedForm::foresee`].
-    pub fn foreseen(network: &Network, to: &Rational) -> Result<f64, EvaluateError> {
+    pub fn foreseen(network: &Network, to: &Rational) -> Outcome<f64> {
         if network.lattice().periods().len() != 1 {
             return Ok(0.0);
         }
@@ -363,14 +359,14 @@ impl ClosedForm {
     ///
     /// # Errors
     /// As [`ClosedForm::of_scene`].
-    pub fn of_nothing(network: &Network, to: &Rational) -> Result<ClosedForm, EvaluateError> {
+    pub fn of_nothing(network: &Network, to: &Rational) -> Outcome<ClosedForm> {
         let nothing = Observation { waves: Vec::new(), forcing: Expression::zero() };
         ClosedForm::of_scene(network, &nothing, Root::from(Fraction::one()), to)
     }
 
     /// Refuses a time until which all pieces are more than can be held, before they are worked out; else about how
     /// many bytes they take.
-    pub fn foresee(&self, to: &Rational) -> Result<f64, EvaluateError> {
+    pub fn foresee(&self, to: &Rational) -> Outcome<f64> {
         let order = self.order(to)?;
         if self.lattice.is_some() || order < FEW_PIECES {
             return Ok(0.0);
@@ -388,7 +384,7 @@ impl ClosedForm {
         to: &Rational,
         limit: usize,
         bits: u64,
-    ) -> Result<(Echoes, Vec<(usize, Fraction)>), EvaluateError> {
+    ) -> Outcome<(Echoes, Vec<(usize, Fraction)>)> {
         let order = self.order(to)?;
         if order > limit {
             return Err(EvaluateError::TooManyEchoes { echoes: order as u128, limit });
@@ -405,7 +401,7 @@ impl ClosedForm {
         Ok((echoes, arrivals))
     }
 
-    fn solve_echoes(&self, demand: Demand, bits: u64) -> Result<(Echoes, usize), EvaluateError> {
+    fn solve_echoes(&self, demand: Demand, bits: u64) -> Outcome<(Echoes, usize)> {
         let field = self.numbers.field(bits);
         Ok(solve_in(&self.recurrence, field, demand, Memory::of_balls(bits))?)
     }
@@ -428,10 +424,7 @@ fn last_of(arrivals: &BTreeSet<usize>) -> usize {
 }
 
 /// How many periods there are, up to the last one that counts.
-fn up_to(
-    last: Option<usize>,
-    periods: impl FnOnce() -> Result<usize, EvaluateError>,
-) -> Result<usize, EvaluateError> {
+fn up_to(last: Option<usize>, periods: impl FnOnce() -> Outcome<usize>) -> Outcome<usize> {
     match last {
         Some(0) => Ok(0),
         Some(last) => Ok(last.min(periods()?)),

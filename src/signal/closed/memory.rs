@@ -5,7 +5,7 @@
 
 use crate::ball::{Ball, ComplexBall};
 use crate::limits;
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 
 /// From so many steps on a growth is told.
 const FIRST: usize = 32;
@@ -38,7 +38,7 @@ impl Memory {
     }
 
     /// Adds what one step of so many made; refuses where all would take more than is allowed.
-    pub fn add(&mut self, coefficients: usize, last: usize) -> Result<(), EvaluateError> {
+    pub fn add(&mut self, coefficients: usize, last: usize) -> Outcome<()> {
         self.steps += 1;
         self.coefficients += coefficients as u64;
         if !self.steps.is_power_of_two() || self.steps > last {

@@ -14,7 +14,7 @@ use crate::expression::{Field as _, Fraction, Transform};
 use crate::limits::{counted, pause};
 use crate::recurrence::{Recurrence, WaveIndex};
 use crate::signal::closed::memory::Memory;
-use crate::signal::error::EvaluateError;
+use crate::signal::error::Outcome;
 use crate::signal::transforms::{divided_powers, dot, exponential, later};
 use crate::solution::{FieldForm, FieldStep};
 use std::collections::BTreeMap;
@@ -53,7 +53,7 @@ impl Periods {
         recurrence: &Recurrence,
         numbers: Rc<Numbers>,
         bits: u64,
-    ) -> Result<Periods, EvaluateError> {
+    ) -> Outcome<Periods> {
         let field = numbers.field(bits);
         let steps = FieldStep::all(recurrence, &field)?;
         let period = field.embed(&recurrence.statement().period.clone().into())?;
@@ -84,7 +84,7 @@ impl Periods {
     }
 
     /// Solves all periods up to the n-th.
-    pub(crate) fn advance_to(&mut self, n: usize) -> Result<(), EvaluateError> {
+    pub(crate) fn advance_to(&mut self, n: usize) -> Outcome<()> {
         let known = self.pieces.first().map_or(n + 1, Vec::len);
         for _ in counted(known..n + 1, "of the periods") {
             self.advance()?;
@@ -94,7 +94,7 @@ impl Periods {
 
     /// About how many bytes all periods up to the n-th will take, with the bits that they lose, foreseen from the
     /// first ones; refused where that is more than is allowed.
-    pub(crate) fn foresee(&mut self, n: usize) -> Result<f64, EvaluateError> {
+    pub(crate) fn foresee(&mut self, n: usize) -> Outcome<f64> {
         let mut memory = Memory::of_balls(self.bits + LOST_BITS * n as u64);
         for _ in 0..FORESEEN.min(n) {
             self.advance()?;
@@ -106,7 +106,7 @@ impl Periods {
     }
 
     /// Solves the next period, of all waves or of none. Cost: a few passes over the pieces that the equations name.
-    fn advance(&mut self) -> Result<(), EvaluateError> {
+    fn advance(&mut self) -> Outcome<()> {
         pause();
         let solved = self.pieces.iter().map(Vec::len).min().unwrap_or(0);
         self.solve_next().inspect_err(|_| {
@@ -115,7 +115,7 @@ impl Periods {
         })
     }
 
-    fn solve_next(&mut self) -> Result<(), EvaluateError> {
+    fn solve_next(&mut self) -> Outcome<()> {
         for i in 0..self.steps.len() {
             let step = &self.steps[i];
             let (wave, n) = (step.wave, self.pieces[step.wave].len());
@@ -139,7 +139,7 @@ impl Periods {
         &self,
         equation: &FieldForm<ComplexBall>,
         n: usize,
-    ) -> Result<Transform<ComplexBall>, EvaluateError> {
+    ) -> Outcome<Transform<ComplexBall>> {
         let field = self.numbers.field(self.bits);
         let mut piece = self.forcing(equation, n)?;
         for term in &equation.terms {
@@ -165,7 +165,7 @@ impl Periods {
         initial: &ComplexBall,
         wave: WaveIndex,
         n: usize,
-    ) -> Result<Transform<ComplexBall>, EvaluateError> {
+    ) -> Outcome<Transform<ComplexBall>> {
         let field = self.numbers.field(self.bits);
         let rate = field.embed(&pole.clone().into())?;
         let minus_one = ComplexBall::one().negate();
@@ -197,7 +197,7 @@ impl Periods {
         initial: &ComplexBall,
         wave: WaveIndex,
         n: usize,
-    ) -> Result<ComplexBall, EvaluateError> {
+    ) -> Outcome<ComplexBall> {
         let field = self.numbers.field(self.bits);
         let minus_one = ComplexBall::one().negate();
         let mut start = match n.checked_sub(1) {
@@ -223,11 +223,7 @@ impl Periods {
     }
 
     /// What forcing adds on the n-th period: that of lag j has acted for `n − j` periods.
-    fn forcing(
-        &self,
-        form: &FieldForm<ComplexBall>,
-        n: usize,
-    ) -> Result<Transform<ComplexBall>, EvaluateError> {
+    fn forcing(&self, form: &FieldForm<ComplexBall>, n: usize) -> Outcome<Transform<ComplexBall>> {
         let field = self.numbers.field(self.bits);
         let mut sum = Transform::zero();
         for (lag, function) in form.forcing.range(..=n) {
@@ -239,7 +235,7 @@ impl Periods {
     }
 
     /// The value at the end of the period.
-    fn end(&mut self, piece: &Transform<ComplexBall>) -> Result<ComplexBall, EvaluateError> {
+    fn end(&mut self, piece: &Transform<ComplexBall>) -> Outcome<ComplexBall> {
         let mut end = ComplexBall::zero();
         for (pole, coefficients) in piece.poles() {
             if self.powers.len() < coefficients.len() {

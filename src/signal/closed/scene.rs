@@ -13,7 +13,7 @@ use crate::signal::closed::echoes::{Arriving, Echoes, Unsolved, solve_in};
 use crate::signal::closed::memory::Memory;
 use crate::signal::closed::modular;
 use crate::signal::closed::modular::{Modular, Residue};
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::signal::{EchoCount, Known, Limit, Point, has_begun};
 use crate::signal::transforms::value_at;
 use crate::solution::Demand;
@@ -80,7 +80,7 @@ struct Arrived {
 
 impl<'a> SceneEchoes<'a> {
     /// An evaluator for times up to `last`, in the scale of the scene.
-    pub fn new(network: &'a Network, last: &Fraction) -> Result<SceneEchoes<'a>, EvaluateError> {
+    pub fn new(network: &'a Network, last: &Fraction) -> Outcome<SceneEchoes<'a>> {
         let arriving = Arriving::of(network, last)?;
         Ok(SceneEchoes {
             network,
@@ -115,7 +115,7 @@ impl<'a> SceneEchoes<'a> {
         unit: &Root,
         at: &Fraction,
         side: Limit,
-    ) -> Result<Point<'_>, EvaluateError> {
+    ) -> Outcome<Point<'_>> {
         if self.numbers.compare(at, &Fraction::zero())? == Ordering::Less {
             return Ok(Point::exact(Rational::zero()));
         }
@@ -158,7 +158,7 @@ impl<'a> SceneEchoes<'a> {
         observation: &Observation,
         at: &Fraction,
         side: Limit,
-    ) -> Result<Vec<Arrived>, EvaluateError> {
+    ) -> Outcome<Vec<Arrived>> {
         let mut arrived = Vec::new();
         for seen in &observation.waves {
             let time = at - &seen.delay;
@@ -176,7 +176,7 @@ impl<'a> SceneEchoes<'a> {
         observation: &Observation,
         at: &Fraction,
         side: Limit,
-    ) -> Result<Expression, EvaluateError> {
+    ) -> Outcome<Expression> {
         let begun = has_begun(self.numbers.compare(&Fraction::zero(), at)?, side);
         match begun && !observation.forcing.is_zero() {
             true => Ok(observation.forcing.substitute(&self.network.scene().time, at)?),
@@ -186,7 +186,7 @@ impl<'a> SceneEchoes<'a> {
 
     /// Notes that all echoes are needed that are seen until the last time, once for all times before;
     /// what was worked out without them is dropped.
-    pub(crate) fn want_until_last(&self, observation: &Observation) -> Result<(), EvaluateError> {
+    pub(crate) fn want_until_last(&self, observation: &Observation) -> Outcome<()> {
         if self.wanted.borrow().contains(observation) {
             return Ok(());
         }
@@ -203,12 +203,7 @@ impl<'a> SceneEchoes<'a> {
         Ok(())
     }
 
-    fn enclose(
-        &self,
-        arrived: &[Arrived],
-        forced: &Expression,
-        bits: u64,
-    ) -> Result<Ball, EvaluateError> {
+    fn enclose(&self, arrived: &[Arrived], forced: &Expression, bits: u64) -> Outcome<Ball> {
         let echoes = self.solved(bits)?;
         let field = self.numbers.field(bits);
         let mut sum = field.embed(forced)?;
@@ -226,7 +221,7 @@ impl<'a> SceneEchoes<'a> {
     }
 
     /// All echoes that are wanted, with so many bits at least.
-    fn solved(&self, bits: u64) -> Result<Rc<Echoes>, EvaluateError> {
+    fn solved(&self, bits: u64) -> Outcome<Rc<Echoes>> {
         if let Some((_, known)) = self.known.borrow().enclosed.range(bits..).next() {
             return Ok(known.clone());
         }
@@ -356,7 +351,7 @@ impl<'a> SceneEchoes<'a> {
 }
 
 /// Treats a division by what may be zero as unbounded, so that callers retry with more bits.
-fn patient(found: Result<Ball, EvaluateError>, bits: u64) -> Result<Ball, EvaluateError> {
+fn patient(found: Outcome<Ball>, bits: u64) -> Outcome<Ball> {
     match found {
         Err(EvaluateError::Ball(BallError::DivisorMayBeZero)) if bits < PATIENT_BITS => {
             Ok(Ball::new(Binary::zero(), Magnitude::power_of_two(WIDE)))

@@ -19,7 +19,7 @@ use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::Numbers;
 use crate::expression::{Field as _, Fraction, Root, Transform};
 use crate::recurrence::{Observation, ObservedWave, Recurrence, Step, WaveIndex, put_in};
-use crate::signal::error::EvaluateError;
+use crate::signal::error::Outcome;
 use crate::signal::signal::Limit;
 use crate::solution::{Demand, FieldStep};
 use std::cell::Cell;
@@ -79,7 +79,7 @@ impl Shares {
         observation: &Observation,
         unit: &Root,
         numbers: &Numbers,
-    ) -> Result<Shares, EvaluateError> {
+    ) -> Outcome<Shares> {
         let recurrence = arriving.unfolded.recurrence();
         let mut all = Seen::none(recurrence);
         for (seen, gain) in gains(observation, unit, numbers)? {
@@ -100,7 +100,7 @@ impl Shares {
         observation: &Observation,
         unit: &Root,
         (numbers, until): (&Numbers, &Fraction),
-    ) -> Result<Shares, EvaluateError> {
+    ) -> Outcome<Shares> {
         let mut all = Seen::none(recurrence);
         for ((seen, gain), last) in gains(observation, unit, numbers)?.into_iter().zip(last) {
             let since = until - &seen.delay;
@@ -127,7 +127,7 @@ impl Shares {
         recurrence: &Recurrence,
         Seen { demand, gains, longest }: Seen,
         numbers: &Numbers,
-    ) -> Result<Shares, EvaluateError> {
+    ) -> Outcome<Shares> {
         let field = numbers.field(BITS);
         // What comes by way of another wave is bounded at once: parts of it cancel.
         let at_once = put_in(recurrence.steps(), &recurrence.statement().time);
@@ -135,7 +135,7 @@ impl Shares {
             let step = FieldStep::of(&Step { equation, ..step.clone() }, recurrence, &field)?;
             Returns::of(step, numbers, longest)
         });
-        let bounds = bounds(&returns.collect::<Result<Vec<_>, EvaluateError>>()?, &demand);
+        let bounds = bounds(&returns.collect::<Outcome<Vec<_>>>()?, &demand);
         let share = |((wave, number), gain): ((WaveIndex, usize), Size)| {
             (product(gain, bounds[wave][number].size()), wave, number)
         };
@@ -198,7 +198,7 @@ fn gains<'o>(
     observation: &'o Observation,
     unit: &Root,
     numbers: &Numbers,
-) -> Result<Vec<(&'o ObservedWave, Magnitude)>, EvaluateError> {
+) -> Outcome<Vec<(&'o ObservedWave, Magnitude)>> {
     let (field, unit) = (numbers.field(BITS), numbers.enclose_root(unit, BITS)?.magnitude());
     let gain = |seen: &'o ObservedWave| {
         Ok((seen, field.embed(&seen.coefficient)?.magnitude().multiply(&unit)))
@@ -253,7 +253,7 @@ impl Returns {
         FieldStep { wave, equation, start }: FieldStep<ComplexBall>,
         numbers: &Numbers,
         longest: Magnitude,
-    ) -> Result<Returns, EvaluateError> {
+    ) -> Outcome<Returns> {
         let field = numbers.field(BITS);
         let or_zero = |value: Option<ComplexBall>| value.unwrap_or_else(ComplexBall::zero);
         let mut begins = BTreeMap::<usize, Bound>::new();
@@ -356,7 +356,7 @@ fn largest(
     function: &Transform<ComplexBall>,
     numbers: &Numbers,
     longest: Magnitude,
-) -> Result<Bound, EvaluateError> {
+) -> Outcome<Bound> {
     let mut bound = Bound::zero();
     for (pole, coefficients) in function.poles() {
         let rate = numbers.field(BITS).embed(&pole.clone().into())?;

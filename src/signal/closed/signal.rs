@@ -9,12 +9,12 @@ use crate::expression::{Expression, Field as _, Fraction, Root};
 use crate::limits::MAX_PIECES;
 use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::Observation;
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::signal::{
     At, EchoCount, Effort, Instant, Known, Limit, Point, Signal, last_begun, zeros_of,
 };
 use crate::signal::silence::Silence;
-use crate::signal::taylor::Taylor;
+use crate::signal::taylor::{Near, Taylor};
 use crate::solution::Solution;
 use num_traits::{Signed as _, Zero as _};
 use std::borrow::Cow;
@@ -81,7 +81,7 @@ impl<'a> ClosedSignal<'a> {
         solution: &'a Solution,
         observation: &Observation,
         window: [&Rational; 2],
-    ) -> Result<Self, EvaluateError> {
+    ) -> Outcome<Self> {
         let echoes = Box::new(ExactEchoes::new(Cow::Borrowed(solution))?);
         let value = observation.clone();
         ClosedSignal::new(Source::Recurrence { echoes, value }, window)
@@ -92,7 +92,7 @@ impl<'a> ClosedSignal<'a> {
         network: &'a Network,
         observed: &Observed,
         window: [&Rational; 2],
-    ) -> Result<Self, EvaluateError> {
+    ) -> Outcome<Self> {
         let ObservedValue::Linear(value) = &observed.value else {
             return Err(EvaluateError::NotLinear);
         };
@@ -109,7 +109,7 @@ impl<'a> ClosedSignal<'a> {
         network: &'a Network,
         observed: &[(&Observation, [&Rational; 2])],
         until: &Rational,
-    ) -> Result<Vec<Self>, EvaluateError> {
+    ) -> Outcome<Vec<Self>> {
         let seen: Vec<Observation> = observed.iter().map(|(of, _)| (*of).clone()).collect();
         let waves = seen.iter().flat_map(|of| of.waves.iter().cloned()).collect();
         let all = Observation { waves, forcing: Expression::zero() };
@@ -131,7 +131,7 @@ impl<'a> ClosedSignal<'a> {
         network: &Network,
         course: &Expression,
         window: [&Rational; 2],
-    ) -> Result<Self, EvaluateError> {
+    ) -> Outcome<Self> {
         let recurrence = network.without_waves()?;
         let value = Observation { waves: Vec::new(), forcing: course.clone() };
         let form = ClosedForm::of_course(network, &recurrence, &value)?;
@@ -141,7 +141,7 @@ impl<'a> ClosedSignal<'a> {
         Ok(ClosedSignal { form: OnceCell::from(form), ..signal })
     }
 
-    fn new(source: Source<'a>, [from, to]: [&Rational; 2]) -> Result<Self, EvaluateError> {
+    fn new(source: Source<'a>, [from, to]: [&Rational; 2]) -> Outcome<Self> {
         if to < from {
             return Err(EvaluateError::EmptyWindow);
         }
@@ -160,7 +160,7 @@ impl<'a> ClosedSignal<'a> {
     }
 
     /// The closed form in balls.
-    pub fn form(&self) -> Result<&ClosedForm, EvaluateError> {
+    pub fn form(&self) -> Outcome<&ClosedForm> {
         if let Some(form) = self.form.get() {
             return Ok(form);
         }
@@ -176,7 +176,7 @@ impl<'a> ClosedSignal<'a> {
     }
 
     /// A limit at a time, from the pieces of its period; before the start all is zero.
-    fn enclosed(&self, at: &Rational, side: Limit) -> Result<Point<'_>, EvaluateError> {
+    fn enclosed(&self, at: &Rational, side: Limit) -> Outcome<Point<'_>> {
         if at.is_negative() || at.is_zero() && side == Limit::Left {
             return Ok(Point::exact(Rational::default()));
         }
@@ -218,7 +218,7 @@ impl<'a> ClosedSignal<'a> {
     }
 
     /// The value at a time in the scale of the waves, where it is rational.
-    fn exact_value(&self, at: &Fraction, side: Limit) -> Result<Option<Rational>, EvaluateError> {
+    fn exact_value(&self, at: &Fraction, side: Limit) -> Outcome<Option<Rational>> {
         let digits = |point: Point<'_>| point.value(FEW_DIGITS, SIGN_BITS);
         let value = match &self.source {
             Source::Recurrence { echoes, value } => match at.as_constant() {
@@ -261,7 +261,7 @@ impl<'a> ClosedSignal<'a> {
         &self,
         network: &'a Network,
         Shared { seen, made }: &'s Shared<'a>,
-    ) -> Result<&'s SceneEchoes<'a>, EvaluateError> {
+    ) -> Outcome<&'s SceneEchoes<'a>> {
         if let Some(known) = made.get() {
             return Ok(known);
         }
@@ -290,7 +290,7 @@ fn exact_form<'s>(
     value: &Observation,
     unit: &Root,
     known: &'s OnceCell<Option<Box<ExactEchoes<'static>>>>,
-) -> Result<Option<&'s ExactEchoes<'static>>, EvaluateError> {
+) -> Outcome<Option<&'s ExactEchoes<'static>>> {
     if known.get().is_none() {
         let _ = known.set(made_exact(network, value, unit)?);
     }
@@ -301,7 +301,7 @@ fn made_exact(
     network: &Network,
     value: &Observation,
     unit: &Root,
-) -> Result<Option<Box<ExactEchoes<'static>>>, EvaluateError> {
+) -> Outcome<Option<Box<ExactEchoes<'static>>>> {
     let has_scale = network.scene().dimensional
         || *unit != Root::from(Fraction::one())
         || network.model().slowness != Fraction::one();
@@ -328,7 +328,7 @@ impl Signal for ClosedSignal<'_> {
         self.window.each_ref()
     }
 
-    fn point(&self, at: &Rational, side: Limit) -> Result<Point<'_>, EvaluateError> {
+    fn point(&self, at: &Rational, side: Limit) -> Outcome<Point<'_>> {
         let now = self.scaled_time(at);
         if self.silence.as_ref().is_some_and(|silence| silence.holds([(&now, side); 2])) {
             return Ok(Point::exact(Rational::default()));
@@ -362,7 +362,7 @@ impl Signal for ClosedSignal<'_> {
         }
     }
 
-    fn closed_form(&self) -> Result<&ClosedForm, EvaluateError> {
+    fn closed_form(&self) -> Outcome<&ClosedForm> {
         self.form()
     }
 
@@ -379,10 +379,7 @@ impl Signal for ClosedSignal<'_> {
         }
     }
 
-    fn within<'s>(
-        &'s self,
-        most: &Magnitude,
-    ) -> Result<Option<Box<dyn Signal + 's>>, EvaluateError> {
+    fn within<'s>(&'s self, most: &Magnitude) -> Outcome<Option<Box<dyn Signal + 's>>> {
         let Source::Scene { network, value, unit, echoes, .. } = &self.source else {
             return Ok(None);
         };
@@ -425,7 +422,7 @@ impl Signal for ClosedSignal<'_> {
         }
     }
 
-    fn count(&self) -> Result<usize, EvaluateError> {
+    fn count(&self) -> Outcome<usize> {
         if let Some(stretches) = self.stretches.get() {
             return Ok(stretches.len());
         }
@@ -441,7 +438,7 @@ impl Signal for ClosedSignal<'_> {
         }
     }
 
-    fn begins(&self, stretch: usize, at: &Fraction) -> Result<Ordering, EvaluateError> {
+    fn begins(&self, stretch: usize, at: &Fraction) -> Outcome<Ordering> {
         Ok(self.known_form().numbers().compare(&self.stretch(stretch).from, at)?)
     }
 
@@ -465,7 +462,7 @@ impl Signal for ClosedSignal<'_> {
         own.cloned().or_else(|| Some(at.as_constant()? / slowness.as_constant()?))
     }
 
-    fn time(&self, stretch: usize, end: Limit, bits: u64) -> Result<Ball, EvaluateError> {
+    fn time(&self, stretch: usize, end: Limit, bits: u64) -> Outcome<Ball> {
         let numbers = self.known_form().numbers();
         let slowness = numbers.enclose(self.known_form().slowness(), bits)?;
         let inverse = slowness.reciprocal(bits).map_err(EvaluateError::Ball)?;
@@ -473,37 +470,17 @@ impl Signal for ClosedSignal<'_> {
         Ok(numbers.enclose(&at, bits)?.multiply(&inverse, bits))
     }
 
-    fn enclose(
-        &self,
-        stretch: usize,
-        order: usize,
-        at: At<'_>,
-        bits: u64,
-    ) -> Result<Ball, EvaluateError> {
+    fn enclose(&self, stretch: usize, order: usize, at: At<'_>, bits: u64) -> Outcome<Ball> {
         let at = self.scaled(stretch, at);
         self.known_form().enclose(self.stretch(stretch), order, &at, bits)
     }
 
-    fn taylor(
-        &self,
-        stretch: usize,
-        order: usize,
-        place: (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
-    ) -> Result<Taylor, EvaluateError> {
-        self.known_form().taylor(self.stretch(stretch), order, place, terms, bits)
+    fn taylor(&self, stretch: usize, near: Near<'_>) -> Outcome<Taylor> {
+        self.known_form().taylor(self.stretch(stretch), near)
     }
 
-    fn taylor_of_sign(
-        &self,
-        stretch: usize,
-        order: usize,
-        place: (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
-    ) -> Result<Taylor, EvaluateError> {
-        self.known_form().taylor_of_sign(self.stretch(stretch), order, place, terms, bits)
+    fn taylor_of_sign(&self, stretch: usize, near: Near<'_>) -> Outcome<Taylor> {
+        self.known_form().taylor_of_sign(self.stretch(stretch), near)
     }
 
     fn size(
@@ -512,7 +489,7 @@ impl Signal for ClosedSignal<'_> {
         order: usize,
         at: &Rational,
         bits: u64,
-    ) -> Result<(Magnitude, Magnitude), EvaluateError> {
+    ) -> Outcome<(Magnitude, Magnitude)> {
         let (size, error) = self.known_form().size(self.stretch(stretch), order, at, bits)?;
         let slowness =
             self.known_form().numbers().enclose(self.known_form().slowness(), SCALE_BITS)?;
@@ -522,7 +499,7 @@ impl Signal for ClosedSignal<'_> {
         Ok((scaled(size), scaled(error)))
     }
 
-    fn exact(&self, stretch: usize, at: At<'_>) -> Result<Option<Rational>, EvaluateError> {
+    fn exact(&self, stretch: usize, at: At<'_>) -> Outcome<Option<Rational>> {
         if self.is_zero(stretch) {
             return Ok(Some(Rational::default()));
         }
@@ -534,7 +511,7 @@ impl Signal for ClosedSignal<'_> {
     }
 
     /// By the exact function of the stretch, where that is known; else by the value alone, or the slope of a recurrence.
-    fn flatness(&self, stretch: usize, end: Limit, order: usize) -> Result<usize, EvaluateError> {
+    fn flatness(&self, stretch: usize, end: Limit, order: usize) -> Outcome<usize> {
         let is_zero = match order {
             0 => self.exact(stretch, At::End(end))? == Some(Rational::default()),
             1 => self.slope_is_zero(stretch, end),
@@ -561,7 +538,7 @@ impl Signal for ClosedSignal<'_> {
         value: &Rational,
         [from, to]: &[Rational; 2],
         bits: u64,
-    ) -> Result<bool, EvaluateError> {
+    ) -> Outcome<bool> {
         let mut rates = self.known_form().rates(self.stretch(stretch), bits)?;
         rates.entry(Fraction::zero()).or_insert(1);
         let count: usize = rates.values().sum();

@@ -3,7 +3,7 @@
 use super::form::{ClosedForm, MAX_STRETCHES};
 use crate::expression::Fraction;
 use crate::limits::MAX_ECHOES;
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use std::cmp::Ordering;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
@@ -39,14 +39,10 @@ type Break = (Option<usize>, usize, Fraction);
 
 impl ClosedForm {
     /// The arrivals after `from`, up to `to`, ascending, and those that are there at `from`.
-    fn breaks(
-        &self,
-        from: &Fraction,
-        to: &Fraction,
-    ) -> Result<(Vec<Break>, Vec<Break>), EvaluateError> {
+    fn breaks(&self, from: &Fraction, to: &Fraction) -> Outcome<(Vec<Break>, Vec<Break>)> {
         let mut before = Vec::new();
         let mut after = Vec::new();
-        let mut place = |found: Break| -> Result<bool, EvaluateError> {
+        let mut place = |found: Break| -> Outcome<bool> {
             if self.numbers.compare(&found.2, to)? == Ordering::Greater {
                 return Ok(false);
             }
@@ -98,16 +94,11 @@ impl ClosedForm {
             let (echoes, limit) = (after.len() as u128, MAX_STRETCHES);
             return Err(EvaluateError::TooManyEchoes { echoes, limit });
         }
-        self.numbers.sort(&mut after, |found| &found.2)?;
-        Ok((before, after))
+        Ok((before, self.numbers.sorted(after, |found| &found.2)?))
     }
 
     /// The stretches of a window in the user's time, in order.
-    pub(super) fn stretches(
-        &self,
-        from: &Rational,
-        to: &Rational,
-    ) -> Result<Vec<Stretch>, EvaluateError> {
+    pub(super) fn stretches(&self, from: &Rational, to: &Rational) -> Outcome<Vec<Stretch>> {
         let (from, to) = (self.slowness.scale(from), self.slowness.scale(to));
         if let Some(lattice) = &self.lattice
             && self.numbers.compare(&to, &lattice.last)? == Ordering::Greater

@@ -7,8 +7,8 @@ use crate::enclosure::real_part;
 use crate::expression::{Field as _, Fraction, Transform};
 use crate::limits::MAX_PIECES;
 use crate::recurrence::ObservedWave;
-use crate::signal::error::EvaluateError;
-use crate::signal::taylor::{Expansion, Taylor};
+use crate::signal::error::{EvaluateError, Outcome};
+use crate::signal::taylor::{Expansion, Near, Taylor};
 use crate::signal::transforms::value_at;
 use std::collections::BTreeMap;
 use wavestep_polynomial::Rational;
@@ -20,8 +20,8 @@ impl ClosedForm {
         &self,
         Part { seen, number, .. }: &Part,
         bits: u64,
-        view: impl FnOnce(&Transform<ComplexBall>) -> Result<T, EvaluateError>,
-    ) -> Result<T, EvaluateError> {
+        view: impl FnOnce(&Transform<ComplexBall>) -> Outcome<T>,
+    ) -> Outcome<T> {
         let solved = self.solved(bits)?;
         let wave = self.observation.waves[*seen].wave;
         match &mut *solved.borrow_mut() {
@@ -44,15 +44,11 @@ impl ClosedForm {
         stretch: &Stretch,
         derivative: usize,
         bits: u64,
-        mut add: impl FnMut(
-            &Transform<ComplexBall>,
-            &Fraction,
-            &ComplexBall,
-        ) -> Result<(), EvaluateError>,
-    ) -> Result<(), EvaluateError> {
+        mut add: impl FnMut(&Transform<ComplexBall>, &Fraction, &ComplexBall) -> Outcome<()>,
+    ) -> Outcome<()> {
         let field = self.numbers.field(bits);
         let unit = ComplexBall::from(self.numbers.enclose_root(&self.unit, bits)?);
-        let in_unit = |seen: &ObservedWave| -> Result<ComplexBall, EvaluateError> {
+        let in_unit = |seen: &ObservedWave| -> Outcome<ComplexBall> {
             Ok(field.embed(&seen.coefficient)?.multiply(&unit, bits))
         };
         let waves = &self.observation.waves;
@@ -95,7 +91,7 @@ impl ClosedForm {
         derivative: usize,
         at: &Fraction,
         bits: u64,
-    ) -> Result<Ball, EvaluateError> {
+    ) -> Outcome<Ball> {
         let field = self.numbers.field(bits);
         let mut sum = ComplexBall::zero();
         self.for_each_function(stretch, derivative, bits, |function, origin, coefficient| {
@@ -108,48 +104,29 @@ impl ClosedForm {
         Ok(value.widened(&self.left_out(derivative)))
     }
 
-    fn times_slowness(
-        &self,
-        mut value: Ball,
-        times: usize,
-        bits: u64,
-    ) -> Result<Ball, EvaluateError> {
+    fn times_slowness(&self, mut value: Ball, times: usize, bits: u64) -> Outcome<Ball> {
         for _ in 0..times {
             value = value.multiply(&self.numbers.enclose(&self.slowness, bits)?, bits);
         }
         Ok(value)
     }
 
-    /// The signal, or a derivative with respect to the user's time, about `centre`, in
-    /// `u = (t − centre)/half`: what it is on the stretch, and beyond that what it would be without
-    /// further arrivals.
-    pub(super) fn taylor(
-        &self,
-        stretch: &Stretch,
-        derivative: usize,
-        (centre, half): (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
-    ) -> Result<Taylor, EvaluateError> {
-        self.weighted_taylor(stretch, derivative, ((centre, half), &Ball::zero()), terms, bits)
+    /// The signal, or a derivative with respect to the user's time: what it is on the stretch, and beyond that what it
+    /// would be without further arrivals.
+    pub(super) fn taylor(&self, stretch: &Stretch, near: Near<'_>) -> Outcome<Taylor> {
+        self.weighted_taylor(stretch, near, &Ball::zero())
     }
 
     /// The same times `e^(−wu)`, where `w` makes the slowest decay of it about constant.
-    pub(super) fn taylor_of_sign(
-        &self,
-        stretch: &Stretch,
-        derivative: usize,
-        (centre, half): (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
-    ) -> Result<Taylor, EvaluateError> {
+    pub(super) fn taylor_of_sign(&self, stretch: &Stretch, near: Near<'_>) -> Outcome<Taylor> {
         if self.kept.is_some() {
             // What is left out need not decay.
-            return self.taylor(stretch, derivative, (centre, half), terms, bits);
+            return self.taylor(stretch, near);
         }
+        let Near { order, place: (_, half), bits, .. } = near;
         let field = self.numbers.field(bits);
         let mut slowest: Option<Ball> = None;
-        self.for_each_function(stretch, derivative, bits, |function, _, _| {
+        self.for_each_function(stretch, order, bits, |function, _, _| {
             for (pole, _) in function.poles() {
                 let rate = field.embed(&pole.clone().into())?;
                 let rate = Ball::new(rate.real().midpoint().clone(), Magnitude::ZERO);
@@ -164,40 +141,34 @@ impl ClosedForm {
         // Any weight will do.
         let weight = slowest.map_or_else(Ball::zero, |rate| rate.multiply(&h, bits));
         let weight = Ball::new(weight.midpoint().clone(), Magnitude::ZERO);
-        self.weighted_taylor(stretch, derivative, ((centre, half), &weight), terms, bits)
+        self.weighted_taylor(stretch, near, &weight)
     }
 
     fn weighted_taylor(
         &self,
         stretch: &Stretch,
-        derivative: usize,
-        ((centre, half), weight): ((&Rational, &Rational), &Ball),
-        terms: usize,
-        bits: u64,
-    ) -> Result<Taylor, EvaluateError> {
+        Near { order, place: (centre, half), terms, bits }: Near<'_>,
+        weight: &Ball,
+    ) -> Outcome<Taylor> {
         let field = self.numbers.field(bits);
         let h = field.embed(&self.slowness.scale(half).into())?;
         let at = self.slowness.scale(centre);
         let mut expansion = Expansion::new((&h, weight), terms, &self.numbers, bits);
-        self.for_each_function(stretch, derivative, bits, |function, origin, coefficient| {
+        self.for_each_function(stretch, order, bits, |function, origin, coefficient| {
             expansion.add(function, &field.embed(&(&at - origin).into())?, coefficient);
             Ok(())
         })?;
         let mut sum = expansion.sum()?.real()?;
-        if derivative > 0 {
+        if order > 0 {
             let one = Ball::from_integer(&1.into());
-            sum = sum.scaled(&self.times_slowness(one, derivative, bits)?, bits);
+            sum = sum.scaled(&self.times_slowness(one, order, bits)?, bits);
         }
-        sum.remainder = sum.remainder.add(&self.left_out(derivative));
+        sum.remainder = sum.remainder.add(&self.left_out(order));
         Ok(sum)
     }
 
     /// Stretches joined where all that arrives is identically zero, so that nothing changes.
-    pub(super) fn audible(
-        &self,
-        stretches: Vec<Stretch>,
-        bits: u64,
-    ) -> Result<Vec<Stretch>, EvaluateError> {
+    pub(super) fn audible(&self, stretches: Vec<Stretch>, bits: u64) -> Outcome<Vec<Stretch>> {
         let mut joined: Vec<Stretch> = Vec::new();
         for mut stretch in stretches {
             let Some(last) = joined.last_mut() else {
@@ -228,7 +199,7 @@ impl ClosedForm {
         derivative: usize,
         at: &Rational,
         bits: u64,
-    ) -> Result<(Magnitude, Magnitude), EvaluateError> {
+    ) -> Outcome<(Magnitude, Magnitude)> {
         let (field, at) = (self.numbers.field(bits), self.slowness.scale(at));
         let (mut size, mut error) = (Magnitude::ZERO, Magnitude::ZERO);
         self.for_each_function(stretch, derivative, bits, |function, origin, coefficient| {
@@ -245,11 +216,7 @@ impl ClosedForm {
 
     /// The rates λ of a stretch, in the scale of the waves, each with a bound on how many
     /// coefficients `c_j` of `Σ_λ e^{λx} Σ_j c_j x^j/j!` the signal has there.
-    pub(super) fn rates(
-        &self,
-        stretch: &Stretch,
-        bits: u64,
-    ) -> Result<BTreeMap<Fraction, usize>, EvaluateError> {
+    pub(super) fn rates(&self, stretch: &Stretch, bits: u64) -> Outcome<BTreeMap<Fraction, usize>> {
         let mut rates: BTreeMap<Fraction, usize> = BTreeMap::new();
         self.for_each_function(stretch, 0, bits, |function, _, _| {
             for (pole, coefficients) in function.poles() {

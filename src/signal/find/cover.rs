@@ -20,11 +20,11 @@
 
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
 use crate::limits::{MAX_EXPANSIONS, MAX_POLYNOMIALS, pause};
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::find::goal::Record;
 use crate::signal::find::search::{Search, Target};
 use crate::signal::signal::Limit;
-use crate::signal::taylor::Taylor;
+use crate::signal::taylor::{Near, Taylor};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
@@ -113,7 +113,7 @@ impl Search<'_> {
         stretch: usize,
         target: Target<'_>,
         record: Option<&mut Record>,
-    ) -> Result<Vec<Cell>, EvaluateError> {
+    ) -> Outcome<Vec<Cell>> {
         pause();
         let [from, to] = self.bounds(stretch)?;
         if let Some(finding) = self.known_sign(stretch, target, record.as_deref()) {
@@ -180,12 +180,12 @@ impl Search<'_> {
         &self,
         stretch: usize,
         target: Target<'_>,
-        (middle, half): (&Rational, &Rational),
+        place: (&Rational, &Rational),
         terms: usize,
         bits: u64,
-    ) -> Result<Taylor, EvaluateError> {
-        let place = (middle, half);
-        let mut taylor = self.function.taylor(stretch, target.order, place, terms, bits)?;
+    ) -> Outcome<Taylor> {
+        let near = Near { order: target.order, place, terms, bits };
+        let mut taylor = self.function.taylor(stretch, near)?;
         if target.order == 0 && *target.level != Rational::default() {
             let level = Ball::from_rational(target.level, bits);
             taylor.coefficients[0] = taylor.coefficients[0].subtract(&level, bits);
@@ -200,7 +200,7 @@ impl Search<'_> {
         target: Target<'_>,
         (from, to): (&Rational, &Rational),
         bits: u64,
-    ) -> Result<Ball, EvaluateError> {
+    ) -> Outcome<Ball> {
         let (middle, half) = middle_and_half(from, to);
         Ok(self.expand(stretch, target, (&middle, &half), 8, bits)?.range())
     }
@@ -212,7 +212,7 @@ impl Search<'_> {
         target: Target<'_>,
         (from, to): (&Rational, &Rational),
         bits: u64,
-    ) -> Result<Ball, EvaluateError> {
+    ) -> Outcome<Ball> {
         let (middle, half) = middle_and_half(from, to);
         let of = |terms| self.expand(stretch, target, (&middle, &half), terms, bits);
         let mut taylor = of(TERMS)?;
@@ -233,7 +233,7 @@ impl Cover<'_, '_, '_> {
         to: Rational,
         depth: usize,
         known: Option<&Expansion>,
-    ) -> Result<(), EvaluateError> {
+    ) -> Outcome<()> {
         pause();
         let search = self.search;
         search.work.set(search.work.get() + 1);
@@ -283,11 +283,7 @@ impl Cover<'_, '_, '_> {
     }
 
     /// What is known of a cell that begins or ends with the stretch, where several derivatives vanish.
-    fn beside_a_flat_end(
-        &self,
-        from: &Rational,
-        to: &Rational,
-    ) -> Result<Option<Finding>, EvaluateError> {
+    fn beside_a_flat_end(&self, from: &Rational, to: &Rational) -> Outcome<Option<Finding>> {
         let (search, target) = (self.search, self.target);
         if target.order == 0 && *target.level != Rational::default() {
             return Ok(None);
@@ -316,12 +312,7 @@ impl Cover<'_, '_, '_> {
     }
 
     /// Polynomials with as many bits as the depth calls for.
-    fn expanded(
-        &mut self,
-        middle: &Rational,
-        half: &Rational,
-        depth: usize,
-    ) -> Result<Expansion, EvaluateError> {
+    fn expanded(&mut self, middle: &Rational, half: &Rational, depth: usize) -> Outcome<Expansion> {
         let search = self.search;
         let attempt = |bits| {
             search.bits.set(bits);
@@ -331,7 +322,8 @@ impl Cover<'_, '_, '_> {
                 match order == 0 && *target.level != Rational::default() {
                     true => search.expand(self.stretch, target, place, TERMS, bits),
                     false => {
-                        search.function.taylor_of_sign(self.stretch, order, place, TERMS, bits)
+                        let near = Near { order, place, terms: TERMS, bits };
+                        search.function.taylor_of_sign(self.stretch, near)
                     }
                 }
             };

@@ -12,11 +12,11 @@
 
 use crate::ball::{Attempt, Ball, Binary, Precisions, Value};
 use crate::limits::{MAX_ROOTS, counted};
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::find::cover::{Cell, Finding, middle_and_half};
 use crate::signal::find::goal::{Goal, Record};
 use crate::signal::find::refine::{Isolated, power_of_half};
-use crate::signal::find::search::{Search, Target, rationals};
+use crate::signal::find::search::{Search, Target};
 use crate::signal::signal::{At, Limit};
 use std::cell::RefCell;
 use std::cmp::Ordering;
@@ -171,12 +171,7 @@ struct Contenders<'a, 's> {
 
 impl<'s> Search<'s> {
     /// The supremum or infimum on the window, with so many digits, and where it is taken.
-    pub fn extremum(
-        &self,
-        goal: Goal,
-        digits: usize,
-        limit_bits: u64,
-    ) -> Result<Extremum, EvaluateError> {
+    pub fn extremum(&self, goal: Goal, digits: usize, limit_bits: u64) -> Outcome<Extremum> {
         let found = self.extremum_beyond(goal, None, digits, limit_bits)?;
         Ok(found.expect("without a least size some place is the extremum"))
     }
@@ -189,7 +184,7 @@ impl<'s> Search<'s> {
         least: Option<&Rational>,
         digits: usize,
         limit_bits: u64,
-    ) -> Result<Option<Extremum>, EvaluateError> {
+    ) -> Outcome<Option<Extremum>> {
         if let (Goal::Smallest, None) = (goal, least)
             && let Some(extremum) = self.smallest_of_square(digits, limit_bits)?
         {
@@ -206,7 +201,7 @@ impl<'s> Search<'s> {
             return Ok(None);
         }
         let exact = contenders.exact()?;
-        let is_exact = exact.is_some();
+        let is_one = exact.is_some();
         let value = match exact {
             Some(value) => Value::Exact(value),
             None => {
@@ -218,7 +213,7 @@ impl<'s> Search<'s> {
                 }
             }
         };
-        Ok(Some(Extremum { value, places: contenders.places(digits, is_exact)? }))
+        Ok(Some(Extremum { value, places: contenders.places(digits, is_one)? }))
     }
 
     /// The most bits that two extrema are told apart with.
@@ -226,11 +221,7 @@ impl<'s> Search<'s> {
 
     /// The sign of this extremum less that of another search; `None` where it is not decided, since they
     /// are equal or too near.
-    pub fn compare_extremum(
-        &self,
-        other: &Search<'_>,
-        goal: Goal,
-    ) -> Result<Option<Ordering>, EvaluateError> {
+    pub fn compare_extremum(&self, other: &Search<'_>, goal: Goal) -> Outcome<Option<Ordering>> {
         let attempt = |bits| {
             let (own, others) =
                 (self.enclose_extremum(goal, bits)?, other.enclose_extremum(goal, bits)?);
@@ -241,7 +232,7 @@ impl<'s> Search<'s> {
     }
 
     /// An enclosure of the extremum with a relative precision of about so many bits.
-    pub fn enclose_extremum(&self, goal: Goal, bits: u64) -> Result<Ball, EvaluateError> {
+    pub fn enclose_extremum(&self, goal: Goal, bits: u64) -> Outcome<Ball> {
         let contenders = self.contenders(goal, None, 8 * bits)?;
         for early in comparisons().iter().filter(|early| *early < bits) {
             contenders.compare(early)?;
@@ -254,7 +245,7 @@ impl<'s> Search<'s> {
         goal: Goal,
         least: Option<&Rational>,
         limit_bits: u64,
-    ) -> Result<Contenders<'_, 's>, EvaluateError> {
+    ) -> Outcome<Contenders<'_, 's>> {
         let limit_bits = self.most_bits(limit_bits);
         let least = least.map(|least| Ball::from_rational(least, LEAST_BITS).endpoints().0);
         self.work.set(0);
@@ -300,7 +291,7 @@ impl<'s> Search<'s> {
         target: Target<'_>,
         record: &mut Record,
         left: &mut Vec<Candidate>,
-    ) -> Result<(), EvaluateError> {
+    ) -> Outcome<()> {
         let concave = record.goal.lesser();
         let cells = self.cover(stretch, target, Some(record))?;
         for (i, cell) in cells.iter().enumerate() {
@@ -342,7 +333,7 @@ impl<'s> Search<'s> {
         target: Target<'_>,
         cell: &Cell,
         (side, sign): (Limit, Ordering),
-    ) -> Result<[Rational; 2], EvaluateError> {
+    ) -> Outcome<[Rational; 2]> {
         let (mut open, width) = ([cell.from.clone(), cell.to.clone()], &cell.to - &cell.from);
         for bits in std::iter::successors(Some(1), |bits| Some(2 * bits)).take(NEAREST) {
             let apart = &width * power_of_half(bits);
@@ -361,7 +352,7 @@ impl<'s> Search<'s> {
 
 impl Contenders<'_, '_> {
     /// The value at a candidate, raised as the goal asks.
-    fn value(&self, candidate: &mut Candidate, bits: u64) -> Result<Ball, EvaluateError> {
+    fn value(&self, candidate: &mut Candidate, bits: u64) -> Outcome<Ball> {
         let search = self.search;
         let working = (bits + SPARE_BITS).max(search.bits.get());
         let zero = Rational::default();
@@ -392,12 +383,12 @@ impl Contenders<'_, '_> {
     }
 
     /// The values at all candidates that are left.
-    fn values(&self, left: &mut [Candidate], bits: u64) -> Result<Vec<Ball>, EvaluateError> {
+    fn values(&self, left: &mut [Candidate], bits: u64) -> Outcome<Vec<Ball>> {
         left.iter_mut().map(|candidate| self.value(candidate, bits)).collect()
     }
 
     /// Drops those that are certainly smaller than another.
-    fn compare(&self, bits: u64) -> Result<(), EvaluateError> {
+    fn compare(&self, bits: u64) -> Outcome<()> {
         let mut left = self.left.borrow_mut();
         if left.len() > 1 || self.least.is_some() {
             let values = self.values(&mut left, bits)?;
@@ -410,19 +401,19 @@ impl Contenders<'_, '_> {
     }
 
     /// An enclosure of the extremum.
-    fn enclose(&self, bits: u64) -> Result<Ball, EvaluateError> {
+    fn enclose(&self, bits: u64) -> Outcome<Ball> {
         let values = self.values(&mut self.left.borrow_mut(), bits)?;
         if let [only] = &values[..] {
             return Ok(self.goal.raised(only.clone()));
         }
-        let larger = |(a, b): (Rational, Rational), (c, d)| (a.max(c), b.max(d));
-        let bounds = values.iter().map(rationals).reduce(larger);
-        let (lower, upper) = bounds.expect("a window has ends");
+        let larger = |[a, b]: [Rational; 2], [c, d]: [Rational; 2]| [a.max(c), b.max(d)];
+        let bounds = values.iter().map(Ball::bounds).reduce(larger);
+        let [lower, upper] = bounds.expect("a window has ends");
         Ok(self.goal.raised(Ball::between(&lower, &upper, bits + SPARE_BITS)))
     }
 
     /// The extremum where it is the same rational number at all places that are left.
-    fn exact(&self) -> Result<Option<Rational>, EvaluateError> {
+    fn exact(&self) -> Outcome<Option<Rational>> {
         let mut common: Option<Rational> = None;
         let (search, zero) = (self.search, Rational::default());
         let slope = Target { order: 1, level: &zero, limit_bits: self.limit_bits };
@@ -445,8 +436,8 @@ impl Contenders<'_, '_> {
         Ok(common)
     }
 
-    /// Where the extremum is; `is_exact` where all that are left have the same value.
-    fn places(&self, digits: usize, is_exact: bool) -> Result<Vec<Place>, EvaluateError> {
+    /// Where the extremum is; `is_one` where all that are left are known to have the same value.
+    fn places(&self, digits: usize, is_one: bool) -> Outcome<Vec<Place>> {
         let search = self.search;
         let zero = Rational::default();
         let target = Target { order: 1, level: &zero, limit_bits: self.limit_bits };
@@ -501,7 +492,7 @@ impl Contenders<'_, '_> {
                     *after = true;
                     true
                 }
-                (Some(last), place) => is_exact && last.go_on(place),
+                (Some(last), place) => (is_one || search.function.is_continuous()) && last.go_on(place),
                 (None, _) => false,
             };
             if joined {

@@ -6,9 +6,9 @@
 //! where `F(m)` is too coarse for either.
 
 use crate::ball::{Ball, Precisions, Value};
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::find::cover::{Cell, middle_and_half};
-use crate::signal::find::search::{Search, Target, rationals};
+use crate::signal::find::search::{Search, Target};
 use crate::signal::signal::At;
 use std::cmp::Ordering;
 use wavestep_polynomial::{Integer, Rational};
@@ -66,12 +66,7 @@ pub(crate) fn differ([first, last]: [Ordering; 2]) -> bool {
 impl Search<'_> {
     /// Narrows the interval to a relative width of `2^{-bits}`, or as far as the bits allowed do.
     /// An interval whose ends come out in the wrong order holds no root.
-    pub(crate) fn narrow(
-        &self,
-        root: &mut Isolated,
-        target: Target<'_>,
-        bits: u64,
-    ) -> Result<(), EvaluateError> {
+    pub(crate) fn narrow(&self, root: &mut Isolated, target: Target<'_>, bits: u64) -> Outcome<()> {
         let stretch = root.stretch;
         let mut working = bits.saturating_add(SPARE_BITS).max(self.bits.get());
         let most = target.limit_bits.saturating_mul(2).max(working);
@@ -91,7 +86,7 @@ impl Search<'_> {
             if let Ok(inverse) = slope.reciprocal(working) {
                 let step = value.multiply(&inverse, working);
                 let place = Ball::from_rational(&middle, working).subtract(&step, working);
-                let (lower, upper) = rationals(&place);
+                let [lower, upper] = place.bounds();
                 if lower > root.from {
                     root.from = lower;
                 }
@@ -134,7 +129,7 @@ impl Search<'_> {
         root: &Isolated,
         target: Target<'_>,
         digits: usize,
-    ) -> Result<Value, EvaluateError> {
+    ) -> Outcome<Value> {
         let mut root = root.clone();
         if let Some(simple) = self.narrowed_to_fraction(&mut root, target)? {
             return Ok(Value::Exact(simple));
@@ -156,7 +151,7 @@ impl Search<'_> {
         &self,
         root: &mut Isolated,
         target: Target<'_>,
-    ) -> Result<Option<Rational>, EvaluateError> {
+    ) -> Outcome<Option<Rational>> {
         self.narrow(root, target, SUSPICION_BITS)?;
         match root.from <= root.to {
             true => self.fraction_within(root, target),
@@ -169,7 +164,7 @@ impl Search<'_> {
         &self,
         root: &Isolated,
         target: Target<'_>,
-    ) -> Result<Option<Rational>, EvaluateError> {
+    ) -> Outcome<Option<Rational>> {
         let simple = simplest(&root.from, &root.to);
         if simple.denom().bits() > MAX_DENOMINATOR_BITS {
             return Ok(None);

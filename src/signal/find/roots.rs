@@ -16,11 +16,12 @@
 
 use crate::ball::{Ball, Value};
 use crate::limits::{MAX_ROOTS, counted};
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::find::cover::{Cell, Finding, middle_and_half};
 use crate::signal::find::refine::{Isolated, differ, power_of_half};
-use crate::signal::find::search::{Search, Target, rationals};
+use crate::signal::find::search::{Search, Target};
 use crate::signal::signal::{At, Limit};
+use crate::signal::taylor::Near;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
@@ -159,12 +160,7 @@ fn known(value: &Rational) -> Value {
 
 impl Search<'_> {
     /// All roots of `f − level` in the window, times with so many digits.
-    pub fn roots(
-        &self,
-        level: &Rational,
-        digits: usize,
-        limit_bits: u64,
-    ) -> Result<Roots, EvaluateError> {
+    pub fn roots(&self, level: &Rational, digits: usize, limit_bits: u64) -> Outcome<Roots> {
         if *level == Rational::default()
             && let Some(roots) = self.roots_of_square(digits, limit_bits)?
         {
@@ -183,7 +179,7 @@ impl Search<'_> {
         stretch: usize,
         digits: usize,
         limit_bits: u64,
-    ) -> Result<Value, EvaluateError> {
+    ) -> Outcome<Value> {
         if stretch == 0 {
             return Ok(known(self.function.window()[0]));
         }
@@ -198,14 +194,15 @@ impl Search<'_> {
 
     /// Whether the observable is constant on a stretch: coefficient by coefficient, its derivative
     /// having none but exact zeros; or since waves cancel each other, as exact values prove.
-    pub(crate) fn is_constant(&self, stretch: usize) -> Result<bool, EvaluateError> {
+    pub(crate) fn is_constant(&self, stretch: usize) -> Outcome<bool> {
         if self.function.is_zero(stretch) {
             return Ok(true);
         }
         let bounds = self.bounds(stretch)?;
         let (middle, half) = middle_and_half(&bounds[0], &bounds[1]);
         let bits = self.bits.get();
-        let slope = self.function.taylor(stretch, 1, (&middle, &half), 4, bits)?;
+        let near = Near { order: 1, place: (&middle, &half), terms: 4, bits };
+        let slope = self.function.taylor(stretch, near)?;
         if slope.tail(0).is_zero() {
             return Ok(true);
         }
@@ -227,7 +224,7 @@ impl Search<'_> {
         cells: &[Cell],
         i: usize,
         known: Option<[Option<Ordering>; 2]>,
-    ) -> Result<[Option<Ordering>; 2], EvaluateError> {
+    ) -> Outcome<[Option<Ordering>; 2]> {
         let sign = |is_end: bool, time, end, known: Option<Option<Ordering>>| match (is_end, known)
         {
             (true, Some(known)) => Ok(known),
@@ -244,7 +241,7 @@ impl Search<'_> {
 
 impl Finder<'_, '_> {
     /// The roots of all stretches, and where they meet.
-    fn all_stretches(&mut self) -> Result<(), EvaluateError> {
+    fn all_stretches(&mut self) -> Outcome<()> {
         let (search, target) = (self.search, self.target);
         let equal = Some(Ordering::Equal);
         let mut before: Option<Ends> = None;
@@ -278,7 +275,7 @@ impl Finder<'_, '_> {
     }
 
     /// Refuses to list too many.
-    fn check(&self) -> Result<(), EvaluateError> {
+    fn check(&self) -> Outcome<()> {
         match self.all.len() > MAX_ROOTS {
             true => Err(EvaluateError::TooManyRoots { limit: MAX_ROOTS }),
             false => Ok(()),
@@ -286,12 +283,7 @@ impl Finder<'_, '_> {
     }
 
     /// What happens where a stretch begins.
-    fn join(
-        &mut self,
-        stretch: usize,
-        before: Option<Ends>,
-        now: &Ends,
-    ) -> Result<(), EvaluateError> {
+    fn join(&mut self, stretch: usize, before: Option<Ends>, now: &Ends) -> Outcome<()> {
         let (search, digits, bits) = (self.search, self.digits, self.target.limit_bits);
         let time = || search.beginning(stretch, digits, bits);
         let equal = Ordering::Equal;
@@ -351,7 +343,7 @@ impl Finder<'_, '_> {
     }
 
     /// A limit with digits.
-    fn limit_value(&self, stretch: usize, side: Limit) -> Result<Value, EvaluateError> {
+    fn limit_value(&self, stretch: usize, side: Limit) -> Outcome<Value> {
         let function = self.search.function;
         if let Some(value) = function.exact(stretch, At::End(side))? {
             return Ok(known(&value));
@@ -361,7 +353,7 @@ impl Finder<'_, '_> {
     }
 
     /// The roots within a stretch, its ends excluded.
-    fn roots_within(&mut self, stretch: usize, ends: &Ends) -> Result<(), EvaluateError> {
+    fn roots_within(&mut self, stretch: usize, ends: &Ends) -> Outcome<()> {
         let (search, target) = (self.search, self.target);
         let cells = search.cover(stretch, target, None)?;
         let count = cells.len();
@@ -413,7 +405,7 @@ impl Finder<'_, '_> {
 
     /// Whether `f − v`, exactly zero at this end of the stretch, has no other root in the cell
     /// beside it: `f' = 0` there exactly, and `f''` has a sign on all of the cell.
-    fn touches(&self, stretch: usize, side: Limit, cell: &Cell) -> Result<bool, EvaluateError> {
+    fn touches(&self, stretch: usize, side: Limit, cell: &Cell) -> Outcome<bool> {
         let (search, curvature) = (self.search, Target { order: 2, ..self.target });
         let range = search.range(stretch, curvature, (&cell.from, &cell.to), search.bits.get())?;
         let sign = range.sign();
@@ -424,7 +416,7 @@ impl Finder<'_, '_> {
     /// The only root in a cell, if it is a simple fraction `t₀` of even order k: exactly there `f − v`, `f'`, … `f^(k−1)`
     /// are zero, and `f^(k)` keeps its sign on the cell, so that `f(t) − v = (t − t₀)^k/k! f^(k)(ξ)`. At an end of the
     /// stretch limits count.
-    fn touch(&self, stretch: usize, cell: &Cell) -> Result<Option<Rational>, EvaluateError> {
+    fn touch(&self, stretch: usize, cell: &Cell) -> Outcome<Option<Rational>> {
         let (search, target) = (self.search, self.target);
         if &cell.to - &cell.from > &cell.to * power_of_half(TOUCH_BITS) {
             return Ok(None);
@@ -449,13 +441,13 @@ impl Finder<'_, '_> {
         stretch: usize,
         (mut from, mut to): (Rational, Rational),
         mut crosses: bool,
-    ) -> Result<(), EvaluateError> {
+    ) -> Outcome<()> {
         let bits = self.search.bits.get();
         let mut range = self.search.range(stretch, self.target, (&from, &to), bits)?;
         if let Some(Root::Undecided { from: first, to: last, range: known, .. }) = self.all.last()
             && *last >= from
         {
-            let ((a, b), (c, d)) = (rationals(known), rationals(&range));
+            let ([a, b], [c, d]) = (known.bounds(), range.bounds());
             range = Ball::between(&a.min(c), &b.max(d), bits);
             (from, to, crosses) = (from.min(first.clone()), to.max(last.clone()), false);
             self.all.pop();

@@ -5,7 +5,7 @@
 
 use crate::ball::{Attempt, Ball, Precisions};
 use crate::expression::Fraction;
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::signal::{At, Effort, Limit, Signal, later, zeros_of};
 use std::cell::Cell;
 use std::cmp::Ordering;
@@ -56,7 +56,7 @@ pub struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// A signal on its window, both its ends included.
-    pub fn new(signal: &'a dyn Signal) -> Result<Search<'a>, EvaluateError> {
+    pub fn new(signal: &'a dyn Signal) -> Outcome<Search<'a>> {
         let window = signal.window();
         if window[1] <= window[0] || *window[0] < Rational::default() {
             return Err(EvaluateError::EmptyWindow);
@@ -91,7 +91,7 @@ impl<'a> Search<'a> {
         target: Target<'_>,
         at: At<'_>,
         bits: u64,
-    ) -> Result<Ball, EvaluateError> {
+    ) -> Outcome<Ball> {
         let value = self.function.enclose(stretch, target.order, at, bits)?;
         if target.order > 0 || *target.level == Rational::default() {
             return Ok(value);
@@ -106,7 +106,7 @@ impl<'a> Search<'a> {
         stretch: usize,
         target: Target<'_>,
         at: At<'_>,
-    ) -> Result<Option<Ordering>, EvaluateError> {
+    ) -> Outcome<Option<Ordering>> {
         let function = self.function;
         if target.order == 0 && function.is_zero(stretch) {
             return Ok(Some(Rational::default().cmp(target.level)));
@@ -135,7 +135,7 @@ impl<'a> Search<'a> {
     }
 
     /// What is known of the sign in the limit at an end of a stretch, whatever enclosures tell.
-    fn sign_at_end(&self, stretch: usize, end: Limit) -> Result<Option<Ordering>, EvaluateError> {
+    fn sign_at_end(&self, stretch: usize, end: Limit) -> Outcome<Option<Ordering>> {
         let signed = self.function.signed(stretch).filter(|own| own.holds_at(end));
         if let Some(signed) = signed {
             return Ok(Some(signed.sign));
@@ -145,11 +145,7 @@ impl<'a> Search<'a> {
     }
 
     /// Whether the derivative in the limit at an end of a stretch is known to be exactly zero.
-    pub(crate) fn slope_vanishes(
-        &self,
-        stretch: usize,
-        side: Limit,
-    ) -> Result<bool, EvaluateError> {
+    pub(crate) fn slope_vanishes(&self, stretch: usize, side: Limit) -> Outcome<bool> {
         let slope = self.function.enclose(stretch, 1, At::End(side), self.bits.get())?;
         Ok(slope.contains_zero() && self.function.flatness(stretch, side, 1)? > 0)
     }
@@ -166,25 +162,19 @@ impl<'a> Search<'a> {
 
     /// Rational bounds of a stretch: its ends themselves where they are rational, else so little
     /// beyond them that the middle of no cell lies outside.
-    pub(crate) fn bounds(&self, stretch: usize) -> Result<[Rational; 2], EvaluateError> {
+    pub(crate) fn bounds(&self, stretch: usize) -> Outcome<[Rational; 2]> {
         let attempt = |bits| {
-            let outer = |end| -> Result<(Rational, Rational), EvaluateError> {
+            let outer = |end| -> Outcome<[Rational; 2]> {
                 if let Some(time) = self.function.exact_time(stretch, end) {
-                    return Ok((time.clone(), time));
+                    return Ok([time.clone(), time]);
                 }
-                Ok(rationals(&self.function.time(stretch, end, bits)?))
+                Ok(self.function.time(stretch, end, bits)?.bounds())
             };
-            let ((first, after), (before, last)) = (outer(Limit::Right)?, outer(Limit::Left)?);
+            let ([first, after], [before, last]) = (outer(Limit::Right)?, outer(Limit::Left)?);
             let slack = (&after - &first).max(&last - &before);
             let is_near = slack * Rational::from_integer(BOUND_SHARE.into()) <= &before - &after;
             Ok(Attempt::of([first, last], is_near))
         };
         Precisions::doubling(BOUND_BITS, MAX_BOUND_BITS).raise(attempt).map(Attempt::best)
     }
-}
-
-/// Two rationals with the ball between them.
-pub(crate) fn rationals(ball: &Ball) -> (Rational, Rational) {
-    let (lower, upper) = ball.endpoints();
-    (Rational::from(&lower), Rational::from(&upper))
 }

@@ -9,9 +9,9 @@ use super::cover::{is_sharp, middle_and_half};
 use super::search::{Search, Target};
 use crate::ball::{Ball, Magnitude};
 use crate::limits::{MAX_EXPANSIONS, MAX_POLYNOMIALS, counted};
-use crate::signal::error::EvaluateError;
+use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::signal::{At, Limit};
-use crate::signal::taylor::Taylor;
+use crate::signal::taylor::{Near, Taylor};
 use num_traits::Signed as _;
 use wavestep_polynomial::Rational;
 
@@ -45,7 +45,7 @@ struct Known {
 
 impl Search<'_> {
     /// Between which numbers the largest absolute value lies; bounds below `negligible` are not refined.
-    pub fn largest(&self, negligible: &Rational) -> Result<[Rational; 2], EvaluateError> {
+    pub fn largest(&self, negligible: &Rational) -> Outcome<[Rational; 2]> {
         let (known, negligible) = (Default::default(), negligible.clone());
         let mut bounding = Bounding { search: self, known, negligible, expansions: 0 };
         let mut moving = Vec::new();
@@ -73,22 +73,21 @@ impl Bounding<'_, '_> {
 
     /// A value that is taken, or nearly.
     fn note(&mut self, value: &Ball) {
-        let (low, high) = value.endpoints();
-        let (low, high): (Rational, Rational) = ((&low).into(), (&high).into());
+        let [low, high] = value.bounds();
         let size = if low.is_positive() { low } else { -high };
         if size > self.known[0] {
             self.known[0] = size;
         }
     }
 
-    fn limit(&self, stretch: usize, end: Limit) -> Result<Ball, EvaluateError> {
+    fn limit(&self, stretch: usize, end: Limit) -> Outcome<Ball> {
         let zero = Rational::default();
         let target = Target { order: 0, level: &zero, limit_bits: self.bits() };
         self.search.enclose(stretch, target, At::End(end), self.bits())
     }
 
     /// The only value of a stretch that is an instant, or constant.
-    fn note_only_value(&mut self, stretch: usize) -> Result<(), EvaluateError> {
+    fn note_only_value(&mut self, stretch: usize) -> Outcome<()> {
         let value = self.limit(stretch, Limit::Right)?;
         let most = Rational::from(&value.magnitude());
         if most > self.known[1] {
@@ -98,7 +97,7 @@ impl Bounding<'_, '_> {
         Ok(())
     }
 
-    fn note_limits(&mut self, stretch: usize) -> Result<(), EvaluateError> {
+    fn note_limits(&mut self, stretch: usize) -> Outcome<()> {
         for end in [Limit::Right, Limit::Left] {
             let value = self.limit(stretch, end)?;
             self.note(&value);
@@ -106,7 +105,7 @@ impl Bounding<'_, '_> {
         Ok(())
     }
 
-    fn cover(&mut self, stretch: usize) -> Result<(), EvaluateError> {
+    fn cover(&mut self, stretch: usize) -> Outcome<()> {
         let [from, to] = self.search.bounds(stretch)?;
         self.descend(stretch, (from, to), 0, None)
     }
@@ -117,7 +116,7 @@ impl Bounding<'_, '_> {
         (from, to): (Rational, Rational),
         depth: usize,
         known: Option<&Known>,
-    ) -> Result<(), EvaluateError> {
+    ) -> Outcome<()> {
         let (search, bits) = (self.search, self.bits());
         search.work.set(search.work.get() + 1);
         let (middle, half) = middle_and_half(&from, &to);
@@ -129,7 +128,8 @@ impl Bounding<'_, '_> {
             }
             None => {
                 self.expansions += 1;
-                let taylor = search.function.taylor(stretch, 0, (&middle, &half), TERMS, bits)?;
+                let near = Near { order: 0, place: (&middle, &half), terms: TERMS, bits };
+                let taylor = search.function.taylor(stretch, near)?;
                 Known { taylor, middle, half, halvings: 0 }
             }
         };

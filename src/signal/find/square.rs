@@ -2,7 +2,7 @@
 //! `c q²` with `c > 0` is zero where `q` is, and nowhere below.
 
 use crate::ball::{Ball, Value};
-use crate::signal::error::EvaluateError;
+use crate::signal::error::Outcome;
 use crate::signal::find::extrema::{Extremum, Place};
 use crate::signal::find::roots::{Root, Roots};
 use crate::signal::find::search::Search;
@@ -10,11 +10,7 @@ use wavestep_polynomial::Rational;
 
 impl Search<'_> {
     /// All roots, where the function is a square.
-    pub(super) fn roots_of_square(
-        &self,
-        digits: usize,
-        limit_bits: u64,
-    ) -> Result<Option<Roots>, EvaluateError> {
+    pub(super) fn roots_of_square(&self, digits: usize, limit_bits: u64) -> Outcome<Option<Roots>> {
         let Some((factor, squared)) = self.function.square_of() else { return Ok(None) };
         let search = Search::new(squared)?;
         let search = if self.open { search.half_open() } else { search };
@@ -37,7 +33,7 @@ impl Search<'_> {
         &self,
         digits: usize,
         limit_bits: u64,
-    ) -> Result<Option<Extremum>, EvaluateError> {
+    ) -> Outcome<Option<Extremum>> {
         let Some(found) = self.roots_of_square(digits, limit_bits)? else { return Ok(None) };
         if found.all.len() == found.undecided() {
             return Ok(None);

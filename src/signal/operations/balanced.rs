@@ -5,7 +5,7 @@
 use super::{Mark, Outcome, Rule, Scale, locate, taylor_by_rate, value_at};
 use crate::ball::{Ball, Magnitude};
 use crate::expression::{Expression, Fraction};
-use crate::signal::{At, EchoCount, Effort, Enclosure, Known, Limit, Signal, Taylor};
+use crate::signal::{At, Effort, Enclosure, Known, Limit, Near, Signal, Taylor};
 use num_traits::{One as _, Zero as _};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -80,7 +80,9 @@ impl<'a> Balanced<'a> {
             return Ok(true);
         }
         let within = Rational::from(self.flow.time(stretch, Limit::Right, STILL_BITS)?.midpoint());
-        let taylor = self.flow.taylor(stretch, 0, (&within, &Rational::one()), 2, STILL_BITS)?;
+        let place = (&within, &Rational::one());
+        let near = Near { order: 0, place, terms: 2, bits: STILL_BITS };
+        let taylor = self.flow.taylor(stretch, near)?;
         Ok(taylor.tail(0).is_zero())
     }
 
@@ -106,21 +108,14 @@ impl<'a> Balanced<'a> {
     }
 
     /// As [`Signal::taylor`], about a time that is told from the breaks.
-    fn expanded(
-        &self,
-        places: &[usize],
-        order: usize,
-        place @ (middle, half): (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
-    ) -> Outcome<Taylor> {
+    fn expanded(&self, places: &[usize], near: Near<'_>) -> Outcome<Taylor> {
         let stretch = self.stretch(places[0], Limit::Right);
-        let rate = |order, kept| {
-            let flow = self.flow.taylor(stretch, order, place, kept, bits)?;
-            Ok(flow.scaled(&self.slowness(bits)?, bits))
+        let Near { place: (middle, _), bits, .. } = near;
+        let rate = |near: Near<'_>| {
+            Ok(self.flow.taylor(stretch, near)?.scaled(&self.slowness(bits)?, bits))
         };
         let value = || (self.of.point(middle, Limit::Right)?.enclose)(bits);
-        taylor_by_rate(rate, value, (order, half, terms), bits)
+        taylor_by_rate(near, rate, value)
     }
 }
 
@@ -141,8 +136,8 @@ impl Rule for Balanced<'_> {
         Mark::of(&*self.flow, self.stretch(place, Limit::Right))
     }
 
-    fn is_instant(&self, _: usize, _: usize) -> bool {
-        false
+    fn is_continuous(&self) -> bool {
+        true
     }
 
     fn is_zero(&self, places: &[usize]) -> bool {
@@ -170,8 +165,9 @@ impl Rule for Balanced<'_> {
             return Ok(vec![(self.of.point(time, Limit::Right)?.enclose)(bits)?]);
         }
         let (about, half) = self.within(places[0], (time, half), bits)?;
-        let near = self.expanded(places, 0, (&about, &half), 2, bits)?;
-        Ok(vec![near.coefficients[0].widened(&near.tail(1))])
+        let near = Near { order: 0, place: (&about, &half), terms: 2, bits };
+        let taylor = self.expanded(places, near)?;
+        Ok(vec![taylor.coefficients[0].widened(&taylor.tail(1))])
     }
 
     /// The size of the flow's terms, or of the quantity's own: `terms` gives only their sum, in which they may cancel.
@@ -192,24 +188,18 @@ impl Rule for Balanced<'_> {
         Ok((size.multiply(&slowness), error.multiply(&slowness)))
     }
 
-    fn taylor(
-        &self,
-        places: &[usize],
-        order: usize,
-        place @ (middle, half): (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
-    ) -> Outcome<Taylor> {
+    fn taylor(&self, places: &[usize], near: Near<'_>) -> Outcome<Taylor> {
+        let Near { order, place: (middle, half), bits, .. } = near;
         if order == 0
             && Magnitude::from_rational(half) < Magnitude::power_of_two(-(bits as i64) / 3)
         {
             // So short a time may be an instant that another scene has too, and is told from no break then: one beside
             // it is.
             let (about, reach) = self.within(places[0], (middle.clone(), half.clone()), bits)?;
-            let near = self.expanded(places, order, (&about, &reach), terms, bits)?;
-            return Ok(near.part(&((middle - about) / &reach), &(half / &reach), bits));
+            let taylor = self.expanded(places, Near { place: (&about, &reach), ..near })?;
+            return Ok(taylor.part(&((middle - about) / &reach), &(half / &reach), bits));
         }
-        self.expanded(places, order, place, terms, bits)
+        self.expanded(places, near)
     }
 
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {
@@ -247,9 +237,5 @@ impl Rule for Balanced<'_> {
 
     fn most_bits(&self) -> u64 {
         self.of.most_bits().min(self.flow.most_bits())
-    }
-
-    fn echoes(&self) -> Option<EchoCount> {
-        None
     }
 }

@@ -6,7 +6,9 @@
 use super::{Mark, Outcome, Rule, Scale, flatness_of, value_at};
 use crate::ball::{Arithmetic as _, Ball};
 use crate::expression::{Expression, Fraction};
-use crate::signal::{EchoCount, Effort, Enclosure, Known, Limit, MAX_FLATNESS, Signal, Taylor};
+use crate::signal::{
+    EchoCount, Effort, Enclosure, Known, Limit, MAX_FLATNESS, Near, Signal, Taylor,
+};
 use num_traits::{One as _, Zero as _};
 use std::ops::Range;
 use std::rc::Rc;
@@ -106,17 +108,11 @@ impl Rule for Combination<'_> {
         self.products.iter().map(term).collect()
     }
 
-    fn taylor(
-        &self,
-        places: &[usize],
-        order: usize,
-        place: (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
-    ) -> Outcome<Taylor> {
+    fn taylor(&self, places: &[usize], near: Near<'_>) -> Outcome<Taylor> {
         let factor = |operand: usize, order: usize| {
-            self.operands[operand].taylor(places[operand], order, place, terms, bits)
+            self.operands[operand].taylor(places[operand], Near { order, ..near })
         };
+        let Near { order, terms, bits, .. } = near;
         let mut sum = Taylor::polynomial(vec![Ball::zero(); terms]);
         for product in &self.products {
             sum = sum.add(&self.derivative(product, order, bits, factor)?, bits);

@@ -4,7 +4,7 @@ use super::{Mark, Outcome, Rule, Scale};
 use crate::ball::Ball;
 use crate::expression::{Expression, Fraction};
 use crate::signal::{
-    EchoCount, Effort, Enclosure, EvaluateError, Known, Limit, MAX_FLATNESS, Taylor, last_begun,
+    Effort, Enclosure, EvaluateError, Known, Limit, MAX_FLATNESS, Near, Taylor, last_begun,
 };
 use std::ops::Range;
 use std::rc::Rc;
@@ -35,7 +35,7 @@ impl<'a> Constant<'a> {
         let is_before =
             |one: &Mark<'_>, other: &Mark<'_>| Ok::<_, EvaluateError>(one.compare(other)?.is_lt());
         let [first, last] = window.map(|time| scale.mark(time));
-        let mut breaks: Vec<&Fraction> = Vec::new();
+        let mut breaks = Vec::new();
         for time in
             intervals.iter().flat_map(|(from, until)| [Some(from), until.as_ref()]).flatten()
         {
@@ -43,19 +43,14 @@ impl<'a> Constant<'a> {
             if !is_before(&first, &mark)? || !is_before(&mark, &last)? {
                 continue;
             }
-            let mut place = 0;
-            while place < breaks.len() && is_before(&scale.mark_scaled(breaks[place]), &mark)? {
-                place += 1;
-            }
-            let is_known = breaks.get(place).is_some_and(|known| *known == time);
-            if !is_known {
-                breaks.insert(place, time);
+            if let Err(place) = scale.numbers.search(&breaks, time)? {
+                breaks.insert(place, time.clone());
             }
         }
         let mut values = Vec::new();
         for stretch in 0..=breaks.len() {
             let begin = match stretch.checked_sub(1) {
-                Some(before) => scale.mark_scaled(breaks[before]),
+                Some(before) => scale.mark_scaled(&breaks[before]),
                 None => first.again(),
             };
             let mut is_within = false;
@@ -66,7 +61,6 @@ impl<'a> Constant<'a> {
             }
             values.push(if is_within { Fraction::one() } else { Fraction::zero() });
         }
-        let breaks = breaks.into_iter().cloned().collect();
         Ok(Constant { scale: Rc::clone(scale), breaks, values })
     }
 
@@ -98,16 +92,9 @@ impl Rule for Constant<'_> {
         Ok(vec![self.derivative(places[0], order, bits)?])
     }
 
-    fn taylor(
-        &self,
-        places: &[usize],
-        order: usize,
-        _: (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
-    ) -> Outcome<Taylor> {
-        let mut coefficients = vec![Ball::zero(); terms];
-        coefficients[0] = self.derivative(places[0], order, bits)?;
+    fn taylor(&self, places: &[usize], near: Near<'_>) -> Outcome<Taylor> {
+        let mut coefficients = vec![Ball::zero(); near.terms];
+        coefficients[0] = self.derivative(places[0], near.order, near.bits)?;
         Ok(Taylor::polynomial(coefficients))
     }
 
@@ -125,13 +112,5 @@ impl Rule for Constant<'_> {
             last_begun(self.values.len(), side, |place| self.mark(0, place).compare(&at))?;
         let known = self.values[stretch].as_constant().map_or(Known::Unknown, Known::Rational);
         Ok((known, Box::new(move |bits| self.derivative(stretch, 0, bits)), u64::MAX))
-    }
-
-    fn most_bits(&self) -> u64 {
-        u64::MAX
-    }
-
-    fn echoes(&self) -> Option<EchoCount> {
-        None
     }
 }

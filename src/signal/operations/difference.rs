@@ -9,7 +9,7 @@ use crate::expression::PI;
 use crate::expression::{Expression, Fraction};
 use crate::network::Network;
 use crate::signal::{
-    At, EchoCount, Effort, Enclosure, Instant, Known, Limit, Signal, Taylor, later, zeros_of,
+    At, Effort, Enclosure, Instant, Known, Limit, Near, Signal, Taylor, later, zeros_of,
 };
 use std::ops::Range;
 use std::rc::Rc;
@@ -127,17 +127,9 @@ impl Rule for Difference<'_> {
         Ok(vec![own, other.negate()])
     }
 
-    fn taylor(
-        &self,
-        places: &[usize],
-        order: usize,
-        around: (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
-    ) -> Outcome<Taylor> {
-        let [own, other] =
-            self.both(places, |operand, place| operand.taylor(place, order, around, terms, bits))?;
-        Ok(own.subtract(&other, bits))
+    fn taylor(&self, places: &[usize], near: Near<'_>) -> Outcome<Taylor> {
+        let [own, other] = self.both(places, |operand, place| operand.taylor(place, near))?;
+        Ok(own.subtract(&other, near.bits))
     }
 
     /// Where all that the second one holds means the same in the scene of the first one, its time as well; at all times at
@@ -208,9 +200,5 @@ impl Rule for Difference<'_> {
 
     fn most_bits(&self) -> u64 {
         self.operands.iter().map(|operand| operand.most_bits()).min().unwrap_or(u64::MAX)
-    }
-
-    fn echoes(&self) -> Option<EchoCount> {
-        None
     }
 }

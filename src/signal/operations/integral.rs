@@ -14,7 +14,7 @@ use super::{Mark, Outcome, Rule, Scale, locate, taylor_by_rate, value_at, workin
 use crate::ball::{Arithmetic as _, Ball, Binary, Magnitude};
 use crate::expression::{Expression, Fraction};
 use crate::signal::{
-    EchoCount, Effort, Enclosure, Instant, Known, Limit, Signal, Taylor, has_begun,
+    EchoCount, Effort, Enclosure, Instant, Known, Limit, Near, Signal, Taylor, has_begun,
 };
 use num_traits::Zero as _;
 use std::cell::RefCell;
@@ -129,14 +129,13 @@ impl<'a> Integral<'a> {
         }
         let mut cells = Vec::new();
         if !self.of.is_zero(stretch) {
-            let outer = |end| -> Outcome<(Rational, Rational)> {
+            let outer = |end| -> Outcome<[Rational; 2]> {
                 if let Some(time) = self.of.exact_time(stretch, end) {
-                    return Ok((time.clone(), time));
+                    return Ok([time.clone(), time]);
                 }
-                let (lower, upper) = self.of.time(stretch, end, bits)?.endpoints();
-                Ok((Rational::from(&lower), Rational::from(&upper)))
+                Ok(self.of.time(stretch, end, bits)?.bounds())
             };
-            let ((from, _), (_, to)) = (outer(Limit::Right)?, outer(Limit::Left)?);
+            let ([from, _], [_, to]) = (outer(Limit::Right)?, outer(Limit::Left)?);
             self.add_cells(&mut cells, stretch, (from, to), MAX_DEPTH, bits)?;
         }
         let primitive = Rc::new(Primitive { cells });
@@ -158,7 +157,8 @@ impl<'a> Integral<'a> {
         let two = Rational::from_integer(2.into());
         let slack = Rational::new((SLACK + 1).into(), SLACK.into());
         let (middle, half) = ((&from + &to) / &two, (&to - &from) / two * slack);
-        let taylor = self.of.taylor(stretch, 0, (&middle, &half), terms(bits), bits)?;
+        let near = Near { order: 0, place: (&middle, &half), terms: terms(bits), bits };
+        let taylor = self.of.taylor(stretch, near)?;
         let rounding =
             taylor.coefficients.iter().map(|c| *c.radius()).max().unwrap_or(Magnitude::ZERO);
         let size = taylor.coefficients.iter().map(Ball::magnitude).max().unwrap_or(Magnitude::ZERO);
@@ -251,14 +251,8 @@ impl<'a> Integral<'a> {
     }
 
     /// The integrand at the lower end as a polynomial about that of a time.
-    fn taylor_below(
-        &self,
-        place: usize,
-        order: usize,
-        (middle, half): (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
-    ) -> Outcome<Taylor> {
+    fn taylor_below(&self, place: usize, near: Near<'_>) -> Outcome<Taylor> {
+        let Near { order, place: (middle, half), bits, .. } = near;
         let before = |value: Ball| Taylor::polynomial(vec![value]);
         let Some(last) = &self.last else { return Ok(before(Ball::zero())) };
         if place == 0 {
@@ -268,13 +262,13 @@ impl<'a> Integral<'a> {
             }));
         }
         if let Some(length) = self.scale.exact_time(last) {
-            return self.of.taylor(place - 1, order, (&(middle - length), half), terms, bits);
+            return self.of.taylor(place - 1, Near { place: (&(middle - length), half), ..near });
         }
         let about = Ball::from_rational(middle, bits).subtract(&self.scale.time(last, bits)?, bits);
         let off = Rational::from(about.radius());
         let larger = half + &off + &off;
         let about = Rational::from(about.midpoint());
-        let taylor = self.of.taylor(place - 1, order, (&about, &larger), terms, bits)?;
+        let taylor = self.of.taylor(place - 1, Near { place: (&about, &larger), ..near })?;
         let mut taylor = taylor.blurred(&Magnitude::from_rational(&(off / &larger)));
         taylor.stretch(&(half / larger), bits);
         Ok(taylor)
@@ -343,10 +337,6 @@ impl Rule for Integral<'_> {
         }
     }
 
-    fn is_instant(&self, _: usize, _: usize) -> bool {
-        false
-    }
-
     fn is_zero(&self, places: &[usize]) -> bool {
         let first = places[LOWER].saturating_sub(1);
         let from_start = places[LOWER] > 0 || self.before.is_zero() || self.last.is_none();
@@ -373,18 +363,12 @@ impl Rule for Integral<'_> {
         Ok(vec![now, then.multiply(&slowness, bits).negate()])
     }
 
-    fn taylor(
-        &self,
-        places: &[usize],
-        order: usize,
-        place @ (middle, half): (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
-    ) -> Outcome<Taylor> {
-        let rate = |order, kept| {
+    fn taylor(&self, places: &[usize], near: Near<'_>) -> Outcome<Taylor> {
+        let Near { place: (middle, _), bits, .. } = near;
+        let rate = |near: Near<'_>| {
             let minus = Ball::from_integer(&(-1).into());
-            let mut taylor = self.of.taylor(places[UPPER], order, place, kept, bits)?;
-            let below = self.taylor_below(places[LOWER], order, place, kept, bits)?;
+            let mut taylor = self.of.taylor(places[UPPER], near)?;
+            let below = self.taylor_below(places[LOWER], near)?;
             taylor = taylor.add(&below.scaled(&minus, bits), bits);
             Ok(taylor.scaled(&self.slowness(bits)?, bits))
         };
@@ -392,7 +376,7 @@ impl Rule for Integral<'_> {
             let parts = self.integral(places, &self.scale.mark(middle), bits)?;
             Ok(parts.iter().fold(Ball::zero(), |sum, part| sum.add(part, bits)))
         };
-        taylor_by_rate(rate, value, (order, half, terms), bits)
+        taylor_by_rate(near, rate, value)
     }
 
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {

@@ -26,9 +26,10 @@ use crate::enclosure::Numbers;
 use crate::expression::{Assumptions, Expression, Fraction, Root};
 use crate::network::Network;
 use crate::recurrence::Recurrence;
+use crate::signal::error::Outcome;
 use crate::signal::{
     At, ClosedForm, EchoCount, Effort, Enclosure, EvaluateError, Instant, Known, Limit,
-    MAX_FLATNESS, Point, Signal, Taylor, last_begun, zeros_of,
+    MAX_FLATNESS, Near, Point, Signal, Taylor, last_begun, zeros_of,
 };
 use num_traits::{Signed as _, Zero as _};
 use std::cell::{OnceCell, RefCell};
@@ -52,8 +53,6 @@ const STEP_BITS: u64 = 64;
 fn working(bits: u64) -> u64 {
     bits.max(FIRST_BITS).next_multiple_of(STEP_BITS)
 }
-
-type Outcome<T> = Result<T, EvaluateError>;
 
 /// The scales of a scene or a recurrence, and its constants.
 pub(crate) struct Scale<'a> {
@@ -248,8 +247,9 @@ fn value_at(
         let time = time.midpoint().into();
         return signal.enclose(stretch, order, At::Time(&time), bits);
     }
-    let near = signal.taylor(stretch, order, (&time.midpoint().into(), &half), 2, bits)?;
-    Ok(near.coefficients[0].widened(&near.tail(1)))
+    let place = (&time.midpoint().into(), &half);
+    let taylor = signal.taylor(stretch, Near { order, place, terms: 2, bits })?;
+    Ok(taylor.coefficients[0].widened(&taylor.tail(1)))
 }
 
 /// What an operation is between the breaks of its operands. A list of places says for each operand, or
@@ -271,6 +271,11 @@ pub(crate) trait Rule {
 
     /// Whether an operand is at a place for the last instant of the window alone.
     fn is_instant(&self, _operand: usize, _place: usize) -> bool {
+        false
+    }
+
+    /// As [`Signal::is_continuous`].
+    fn is_continuous(&self) -> bool {
         false
     }
 
@@ -301,14 +306,7 @@ pub(crate) trait Rule {
     }
 
     /// As [`Signal::taylor`].
-    fn taylor(
-        &self,
-        places: &[usize],
-        order: usize,
-        place: (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
-    ) -> Outcome<Taylor>;
+    fn taylor(&self, places: &[usize], near: Near<'_>) -> Outcome<Taylor>;
 
     /// As [`Signal::exact_at`].
     fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression>;
@@ -327,23 +325,27 @@ pub(crate) trait Rule {
     /// One limit at a time, what exact arithmetic tells of it at once, and the most bits that are of use.
     fn point(&self, at: &Rational, side: Limit) -> Outcome<(Known, Enclosure<'_>, u64)>;
 
-    fn most_bits(&self) -> u64;
+    fn most_bits(&self) -> u64 {
+        u64::MAX
+    }
 
-    fn echoes(&self) -> Option<EchoCount>;
+    fn echoes(&self) -> Option<EchoCount> {
+        None
+    }
 }
 
-/// The polynomial of a derivative of what changes at a rate: of the rate, by its order and with so many terms, or
-/// of its integral since the middle beside the value there.
+/// The polynomial of a derivative of what changes at a rate: of the rate, or of its integral since the middle beside
+/// the value there.
 fn taylor_by_rate(
-    rate: impl FnOnce(usize, usize) -> Outcome<Taylor>,
+    near: Near<'_>,
+    rate: impl FnOnce(Near<'_>) -> Outcome<Taylor>,
     value: impl FnOnce() -> Outcome<Ball>,
-    (order, half, terms): (usize, &Rational, usize),
-    bits: u64,
 ) -> Outcome<Taylor> {
+    let Near { order, place: (_, half), terms, bits } = near;
     if let Some(order) = order.checked_sub(1) {
-        return rate(order, terms);
+        return rate(Near { order, ..near });
     }
-    let rate = rate(0, terms.saturating_sub(1).max(1))?;
+    let rate = rate(Near { terms: terms.saturating_sub(1).max(1), ..near })?;
     let mut sum = rate.antiderivative(bits).scaled(&Ball::from_rational(half, bits), bits);
     sum.coefficients[0] = sum.coefficients[0].add(&value()?, bits);
     Ok(sum)
@@ -552,6 +554,10 @@ impl<R: Rule> Signal for Operation<'_, R> {
         places.get(*begins).is_some_and(|place| self.rule.is_instant(*begins, *place))
     }
 
+    fn is_continuous(&self) -> bool {
+        self.rule.is_continuous()
+    }
+
     fn is_zero(&self, stretch: usize) -> bool {
         let Step { places, is_zero, .. } = self.step(stretch);
         let cancels = || self.cancels(stretch).unwrap_or(false);
@@ -589,15 +595,8 @@ impl<R: Rule> Signal for Operation<'_, R> {
         self.in_unit(sum, bits)
     }
 
-    fn taylor(
-        &self,
-        stretch: usize,
-        order: usize,
-        place: (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
-    ) -> Outcome<Taylor> {
-        let taylor = self.rule.taylor(&self.step(stretch).places, order, place, terms, bits)?;
+    fn taylor(&self, stretch: usize, near: Near<'_>) -> Outcome<Taylor> {
+        let (taylor, bits) = (self.rule.taylor(&self.step(stretch).places, near)?, near.bits);
         match self.unit == Root::from(Fraction::one()) {
             true => Ok(taylor),
             false => Ok(taylor.scaled(&self.scale.numbers.enclose_root(&self.unit, bits)?, bits)),

@@ -6,7 +6,7 @@
 use super::{Mark, Outcome, Rule, Scale};
 use crate::ball::Ball;
 use crate::expression::{Expression, Fraction};
-use crate::signal::{EchoCount, Effort, Enclosure, EvaluateError, Known, Limit, Taylor};
+use crate::signal::{Effort, Enclosure, EvaluateError, Known, Limit, Near, Taylor};
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
@@ -100,10 +100,7 @@ impl Rule for Vibrating<'_> {
     fn taylor(
         &self,
         _: &[usize],
-        order: usize,
-        (middle, half): (&Rational, &Rational),
-        terms: usize,
-        bits: u64,
+        Near { order, place: (middle, half), terms, bits }: Near<'_>,
     ) -> Outcome<Taylor> {
         let [at, half] = [middle, half].map(|value| Ball::from_rational(value, bits));
         let mut sum = Taylor::polynomial(vec![Ball::zero(); terms]);
@@ -135,13 +132,5 @@ impl Rule for Vibrating<'_> {
         let at = at.clone();
         let enclose = move |bits| self.derivative(0, &Ball::from_rational(&at, bits), bits);
         Ok((Known::Unknown, Box::new(enclose), u64::MAX))
-    }
-
-    fn most_bits(&self) -> u64 {
-        u64::MAX
-    }
-
-    fn echoes(&self) -> Option<EchoCount> {
-        None
     }
 }

@@ -16,6 +16,28 @@ fn values_are_found_among_ascending_ones() {
     assert_eq!((place(&number(0)), place(&number(2)), place(&number(5))), (Err(0), Err(1), Err(4)));
 }
 
+/// Equal values stay in their order; one comparison that fails is the end, however many items there are.
+#[test]
+fn values_are_sorted_or_refused() {
+    let number = |value: i64| Fraction::constant(&Rational::from_integer(value.into()));
+    let symbol = |name: &str| Fraction::symbol(&Symbol::new(name).unwrap());
+    let numbers = Numbers::new(&[]);
+    for count in [0, 1, 2, 3, 64, 301] {
+        // Each value five times or so, with its place.
+        let items: Vec<(Fraction, i64)> = (0..count).map(|i| (number(i * 7919 % 61), i)).collect();
+        let mut expected = items.clone();
+        expected.sort_by_key(|(value, _)| value.as_constant());
+        let sorted = numbers.sorted(items.clone(), |(value, _)| value).unwrap();
+        assert_eq!(sorted, expected, "{count}");
+        let mut more = items;
+        more.insert(more.len() / 3, (symbol("unknown"), 0));
+        assert_eq!(numbers.sorted(more, |(value, _)| value).is_ok(), count == 0);
+    }
+    let near = vec![number(4), symbol("pi"), number(3)];
+    let sorted = numbers.sorted(near, |value| value).unwrap();
+    assert_eq!(sorted, [number(3), symbol("pi"), number(4)]);
+}
+
 /// `x⁴ + x + 1` has no real zeros; the enclosed one is a zero, and fifty digits of it are known.
 #[test]
 fn complex_zeros_are_zeros() {

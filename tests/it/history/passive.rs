@@ -46,7 +46,7 @@ proptest! {
             };
             let arriving = [series(&inputs[..4]), series(&inputs[4..])];
             let errors = passivity.errors(&state);
-            let motion = system.solve(&passivity, (&state, &errors), &arriving, (&norm, cut));
+            let motion = system.solve(passivity.known(&state, &errors), &mut arriving.clone(), (&norm, cut)).unwrap();
             let held = |state: &[Number]| {
                 let size = block.size(state.iter().map(Number::magnitude)).to_double();
                 size * size / 2.0

@@ -87,7 +87,9 @@ fn a_state_dies_out_no_slower_than_told() {
         let mut told = StateError::new(block.size(state.iter().map(Number::magnitude)));
         let mut errors = passivity.errors(&state);
         for step in 0..160 {
-            let motion = system.solve(&passivity, (&state, &errors), &still, (&norm, cut));
+            let motion = system
+                .solve(passivity.known(&state, &errors), &mut still.clone(), (&norm, cut))
+                .unwrap();
             (state, errors) = system.ended(&passivity, &motion, (&errors, &mut None), &length, cut);
             told = told.after(&length, &Magnitude::ZERO, block);
             let size = block.size(state.iter().map(Number::magnitude)).to_double();
@@ -160,7 +162,8 @@ fn encloses_short_cells(
         .map(|own| Series::new(own.iter().enumerate().map(coefficient).collect(), Magnitude::ZERO));
     let known = exact.each_ref().map(|own| shortened(own, kept, &norm));
     let errors = passivity.errors(&start);
-    let told = system.solve(passivity, (&start, &errors), &known, (&norm, cut));
+    let told =
+        system.solve(passivity.known(&start, &errors), &mut known.clone(), (&norm, cut)).unwrap();
     let (mut state, mut errors) = (start, errors);
     for count in 0..=steps {
         let x = Number::Exact(&step * rational(count, 1));
@@ -169,7 +172,9 @@ fn encloses_short_cells(
             prop_assert!(off.contains_zero(), "at {count}: {off}");
         }
         let shifted = exact.each_ref().map(|own| own.shift(&x, cut));
-        let motion = system.solve(passivity, (&state, &errors), &shifted, (&short, cut));
+        let motion = system
+            .solve(passivity.known(&state, &errors), &mut shifted.clone(), (&short, cut))
+            .unwrap();
         let length = Number::Exact(step.clone());
         (state, errors) = system.ended(passivity, &motion, (&errors, &mut None), &length, cut);
     }
@@ -185,21 +190,24 @@ fn what_is_gone_is_not_followed() {
     let length = rational(1, 256);
     let norm = cell(&length, cut);
     let still = [Series::zero(), Series::zero()];
-    let free = |known: (&[Number], &[StateError])| {
-        system.free_rate(&passivity, known, &still, (&norm, cut))
+    let free = |state: &[Number], errors: &[StateError]| {
+        system.free_rate(passivity.known(state, errors), &still, (&norm, cut))
     };
     let (mut state, mut errors) = (start.clone(), passivity.errors(&start));
-    assert_eq!(free((&state, &errors)), passivity.rate());
+    assert_eq!(free(&state, &errors), passivity.rate());
     let (length, energy) = (Number::Exact(length), &mut None);
     for _ in 0..32 {
-        let motion = system.solve(&passivity, (&state, &errors), &still, (&norm, cut));
+        let motion = system
+            .solve(passivity.known(&state, &errors), &mut still.clone(), (&norm, cut))
+            .unwrap();
         (state, errors) = system.ended(&passivity, &motion, (&errors, energy), &length, cut);
     }
-    let rate = free((&state, &errors));
+    let rate = free(&state, &errors);
     assert!(rate.scale(6) < passivity.rate() && !rate.is_zero(), "{}", rate.to_double());
     let long = rational(1, 4);
     let norm = cell(&long, cut);
-    let motion = system.solve(&passivity, (&state, &errors), &still, (&norm, cut));
+    let motion =
+        system.solve(passivity.known(&state, &errors), &mut still.clone(), (&norm, cut)).unwrap();
     let (long, energy) = (Number::Exact(long), &mut None);
     let (_, after) = system.ended(&passivity, &motion, (&errors, energy), &long, cut);
     assert!(after[0].size() < errors[0].size().scale(2), "{:?} {:?}", after, errors);
@@ -238,10 +246,10 @@ proptest! {
                 };
                 let whole = [series(0), series(5)];
                 let short = whole.each_ref().map(|own| shortened(own, kept, &norm));
-                let wide = (&state[..], &errors[..]);
-                let wide = system.solve(&passivity, wide, &short, (&norm, &few));
-                let narrow = (&other[..], &exact[..]);
-                let narrow = system.solve(&passivity, narrow, &whole, (&norm, cut));
+                let wide = passivity.known(&state, &errors);
+                let wide = system.solve(wide, &mut short.clone(), (&norm, &few)).unwrap();
+                let narrow = passivity.known(&other, &exact);
+                let narrow = system.solve(narrow, &mut whole.clone(), (&norm, cut)).unwrap();
                 let places: Vec<Number> =
                     (0..9).map(|part| Number::Exact(&length * rational(part, 8))).collect();
                 let outputs = wide.velocities.iter().chain(&wide.state);

@@ -75,8 +75,8 @@ impl Contact {
         let norm = CellNorm::new(Magnitude::from_rational(length), &self.cut);
         let wave = Series::constant(exact(wave));
         let mut input = vec![wave, Series::zero(), Series::zero()];
-        let known = (state, errors);
-        let motion = self.system.press(&self.passivity, known, &mut input, (&norm, &self.cut))?;
+        let known = self.passivity.known(state, errors);
+        let motion = self.system.solve(known, &mut input, (&norm, &self.cut))?;
         Ok((motion, input.pop().unwrap()))
     }
 }

@@ -180,7 +180,8 @@ fn errors_are_integrated() {
     for roughness in [None, Some(Roughness::Within(12)), Some(Roughness::Values)] {
         let polynomial = vec![Number::integer(2), Number::integer(-3)];
         let rest = Magnitude::from_rational(&off);
-        let f = Series::new(polynomial, rest).of_roughness(roughness);
+        let mut f = Series::new(polynomial, rest);
+        f.roughness = roughness;
         let integral = f.integral_over(Number::integer(1), &length, &cut);
         let twice = integral.add(&integral.shift(&Number::zero(), &cut), cut.bits);
         for x in [rational(1, 4), rational(1, 2), rational(7, 8)] {

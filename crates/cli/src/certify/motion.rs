@@ -277,8 +277,7 @@ impl<'a> Line<'a> {
     /// `{symbol: [low, high], …}`.
     fn told_numbers(&self, symbols: &BTreeSet<Symbol>, bits: u64) -> Json {
         let numbers = symbols.iter().filter_map(|symbol| {
-            let (low, high) = self.numbers.value(symbol, bits)?.endpoints();
-            let bounds = [&low, &high].map(BigRational::from);
+            let bounds = self.numbers.value(symbol, bits)?.bounds();
             Some((symbol.to_string(), json!(written(bounds, bits as usize / 3))))
         });
         Json::Object(numbers.collect())

@@ -10,7 +10,7 @@ use serde_json::{Map, Value as Json, json};
 use wavestep::ball::Ball;
 use wavestep::limits::SEARCH_BITS;
 use wavestep::planner::Purpose;
-use wavestep::signal::{Extremum, Goal, Limit, Place, Root, Search, Signal, Value};
+use wavestep::signal::{Extremum, Goal, Limit, Near, Place, Root, Search, Signal, Value};
 
 /// The terms of Taylor polynomials.
 const TERMS: usize = 20;
@@ -288,8 +288,9 @@ impl<'a> Cover<'a> {
         to: &BigRational,
     ) -> Result<bool, Failure> {
         let two = BigRational::from_integer(2.into());
-        let place = ((from + to) / &two, (to - from) / two);
-        let taylor = self.signal.taylor(stretch, order, (&place.0, &place.1), TERMS, self.bits)?;
+        let (middle, half) = ((from + to) / &two, (to - from) / two);
+        let near = Near { order, place: (&middle, &half), terms: TERMS, bits: self.bits };
+        let taylor = self.signal.taylor(stretch, near)?;
         let rest = (1..TERMS)
             .fold(taylor.remainder, |rest, k| rest.add(&taylor.coefficient(k).magnitude()));
         let rest = rest.add(&rest.scale(-MARGIN_BITS));

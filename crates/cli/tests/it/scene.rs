@@ -139,10 +139,16 @@ fn json_is_json() {
         let document: Value = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{e}: {text}"));
         assert!(document["schema_version"].is_number(), "{arguments:?}");
     }
-    let arguments = ["eval", "hopkinson", "--quantity", "force", "--at", "400us", "--format"];
-    let document: Value =
-        serde_json::from_str(&output(&[&arguments[..], &["json"]].concat())).unwrap();
-    assert_eq!((document["unit"].as_str(), document["time_unit"].as_str()), (Some("N"), Some("s")));
+    // A strain has no unit, and its times have.
+    for (quantity, unit) in [("force", "N"), ("gauge_output", "")] {
+        for more in [&["--at", "400us"][..], &["--at", "400us", "--tol", "1e-9"]] {
+            let arguments =
+                [&["eval", "hopkinson", "--quantity", quantity, "--format", "json"], more];
+            let document: Value = serde_json::from_str(&output(&arguments.concat())).unwrap();
+            let told = (document["unit"].as_str(), document["time_unit"].as_str());
+            assert_eq!(told, (Some(unit), Some("s")), "{quantity} {more:?}");
+        }
+    }
 }
 
 // ---- Numbers ------------------------------------------------------------------------------------

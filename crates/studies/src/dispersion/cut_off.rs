@@ -166,9 +166,8 @@ fn narrowed(
         if let Ok(slope) = value(relation.formula(Quantity::GroupVelocity), &whole, working)
             && let Ok(inverse) = slope.reciprocal(working)
         {
-            let (left, right) = at.subtract(&g.multiply(&inverse, working), working).endpoints();
-            from = from.max(Rational::from(&left));
-            to = to.min(Rational::from(&right));
+            let [left, right] = at.subtract(&g.multiply(&inverse, working), working).bounds();
+            (from, to) = (from.max(left), to.min(right));
         }
         if from == low && to == high || from > to {
             break;

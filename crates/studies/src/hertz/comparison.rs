@@ -34,11 +34,6 @@ impl Sample {
     }
 }
 
-fn ends(ball: &Ball) -> [Rational; 2] {
-    let (low, high) = ball.endpoints();
-    [Rational::from(&low), Rational::from(&high)]
-}
-
 /// The largest absolute value, and the smallest.
 fn sizes([low, high]: &[Rational; 2]) -> [Rational; 2] {
     let largest = low.abs().max(high.abs());
@@ -51,7 +46,7 @@ fn sizes([low, high]: &[Rational; 2]) -> [Rational; 2] {
 }
 
 fn hull(one: &Ball, other: &Ball, precision: u64) -> Ball {
-    let ([a, b], [c, d]) = (ends(one), ends(other));
+    let ([a, b], [c, d]) = (one.bounds(), other.bounds());
     Ball::between(&a.min(c), &b.max(d), precision)
 }
 
@@ -69,7 +64,7 @@ fn largest_between(
     let (late, lacking) = q.map_or((&zero, &zero), |q| (&q.spring, &q.contact.deficit));
     let lowest = late.subtract(&p.contact.deficit, precision);
     let highest = p.spring.subtract(lacking, precision);
-    let crude = sizes(&ends(&hull(&lowest, &highest, precision)))[0].clone();
+    let crude = sizes(&hull(&lowest, &highest, precision).bounds())[0].clone();
     let Some(q) = q else { return Ok(crude) };
     let slope = law.exponent() - Rational::one();
     let power = |sample: &Sample| -> Result<Option<Ball>, HertzError> {
@@ -88,7 +83,7 @@ fn largest_between(
         .subtract(&hull(&p.spring, &q.spring, precision), precision);
     let way = Ball::between(&Rational::zero(), &(&q.time - &p.time), precision);
     let fine = p.difference(precision).add(&rise.multiply(&way, precision), precision);
-    Ok(crude.min(sizes(&ends(&fine))[0].clone()))
+    Ok(crude.min(sizes(&fine.bounds())[0].clone()))
 }
 
 /// The largest difference between the force in a contact and in the [equivalent
@@ -127,7 +122,7 @@ pub fn distance_from_spring(law: &PowerLaw, places: u32) -> Result<Ball, HertzEr
                 Some(q) => (&p.time + &q.time) / &two,
                 None => (&p.time * &two).max(Rational::one()),
             })?;
-            best = best.max(sizes(&ends(&middle.difference(precision)))[1].clone());
+            best = best.max(sizes(&middle.difference(precision).bounds())[1].clone());
             cells.push((p, Some(middle.clone())));
             cells.push((middle, q));
         }
