@@ -23,7 +23,7 @@ except ImportError:
     CHECKERS = [check]
 
 
-MOTIONS = ("events", "reading", "readings", "extreme")
+MOTIONS = ("events", "reading", "readings", "extreme", "zeros")
 
 
 def places(node, path=()):
@@ -136,10 +136,16 @@ def same_claims(one, other):
         names = [[event[:2] for event in document["events"]] for document in (one, other)]
         if names[0] != names[1]:
             return False
-        one, other = ({"zeros": [event[2:] for event in document["events"]]} for document in (one, other))
+        one, other = ({"zeros": all_times(document)} for document in (one, other))
     zeros = [[list(map(Fraction, pair)) for pair in document.get("zeros", [])] for document in (one, other)]
     overlap = lambda a, b: a[0] <= b[1] and b[0] <= a[1]
     return len(zeros[0]) == len(zeros[1]) and all(map(overlap, *zeros))
+
+
+def all_times(document):
+    """The intervals of times that are claimed of a motion."""
+    rests = [time for rest in document.get("rests", []) for time in rest]
+    return [event[2:] for event in document["events"]] + document.get("zeros", []) + rests
 
 
 def verdict(original, document):

@@ -15,7 +15,7 @@ from general import check_general
 from motion import check_events
 from pieces import check_pieces
 from reading import main, need
-from readings import check_extreme, check_reading, check_readings
+from readings import check_extreme, check_reading, check_readings, check_zeros
 from windows import check_doubles, check_extremum, check_roots, check_value
 
 
@@ -39,7 +39,7 @@ def check(cert):
     read_roots(cert)
     kinds = {"pieces": check_pieces, "general": check_general, "value": check_value, "doubles": check_doubles}
     kinds |= {"roots": check_roots, "extremum": check_extremum, "events": check_events, "reading": check_reading}
-    kinds |= {"readings": check_readings, "extreme": check_extreme}
+    kinds |= {"readings": check_readings, "extreme": check_extreme, "zeros": check_zeros}
     need(type(cert["title"]) is str and cert["title"].encode(), "a title is missing")
     need(cert["kind"] in kinds, f"unknown kind {json.dumps(cert['kind'])}")
     need("minus" not in cert or "observed" in cert["minus"] and cert["kind"] not in ("pieces", "general"), "a second scene for nothing")

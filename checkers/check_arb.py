@@ -17,7 +17,7 @@ try:
     from flint import acb, acb_series, arb, fmpq, fmpq_mat, fmpq_mpoly_ctx
 
     from motion_arb import check_motion
-    from readings_arb import check_extreme, check_reading, check_readings
+    from readings_arb import check_extreme, check_reading, check_readings, check_zeros
     from series_arb import rational
 except ImportError:
     if __name__ != "__main__":
@@ -1045,7 +1045,8 @@ def check(cert):
     need(isinstance(cert["title"], str) and cert["title"].encode(), "a title is missing")
     kinds = {"pieces": lambda *_: None, "general": check_general, "value": check_value, "doubles": check_doubles}
     kinds |= {"roots": check_roots, "extremum": check_extremum}
-    motions = {"events": check_motion, "reading": check_reading, "readings": check_readings, "extreme": check_extreme}
+    motions = {"events": check_motion, "reading": check_reading, "readings": check_readings}
+    motions |= {"extreme": check_extreme, "zeros": check_zeros}
     need(cert["kind"] in kinds | motions, f"unknown kind {json.dumps(cert['kind'])}")
     need("minus" not in cert or "observed" in cert["minus"] and cert["kind"] not in ("pieces", "general"), "a second scene for nothing")
     if cert["kind"] in motions:

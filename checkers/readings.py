@@ -1,4 +1,4 @@
-"""What is read of a motion: values at times, and largest and smallest values, with nothing but the standard library."""
+"""What is read of a motion: values at times, largest and smallest values, zeros, with nothing but the standard library."""
 
 from fractions import Fraction
 from functools import cmp_to_key
@@ -7,9 +7,9 @@ from itertools import zip_longest
 from exact import MINUS, accumulate, decimal, is_count, is_zero, rational, read_function
 from motion import check_events, exactly, moved
 from reading import Wrong, decided, need
-from series import ONE, ZERO, Duration, Number, interval, is_positive, shifted, total, value
+from series import ONE, ZERO, Duration, Number, interval, is_positive, shifted, slope, total, value
 
-READS = {"quantity", "observed", "unit"}
+READS = {"quantity", "observed"}
 
 # What can be read of elements, and how much more has to be said: delays of both waves, a side.
 READINGS = {("bar", what): 2 for what in ("velocity", "displacement", "force")}
@@ -136,7 +136,7 @@ def within(motion, time):
 
 def check_reading(cert):
     """What is read at a time is the decimal, correctly rounded, for all times and units of the two intervals."""
-    reader = Reader(check_events(cert, READS | {"at", "value", "last_place"}))
+    reader = Reader(check_events(cert, READS | {"unit", "at", "value", "last_place"}))
     (claim, slack), time = decimal(cert), interval(cert["at"])
     within(reader.motion, time)
     [read] = reader.seen(cert["observed"], reader.at(time))
@@ -146,7 +146,7 @@ def check_reading(cert):
 
 def check_readings(cert):
     """What is read at evenly spaced times is off by the bound at most, for all times and units of the intervals."""
-    reader = Reader(check_events(cert, READS | {"from", "until", "points", "values"}))
+    reader = Reader(check_events(cert, READS | {"unit", "from", "until", "points", "values"}))
     begin, end, unit = (interval(cert[key]) for key in ("from", "until", "unit"))
     within(reader.motion, begin)
     within(reader.motion, end)
@@ -162,7 +162,7 @@ def check_extreme(cert):
     """Nothing that is read in the window is beyond the decimal by more than half a unit of its last place, and at one time it is
     as near."""
     way, (claim, slack) = {"largest": 1, "smallest": -1}[cert["goal"]], decimal(cert)
-    motion = check_events(cert, READS | {"from", "until", "goal", "value", "last_place", "times", "attained"})
+    motion = check_events(cert, READS | {"unit", "from", "until", "goal", "value", "last_place", "times", "attained"})
     reader, rows, (begin, end, unit) = Reader(motion), cert["observed"], (interval(cert[key]) for key in ("from", "until", "unit"))
     (first, after), (before, last) = within(motion, begin), within(motion, end)
     need(after < before, "the window is empty")
@@ -175,3 +175,56 @@ def check_extreme(cert):
     need(after <= time < before, "the extremum is taken outside the window")
     [near] = left(reader.seen(rows, reader.at(Number(time))), -way * slack)
     decided(near.sign() in (0, -1), "the extremum is not taken where it is said")
+
+
+def check_zeros(cert):
+    """From the least to the greatest time of the window what is read is zero once in each of the intervals, and throughout each of
+    the rests, and nowhere else but perhaps in the interval in which a rest begins."""
+    motion = check_events(cert, READS | {"from", "until", "times", "zeros", "rests"})
+    reader, rows, ((first, after), (before, last)) = Reader(motion), cert["observed"], (map(rational, cert[key]) for key in ("from", "until"))
+    need(first <= after and before <= last and first < last, "the window is empty, or runs backwards")
+    need(0 <= first and last < motion.to, "the time is outside the window")
+    need(all(type(cert[key]) is list for key in ("zeros", "rests", "times")), "a list is missing")
+    ends = [rational(time) for low, high in cert["zeros"] for time in (low, high)]
+    need(all(a < b for a, b in zip([first, *ends], [*ends, last])), "intervals of zeros overlap, or reach beyond the window")
+    zeros = [(exactly(low), exactly(high)) for low, high in zip(ends[::2], ends[1::2])]
+    crossed, rests, is_after_rest = [], [], False
+    claims = [[tuple(map(rational, time)) for time in rest] for rest in cert["rests"]]
+    hints = list(map(exactly, [*map(rational, cert["times"]), *ends, *(low for (low, _), _ in claims)]))
+    parts = reader.parts(rows, exactly(first), exactly(last), hints)
+    reads = [reader.seen(rows, reader.on(a, b)) for a, b in parts]
+    is_rest = [all(own.is_zero() for own in read) for read in reads] + [False]
+    for n, ((a, b), read) in enumerate(zip(parts, reads)):
+        length = motion.since(b, a).times(1 / motion.step)
+        reach, inside = length.ends()[1], [i for i, (low, high) in enumerate(zeros) if motion.later(low, a) <= 0 <= motion.later(high, b)]
+        if is_rest[n]:
+            need(not inside, "where one zero is claimed it is zero all of the time")
+            rests = [*rests[:-1], (rests[-1][0], b)] if is_after_rest else [*rests, (a, b)]
+            is_after_rest = True
+            continue
+        if n == 0 and read[0].is_zero():  # a rest of no length
+            rests, is_after_rest = [(a, a)], True
+        if is_rest[n + 1] and len(rests) < len(claims):  # nothing is claimed where it begins
+            low, high = claims[len(rests)][0]
+            if motion.later(exactly(low), a) <= 0 and motion.instant(b).ends()[1] <= high:
+                is_after_rest = False
+                continue
+        if inside:
+            way = value(slope(read), Number.between(Fraction(0), reach)).sign()
+            decided(way in (1, -1), "it is not decided whether there is one zero in an interval")
+            decided(read[0].sign() == -way and value(read, length).sign() == way, "there may be no zero in an interval")
+            crossed += inside
+        else:
+            while is_after_rest and read[0].is_zero():  # where the rest ends it is zero, and not later
+                read = read[1:]
+            way = read[0].sign()
+            decided(way in (1, -1), "it is not decided whether it is zero at a time")
+            decided(is_rest[n + 1] or value(read, length).sign() == way, "it is not decided whether it is zero just before a time")
+            decided(is_positive(scaled(Number(Fraction(way)), read), Fraction(0), reach, 40), "between two times there may be a zero")
+        is_after_rest = False
+    need(crossed == list(range(len(zeros))), "an interval of a zero is cut by an arrival")
+    need(len(rests) == len(claims), f"there are {len(rests)} rests")
+    for times, intervals in zip(rests, claims):
+        for time, (least, most) in zip(times, intervals):
+            low, high = motion.instant(time).ends()
+            need(least <= low and high <= most, "a rest begins or ends at another time")

@@ -1,12 +1,12 @@
-"""What is read of a motion, over Arb: values at times, and bounds of all values in a window."""
+"""What is read of a motion, over Arb: values at times, bounds of all values in a window, and all zeros there."""
 
 from flint import arb, fmpq
 
 from motion_arb import at, check_motion, rational_above, rational_below
 from reading import decided, need
-from series_arb import NIL, Length, horner, interval, is_nil, moved, rational, short, sign, stays_positive
+from series_arb import NIL, Length, derivative, horner, interval, is_nil, moved, rational, short, sign, span, stays_positive
 
-READ = "quantity observed unit "
+READ = "quantity observed "
 
 
 def plus(a, b):
@@ -120,13 +120,13 @@ def decimal(cert):
 
 def check_reading(cert):
     """The decimal is what is read, correctly rounded, whatever the time and the unit are within their intervals."""
-    story, (value, half) = check_motion(cert, READ + "at value last_place"), decimal(cert)
+    story, (value, half) = check_motion(cert, READ + "unit at value last_place"), decimal(cert)
     need(is_within(read(story, cert, interval(cert["at"])) - value, half), "the value is another one")
 
 
 def check_readings(cert):
     """Each value is as near to what is read at its time as its bound says."""
-    story, count = check_motion(cert, READ + "from until points values"), cert["points"]
+    story, count = check_motion(cert, READ + "unit from until points values"), cert["points"]
     begin, end = (interval(cert[key]) for key in ("from", "until"))
     need(type(count) is int and len(cert["values"]) == count > 0, "there are more or fewer values than points")
     need(sign(end - begin) in (0, 1) or count == 1, "the window runs backwards")
@@ -136,11 +136,8 @@ def check_readings(cert):
         need(is_within(read(story, cert, time) - rational(value), rational(error)), f"value {i} is another one")
 
 
-def check_extreme(cert):
-    """What is read stays on one side of a bound, half a unit in the last place beyond the decimal, and comes as near once."""
-    story = check_motion(cert, READ + "from until goal value last_place times attained")
-    (value, half), (begin, end, unit) = decimal(cert), (interval(cert[key]) for key in ("from", "until", "unit"))
-    way = {"largest": 1, "smallest": -1}[cert["goal"]]
+def cut(story, cert, begin, end, hints):
+    """Parts of a window between which nothing that is read arrives, as pairs of times; some begin at these times."""
     first = begin if isinstance(begin, fmpq) else rational_below(begin)
     last = end if isinstance(end, fmpq) else rational_above(end)
     need(0 <= first and last < story.end and sign(end - begin) == 1, "the window is empty, or outside what is followed")
@@ -148,7 +145,7 @@ def check_extreme(cert):
     cuts = [at(first)]
     arrivals = [(n, s.plus(lag)) for n, s in story.begins for lag in lags]
     # Hints that are not known to be before or after an arrival are none.
-    hints = [at(rational(time)) for time in cert["times"]]
+    hints = [at(rational(time)) for time in hints]
     arrivals += [time for time in hints if all(time == own or sign(story.between(time, own)) for own in arrivals)]
     while cuts[-1] != at(last):
         following = at(last)
@@ -156,13 +153,82 @@ def check_extreme(cert):
             if story.is_later(time, cuts[-1]) and story.is_later(following, time):
                 following = time
         cuts.append(following)
-    for a, b in zip(cuts, cuts[1:]):
+    return zip(cuts, cuts[1:])
+
+
+def length(story, a, b):
+    """A bound of how long a part is, in steps."""
+    steps = short(story.between(b, a) / story.step)
+    return steps if isinstance(steps, fmpq) else rational_above(steps)
+
+
+def check_extreme(cert):
+    """What is read stays on one side of a bound, half a unit in the last place beyond the decimal, and comes as near once."""
+    story = check_motion(cert, READ + "unit from until goal value last_place times attained")
+    (value, half), (begin, end, unit) = decimal(cert), (interval(cert[key]) for key in ("from", "until", "unit"))
+    way = {"largest": 1, "smallest": -1}[cert["goal"]]
+    for a, b in cut(story, cert, begin, end, cert["times"]):
         left = times(-way * unit, Place(story, a, b).observed(cert["observed"]))
-        length = short(story.between(b, a) / story.step)
-        until = length if isinstance(length, fmpq) else rational_above(length)
+        until = length(story, a, b)
         left = plus([way * value + half], left)
         decided(sign(left[0]) == 1 and stays_positive(left, NIL, until, 40), "a value is beyond the extremum, or may be")
     time = rational(cert["attained"])
     need(sign(time - begin) in (0, 1) and sign(end - time) == 1, "the extremum is taken outside the window")
     left = way * (value - read(story, cert, time))
     need(sign(half - left) in (0, 1), "the extremum is not taken where it is said")
+
+
+def exact_or_ball(story, time):
+    return time[1].value() if time[0] == 0 else story.when(time)
+
+
+def begins_in(story, a, b, claim):
+    """Whether a part lies in the interval in which the rest after it is said to begin."""
+    return claim is not None and not story.is_later(at(claim[0]), a) and sign(claim[1] - exact_or_ball(story, b)) in (0, 1)
+
+
+def check_zeros(cert):
+    """What is read passes through zero once in each interval, does not leave it in a rest, and is not zero elsewhere in the widest
+    window: nothing is said of the interval in which a rest begins."""
+    story = check_motion(cert, READ + "from until times zeros rests")
+    (begin, after), (before, end) = (map(rational, cert[key]) for key in ("from", "until"))
+    need(begin <= after and before <= end, "a time runs backwards")
+    pairs = [[rational(low), rational(high)] for low, high in cert["zeros"]]
+    need(all(isinstance(cert[key], list) for key in ("zeros", "rests", "times")), "a list is missing")
+    marks = [begin, *sum(pairs, []), end]
+    need(begin < end and all(a < b for a, b in zip(marks, marks[1:])), "intervals of zeros overlap, or reach beyond the window")
+    found, passed, rests = set(), None, []
+    claims = [[list(map(rational, time)) for time in rest] for rest in cert["rests"]]
+    hints = cert["times"] + [time for pair in cert["zeros"] for time in pair] + [low for (low, _), _ in cert["rests"]]
+    parts = [(a, b, Place(story, a, b).observed(cert["observed"])) for a, b in cut(story, cert, begin, end, hints)]
+    rested = [all(map(is_nil, read)) for _, _, read in parts]
+    for (a, b, read), rests_now, rests_next in zip(parts, rested, rested[1:] + [False]):
+        until = length(story, a, b)
+        holds = [i for i, (low, high) in enumerate(pairs) if not story.is_later(at(low), a) and not story.is_later(b, at(high))]
+        if passed is None and is_nil(read[0]):
+            rests.append([a, a])
+        may_begin_at_zero, passed, steps = bool(rests) and rests[-1][1] == a, b, short(story.between(b, a) / story.step)
+        if rests_now:
+            need(not holds, "where one zero is claimed it is zero all of the time")
+            rests += [] if may_begin_at_zero else [[a, a]]
+            rests[-1][1] = b
+        elif rests_next and begins_in(story, a, b, claims[len(rests)][0] if len(rests) < len(claims) else None):
+            need(not holds, "a zero is where a rest begins")
+        elif holds:
+            way = sign(horner(derivative(read), span(NIL, until)))
+            decided(way in (1, -1), "it may turn round where one zero is claimed")
+            decided(sign(read[0]) == -way and sign(horner(read, steps)) == way, "it may not pass through zero where that is claimed")
+            need(not found & set(holds), "an interval of a zero is cut by an arrival")
+            found |= set(holds)
+        else:
+            while may_begin_at_zero and is_nil(read[0]):
+                read = read[1:]
+            way = sign(read[0])
+            decided(way in (1, -1) and (rests_next or sign(horner(read, steps)) == way), "there may be another zero at an arrival")
+            decided(stays_positive(times(way, read), NIL, until, 40), "there may be another zero")
+    need(len(found) == len(pairs), "a zero is missing")
+    need(len(rests) == len(claims), "there are more or fewer rests")
+    for rest, (early, late) in zip(rests, claims):
+        for time, (low, high) in zip(rest, (early, late)):
+            when = exact_or_ball(story, time)
+            need(sign(when - low) in (0, 1) and sign(high - when) in (0, 1), "a rest begins or ends at another time")

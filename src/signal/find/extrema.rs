@@ -492,7 +492,9 @@ impl Contenders<'_, '_> {
                     *after = true;
                     true
                 }
-                (Some(last), place) => (is_one || search.function.is_continuous()) && last.go_on(place),
+                (Some(last), place) => {
+                    (is_one || search.function.is_continuous()) && last.go_on(place)
+                }
                 (None, _) => false,
             };
             if joined {

@@ -3,7 +3,7 @@
 
 use super::motion::{Line, Precision, written};
 use super::rounded;
-use super::window::taken;
+use super::window::{around, place, taken, undecided};
 use super::writer::Writer;
 use crate::failure::Failure;
 use num_rational::BigRational;
@@ -12,10 +12,13 @@ use wavestep::ball::{Bound, Decimal};
 use wavestep::expression::Fraction;
 use wavestep::network::{Contacts, Face, Field, Lump, MeasuredValue, Reading, Term};
 use wavestep::problem::Problem;
-use wavestep::signal::{Place, Value};
+use wavestep::signal::{Place, Root, Value};
 
 /// The bits of times that are not claimed.
 const SPARE_BITS: u64 = 64;
+
+/// Digits of zeros beyond those asked for.
+const SPARE_DIGITS: usize = 3;
 
 /// A time is told by 10^(-ASIDE·digits) later or earlier, so that it is on one side of an arrival.
 const ASIDE: i32 = 2;
@@ -27,6 +30,9 @@ pub struct Read<'a> {
     /// The first and the last time, between two numbers each.
     ends: [[BigRational; 2]; 2],
     digits: usize,
+    /// Whether a force at the end of a bar or in a damper is read, which what it is computed from does not tell to be zero where a
+    /// contact opens.
+    is_beside_contact: bool,
     document: Map<String, Json>,
 }
 
@@ -61,7 +67,17 @@ impl<'a> Read<'a> {
         document.insert("quantity".into(), json!(name));
         document.insert("observed".into(), json!(rows));
         document.insert("unit".into(), json!(written(unit, precision.bits as usize / 3)));
-        Ok(Some(Read { line, precision, ends, digits, document }))
+        let layout = &network.layout;
+        let is_at_end = |term: &Term| match &term.of {
+            Reading::InBar(Field::Force, section) => section.end(Fraction::is_zero).is_some(),
+            Reading::Force(Lump { node, place }) => {
+                let resistance = layout.nodes[*node].elements[*place].law.resistance();
+                resistance.is_some_and(|[_, damping]| !damping.is_zero())
+            }
+            _ => false,
+        };
+        let is_beside_contact = network.scene().contacts_open && terms.iter().any(is_at_end);
+        Ok(Some(Read { line, precision, ends, digits, is_beside_contact, document }))
     }
 
     fn claiming(mut self, kind: &str, claims: Json) -> Map<String, Json> {
@@ -101,18 +117,9 @@ impl<'a> Read<'a> {
         let [from, until] = &self.ends;
         let aside = BigRational::from_integer(10.into()).pow(-ASIDE * self.digits as i32);
         let aside = aside.min((&until[0] - &from[1]) / BigRational::from_integer(4.into()));
-        let cut = |time: &BigRational| -> Result<String, Failure> {
-            let [low, high] = self.line.in_units(time, self.precision.bits)?;
-            let digits = (1 + ASIDE as usize) * self.digits;
-            Ok(written([low, high], digits)[0].clone())
-        };
-        let times: Vec<String> = times.iter().map(cut).collect::<Result<_, _>>()?;
+        let times = self.hints(times)?;
         let (time, before) = taken(place)?;
-        let [low, high] = time.bounds();
-        let [low, high] = [
-            self.line.in_units(&low, self.precision.bits)?[0].clone(),
-            self.line.in_units(&high, self.precision.bits)?[1].clone(),
-        ];
+        let [low, high] = self.in_units(&time.bounds())?;
         let after = |[low, high]: [BigRational; 2]| if low == high { high } else { high + &aside };
         let time = if before { low - &aside } else { after([low, high]) };
         let time = time.max(after(from.clone())).min(&until[0] - &aside);
@@ -122,6 +129,98 @@ impl<'a> Read<'a> {
         claims["attained"] = json!(time.to_string());
         Ok(self.claiming("extreme", claims))
     }
+}
+
+impl Read<'_> {
+    /// All zeros in the window, with the times that cut it, and those at which waves arrive.
+    pub fn zeros(
+        mut self,
+        roots: &[Root],
+        times: &[BigRational],
+        arrivals: &[BigRational],
+    ) -> Result<Map<String, Json>, Failure> {
+        let mut step = self.document["step"].clone();
+        let (mut zeros, mut rests) = (Vec::new(), Vec::new());
+        let told = |window: &[BigRational; 2]| {
+            Ok::<_, Failure>(written(self.in_units(window)?, self.digits + SPARE_DIGITS))
+        };
+        for root in roots {
+            match root {
+                Root::Interval { from, to, .. } => {
+                    let is_first = self.in_units(&from.bounds())?[0] <= self.ends[0][1];
+                    if self.is_beside_contact && !is_first {
+                        let message = "there are no certificates of values that are zero beside an open contact";
+                        let remedy = "observe a spring there, or ask for an earlier end";
+                        return Err(Failure::usage(message, remedy));
+                    }
+                    let [from, to] = [from, to].map(|time| match time.exact() {
+                        Some(_) => time.bounds(),
+                        None => around(time, self.digits),
+                    });
+                    rests.push([told(&from)?, told(&to)?]);
+                }
+                // At the last time there is a limit alone.
+                Root::End { time } if times.last() != time.exact() => {
+                    rests.push([told(&time.bounds())?, told(&time.bounds())?]);
+                }
+                Root::End { .. } | Root::Arrival { .. } => {
+                    return Err(undecided("the sign at an arrival or an end"));
+                }
+                _ => {
+                    let Some(window) = place(root, self.digits)? else { continue };
+                    let [low, high] = &window;
+                    if arrivals.iter().any(|time| low <= time && time <= high) {
+                        return Err(undecided("the sign where a wave arrives"));
+                    }
+                    if matches!(root, Root::Simple { time, .. } if time.exact().is_some()) {
+                        // A checker's steps are not to end there.
+                        step = json!(unusual(&step));
+                    }
+                    zeros.push(told(&window)?);
+                }
+            }
+        }
+        let claims = json!({
+            "from": self.told(&self.ends[0]),
+            "until": self.told(&self.ends[1]),
+            "times": self.hints(times)?,
+            "zeros": zeros,
+            "rests": rests,
+        });
+        self.document.insert("step".into(), step);
+        // Zero is zero in every unit.
+        self.document.remove("unit");
+        Ok(self.claiming("zeros", claims))
+    }
+
+    /// A time between two, in the unit of the line.
+    fn in_units(&self, [low, high]: &[BigRational; 2]) -> Result<[BigRational; 2], Failure> {
+        let bits = self.precision.bits;
+        let [low, _] = self.line.in_units(low, bits)?;
+        let [_, high] = self.line.in_units(high, bits)?;
+        Ok([low, high])
+    }
+
+    /// Times near these, at which a checker may cut the window.
+    fn hints(&self, times: &[BigRational]) -> Result<Vec<String>, Failure> {
+        let digits = (1 + ASIDE as usize) * self.digits;
+        let near = |time: &BigRational| {
+            let [low, high] = self.line.in_units(time, self.precision.bits)?;
+            let exact = low.to_string();
+            Ok(match low == high && exact.len() <= digits {
+                true => exact,
+                false => Decimal::bound(&low, digits, Bound::Lower).to_string(),
+            })
+        };
+        times.iter().map(near).collect()
+    }
+}
+
+/// A shorter step, of which the times that people write are no multiples.
+fn unusual(step: &Json) -> String {
+    let step = step.as_str().and_then(|text| text.parse::<BigRational>().ok());
+    let share = BigRational::new(997.into(), 1024.into());
+    (step.expect("a step is a number") * share).to_string()
 }
 
 /// `[coefficient, what, element, …]`: of bars with the delays of both waves, of springs with a side.

@@ -60,6 +60,17 @@ pub fn certificate(
             let times: Vec<BigRational> = cover.cells.into_iter().map(|cell| cell.to).collect();
             return read.extreme(claims, &times, &found.places[0]);
         }
+        (Err(refusal), Asked::Roots, None) => {
+            let read = Read::of(of.problem, &wanted.name, ends, digits)?.ok_or(refusal)?;
+            let found = search.roots(&BigRational::default(), digits, SEARCH_BITS)?;
+            cover.run_nearly()?;
+            let mut arrivals = Vec::new();
+            for stretch in 1..signal.count()? {
+                arrivals.push(signal.time(stretch, Limit::Right, SPARE_BITS)?.midpoint().into());
+            }
+            let times: Vec<BigRational> = cover.cells.into_iter().map(|cell| cell.to).collect();
+            return read.zeros(&found.all, &times, &arrivals);
+        }
         (Err(refusal), ..) => return Err(refusal),
     };
     let cuts = cuts(&*signal, begins)?;
@@ -142,7 +153,7 @@ fn extremum(
     Ok((json!({ "goal": goal, "value": told, "last_place": last_place }), found))
 }
 
-fn undecided(what: &str) -> Failure {
+pub fn undecided(what: &str) -> Failure {
     let message = format!("{what} stays undecided, so there is no certificate");
     Failure::new(ACCURACY, message, "ask for another window, or for other digits")
 }
@@ -167,17 +178,13 @@ fn cuts(signal: &dyn Signal, begins: Vec<BigRational>) -> Result<Vec<BigRational
 }
 
 /// Where a root is; a jump is none.
-fn place(root: &Root, digits: usize) -> Result<Option<Window>, Failure> {
+pub fn place(root: &Root, digits: usize) -> Result<Option<Window>, Failure> {
     let exact = |time: &Value| time.exact().cloned().ok_or_else(|| undecided("the time of a root"));
     Ok(match root {
         Root::Simple { time: Value::Enclosed(_), .. } => {
             return Err(undecided("a digit of the time of a root"));
         }
-        Root::Simple { time, .. } => {
-            let (decimal, place) = rounded(time, digits);
-            let (time, unit) = (decimal.to_rational(), power_of_ten(place));
-            Some([&time - &unit, time + unit])
-        }
+        Root::Simple { time, .. } => Some(around(time, digits)),
         Root::End { time } | Root::Arrival { time, .. } => Some([exact(time)?, exact(time)?]),
         Root::Interval { from, to, .. } => Some([exact(from)?, exact(to)?]),
         Root::Jump { .. } => None,
@@ -185,6 +192,13 @@ fn place(root: &Root, digits: usize) -> Result<Option<Window>, Failure> {
             return Err(undecided("whether there is a root"));
         }
     })
+}
+
+/// Times a unit of the last place before and after another one.
+pub fn around(time: &Value, digits: usize) -> Window {
+    let (decimal, place) = rounded(time, digits);
+    let (time, unit) = (decimal.to_rational(), power_of_ten(place));
+    [&time - &unit, time + unit]
 }
 
 /// A part of the window on which a derivative has one sign: of order 0 the quantity less each level; of order k > 1 where

@@ -97,6 +97,33 @@ const MORE_EXTREMES: [&str; 9] = [
     "pi.wave --max v --to 4",
 ];
 
+/// Zeros at times that a checker's steps could end at, and a rest between times that are no binary fractions.
+const NICE: &str = "scene \"Nice times\"\nload p { force = 1 - t, until = 3 }\n\
+    bar rod { impedance = 1, travel = 3/2 }\nbar target { impedance = 1, travel = 4/3 }\n\
+    line free - p - rod | target - free\nobserve f = force(rod.left)\nobserve m = velocity(target.at(1/3))\n\
+    contacts open\n";
+
+/// Zeros of what is read: between arrivals, with a rest before, a force that begins again and ends where its contact opens.
+const ZEROS: [&str; 3] = [
+    "mass-that-bounces --zero strain_fixed --to 6",
+    "saint-venant --set mu=1 --zero velocity --to 4 --digits 9",
+    "cushion-with-release --set mu=1 --zero force",
+];
+
+/// The same with units, of displacements, at irrational arrivals, with many digits.
+const MORE_ZEROS: [&str; 10] = [
+    "hopkinson --zero force",
+    "hopkinson --zero gauge_output",
+    "hopkinson --zero compression",
+    "percussive-drill --zero rock_force",
+    "mass-that-bounces --zero velocity --to 6 --digits 40",
+    "incommensurate --zero contact_force",
+    "pi.wave --zero v --to 4",
+    "pile --zero penetration --to 8",
+    "nice.wave --zero f --to 5/2",
+    "nice.wave --zero m --to 5",
+];
+
 /// The same later, between jumps, with more digits.
 const MORE_READINGS: [&str; 8] = [
     "incommensurate --quantity contact_force --at 200us",
@@ -214,7 +241,8 @@ fn certificates(folder: &Path) -> Vec<String> {
         .chain(DOUBLES)
         .chain(EVENTS)
         .chain(READINGS)
-        .chain(EXTREMES);
+        .chain(EXTREMES)
+        .chain(ZEROS);
     let asked = asked.map(str::to_owned);
     let lines = pieces.chain(ratios).chain(general).chain(asked).enumerate();
     let written = lines.map(|(i, line)| {
@@ -275,7 +303,8 @@ fn exponents_with_denominators_are_verified() {
 fn motions_of_shipped_scenes_are_verified() {
     let folder = folder("certificates-of-events");
     std::fs::write(folder.join("pi.wave"), PI).unwrap();
-    let lines = MORE_EVENTS.iter().chain(&MORE_READINGS).chain(&MORE_EXTREMES);
+    std::fs::write(folder.join("nice.wave"), NICE).unwrap();
+    let lines = MORE_EVENTS.iter().chain(&MORE_READINGS).chain(&MORE_EXTREMES).chain(&MORE_ZEROS);
     let files = lines.enumerate().map(|(i, line)| {
         certify(&folder, line, &format!("{i}.json"));
         format!("{i}.json")
@@ -393,7 +422,25 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let (bounced, strained) = (ask(READINGS[0]), ask(READINGS[1]));
     let (events, unequal) = (ask(EVENTS[0]), ask(EVENTS[1]));
     let (sampled, fastest, lowest) = (ask(EXTREMES[0]), ask(EXTREMES[1]), ask(EXTREMES[2]));
-    let cases: [(&serde_json::Value, Change, &str); 104] = [
+    let (crossing, released) = (ask(ZEROS[0]), ask(ZEROS[2]));
+    let cases: [(&serde_json::Value, Change, &str); 117] = [
+        (
+            &crossing,
+            |own| drop(own["zeros"].as_array_mut().unwrap().pop()),
+            "it is zero just before",
+        ),
+        (&crossing, |own| own["zeros"][1] = own["zeros"][0].clone(), "overlap"),
+        (&crossing, |own| own["zeros"][0] = json!(["3/2", "8/5"]), "there may be no zero"),
+        (&crossing, |own| own["rests"][0][1][1] = "0.9999999".into(), "at another time"),
+        (&crossing, |own| own["rests"][0][0] = json!(["1/2", "7"]), "at another time"),
+        (&crossing, |own| own["zeros"] = json!({}), "a list is missing"),
+        (&crossing, |own| own["zeros"][0] = json!(["1/10", "1/5"]), "zero all of the time"),
+        (&crossing, |own| own["rests"] = json!([]), "there are 1 rests"),
+        (&crossing, |own| own["rests"][0][1] = json!(["2", "2"]), "at another time"),
+        (&crossing, |own| own["until"] = json!(["60", "60"]), "outside the window"),
+        (&crossing, |own| own["until"] = own["from"].clone(), "the window is empty"),
+        (&released, |own| own["rests"][1][0][1] = own["rests"][1][0][0].clone(), "may be a zero"),
+        (&released, |own| drop(own["rests"].as_array_mut().unwrap().remove(0)), "may be a zero"),
         (&sampled, |own| own["values"][3][1] = "0".into(), "value 3 is between"),
         (&sampled, |own| own["until"] = own["from"].clone(), "is between"),
         (&sampled, |own| own["points"] = 4.into(), "a value is missing"),
@@ -644,7 +691,6 @@ fn what_has_no_certificate_is_told() {
     std::fs::write(folder.join("rings.wave"), rings).unwrap();
     std::fs::write(folder.join("pi.wave"), PI).unwrap();
     for (line, message) in [
-        ("certify pi.wave --zero v --to 4", "hold the number"),
         ("certify mass-on-fixed-bar --max velocity --to 1", "mu has no value"),
         (
             "certify mass-on-fixed-bar --set mu=1/4 --zero velocity --to 3 --digits 2000",
@@ -662,8 +708,8 @@ fn what_has_no_certificate_is_told() {
         ("certify hertz-striker", "local contact"),
         ("certify mass-on-fixed-bar --set mu=1 --quantity energy --at 1", "not linear"),
         ("certify mass-on-fixed-bar --set mu=1 --quantity momentum --at 1", "integrals of waves"),
-        ("certify saint-venant --set mu=1 --zero velocity --to 5", "where contacts open"),
-        ("certify hopkinson --zero force --to 1ms", "with units"),
+        ("certify hopkinson --zero energy --to 1ms", "with units"),
+        ("certify mass-on-free-bar --set m=3/2 --zero force --to 29/4", "beside an open contact"),
         ("certify hopkinson --max energy --to 1ms", "with units"),
         ("certify rigid-mass --quantity f --at 1", "mu"),
         ("certify pile --general", "no closed form in n"),
