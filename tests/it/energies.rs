@@ -274,6 +274,13 @@ const WEIGHTS: &str = "scene \"Weights\"\nload weight { force = 1/3 }\nmass ram 
     line free - weight - ram JOINT cushion - p - helmet - q - pile - w - foot - toe - free\n\
     observe all = energy(line)\nobserve momentum = momentum(line)\n";
 
+/// The same with units, which have scales of their own.
+const HAMMER: &str = "scene \"Hammer\"\nload push { force = 3*sin(1000*pi*t) kN, until = 3/2 ms }\n\
+    load weight { force = (1 - 500*t) kN, from = 1/4 ms }\nmass ram { mass = 1 kg, velocity = 2 m/s }\n\
+    bar rod { impedance = 3000 N*s/m, travel = 200 us }\nsupport toe { stiffness = 2 MN/m, damping = 1 kN*s/m }\n\
+    line free - push - weight - ram JOINT rod - toe - free\n\
+    observe all = energy(line)\nobserve momentum = momentum(line)\n";
+
 /// What is searched, by its flow, is what is evaluated: values and derivatives agree, also with what is
 /// conserved.
 #[test]
@@ -285,7 +292,11 @@ fn what_flows_in_is_the_derivative() {
     let pulses = |joint: &str, drive: &str| PULSES.replace("JOINT", joint).replace("DRIVE", drive);
     let weights = || network(&WEIGHTS.replace("JOINT", "-"));
     let falling = || network(&(WEIGHTS.replace("JOINT", "|") + "contacts open\n"));
-    let scenes: [(Network, &[&str], Rational); 12] = [
+    let hammer = || network(&HAMMER.replace("JOINT", "-"));
+    let struck = || network(&(HAMMER.replace("JOINT", "|") + "contacts open\n"));
+    let scenes: [(Network, &[&str], Rational); 14] = [
+        (hammer(), &["all", "momentum"], rational(1, 500)),
+        (struck(), &["all", "momentum"], rational(1, 500)),
         (weights(), &["all", "momentum"], rational(6, 1)),
         (falling(), &["all", "momentum"], rational(6, 1)),
         (network(&pulses("-", "force")), &["all", "momentum"], rational(6, 1)),
@@ -340,8 +351,25 @@ fn what_flows_in_is_the_derivative() {
             }
         }
     }
-    assert_eq!(compared, 1035 + (2 * 5 + 6) * 3 * 23);
+    assert_eq!(compared, 1035 + (2 * 7 + 6) * 3 * 23);
     assert!(flat >= 10, "{flat} derivatives");
+}
+
+/// The momentum of a free line is the impulse of the load on its mass, `∫ F dt`, in milliseconds as in seconds.
+#[test]
+fn a_load_on_a_mass_gives_its_impulse() {
+    let network = network(
+        "scene \"Impulse\"\nbar rod { impedance = 3000 N*s/m, travel = 200 us }\nmass ram { mass = 1 kg }\n\
+         load push { force = sin(1000*pi*t) kN }\nline free - rod - ram - push - free\n\
+         observe momentum = momentum(line)\n",
+    );
+    let window = [&Rational::default(), &rational(3, 2000)];
+    let signal = of_scene(&network, &network.observables()[0], window, Purpose::Search).unwrap();
+    let found = Search::new(&*signal).unwrap().extremum(Goal::Largest, 15, 1 << 12).unwrap();
+    // 2/π, when the force changes its sign
+    assert_eq!(found.value.to_text(15), "0.636619772367581");
+    let [Place::Critical(time)] = &found.places[..] else { panic!("{:?}", found.places) };
+    assert_eq!(time.to_f64(), 0.001);
 }
 
 /// What begins flat, with the square of a wave that begins at zero, is decided at the beginning.

@@ -55,6 +55,8 @@ enum Source<'a> {
     Recurrence {
         echoes: Box<ExactEchoes<'a>>,
         value: Observation,
+        /// The scene whose scale of time the recurrence has, if it is not the user's.
+        scene: Option<&'a Network>,
     },
     Scene {
         network: &'a Network,
@@ -84,7 +86,7 @@ impl<'a> ClosedSignal<'a> {
     ) -> Outcome<Self> {
         let echoes = Box::new(ExactEchoes::new(Cow::Borrowed(solution))?);
         let value = observation.clone();
-        ClosedSignal::new(Source::Recurrence { echoes, value }, window)
+        ClosedSignal::new(Source::Recurrence { echoes, value, scene: None }, window)
     }
 
     /// An observable of a scene whose contacts stay closed.
@@ -128,7 +130,7 @@ impl<'a> ClosedSignal<'a> {
 
     /// A function of time in the scale of a scene, from the start on.
     pub(crate) fn of_course(
-        network: &Network,
+        network: &'a Network,
         course: &Expression,
         window: [&Rational; 2],
     ) -> Outcome<Self> {
@@ -137,7 +139,8 @@ impl<'a> ClosedSignal<'a> {
         let form = ClosedForm::of_course(network, &recurrence, &value)?;
         let solution = Solution::new(recurrence);
         let echoes = Box::new(ExactEchoes::new(Cow::Owned(solution))?);
-        let signal = ClosedSignal::new(Source::Recurrence { echoes, value }, window)?;
+        let source = Source::Recurrence { echoes, value, scene: Some(network) };
+        let signal = ClosedSignal::new(source, window)?;
         Ok(ClosedSignal { form: OnceCell::from(form), ..signal })
     }
 
@@ -165,7 +168,7 @@ impl<'a> ClosedSignal<'a> {
             return Ok(form);
         }
         let form = match &self.source {
-            Source::Recurrence { echoes, value } => {
+            Source::Recurrence { echoes, value, .. } => {
                 ClosedForm::of_recurrence(echoes.recurrence(), value)?
             }
             Source::Scene { network, value, unit, .. } => {
@@ -221,7 +224,7 @@ impl<'a> ClosedSignal<'a> {
     fn exact_value(&self, at: &Fraction, side: Limit) -> Outcome<Option<Rational>> {
         let digits = |point: Point<'_>| point.value(FEW_DIGITS, SIGN_BITS);
         let value = match &self.source {
-            Source::Recurrence { echoes, value } => match at.as_constant() {
+            Source::Recurrence { echoes, value, .. } => match at.as_constant() {
                 Some(at) => echoes.point(value, &at, side).and_then(digits),
                 None => return Ok(None),
             },
@@ -275,7 +278,7 @@ impl<'a> ClosedSignal<'a> {
     /// Whether the derivative in the limit at an end is known to be exactly zero, of an observable of a recurrence that sees
     /// no derivatives and no function of time itself.
     fn slope_is_zero(&self, stretch: usize, end: Limit) -> bool {
-        let Source::Recurrence { echoes, value } = &self.source else { return false };
+        let Source::Recurrence { echoes, value, .. } = &self.source else { return false };
         let at = self.scaled(stretch, At::End(end));
         let Some((slope, at)) = slope_of(value).zip(at.as_constant()) else { return false };
         let zero = Known::Rational(Rational::default());
@@ -337,7 +340,8 @@ impl Signal for ClosedSignal<'_> {
             return self.enclosed(at, side);
         }
         match &self.source {
-            Source::Recurrence { echoes, value } => match echoes.point(value, at, side) {
+            Source::Recurrence { scene: Some(_), .. } => self.enclosed(at, side),
+            Source::Recurrence { echoes, value, .. } => match echoes.point(value, at, side) {
                 // Pieces in balls may go further.
                 Err(EvaluateError::TooManyPeriods { periods, limit }) => {
                     match periods <= MAX_PIECES.into() {
@@ -399,7 +403,9 @@ impl Signal for ClosedSignal<'_> {
 
     fn instant(&self, stretch: usize) -> Option<Instant> {
         let scene = match &self.source {
-            Source::Scene { network, .. } => std::ptr::from_ref(*network).addr(),
+            Source::Scene { network, .. } | Source::Recurrence { scene: Some(network), .. } => {
+                std::ptr::from_ref(*network).addr()
+            }
             Source::Recurrence { echoes, .. } => std::ptr::from_ref(echoes.recurrence()).addr(),
         };
         Some(Instant { scene, event: None, delay: self.stretch(stretch).from.clone() })
@@ -411,7 +417,7 @@ impl Signal for ClosedSignal<'_> {
         }
         let since = &self.stretch(stretch).from;
         match &self.source {
-            Source::Recurrence { echoes, value } => {
+            Source::Recurrence { echoes, value, .. } => {
                 echoes.exact_since(value, &since.as_constant()?, at)
             }
             Source::Scene { network, value, unit, echoes, .. } => {
@@ -433,8 +439,10 @@ impl Signal for ClosedSignal<'_> {
 
     fn scaled_time(&self, time: &Rational) -> Fraction {
         match &self.source {
-            Source::Recurrence { .. } => Fraction::constant(time),
-            Source::Scene { network, .. } => network.scaled_time(time),
+            Source::Scene { network, .. } | Source::Recurrence { scene: Some(network), .. } => {
+                network.scaled_time(time)
+            }
+            Source::Recurrence { scene: None, .. } => Fraction::constant(time),
         }
     }
 
