@@ -372,6 +372,23 @@ fn a_load_on_a_mass_gives_its_impulse() {
     assert_eq!(time.to_f64(), 0.001);
 }
 
+/// A load that begins with zero, and what it gives to a mass at rest, begin flat: the least value is at the start alone.
+#[test]
+fn extrema_under_loads_that_begin_with_zero_are_decided() {
+    for force in ["t*t", "sin(pi*t)"] {
+        let network = network(&format!(
+            "scene \"Push\"\nmass m {{ mass = 1 }}\nload p {{ force = {force} }}\n\
+             line free - p - m - free\nobserve momentum = momentum(line)\n"
+        ));
+        let window = [&Rational::default(), &rational(1, 2)];
+        let signal =
+            of_scene(&network, &network.observables()[0], window, Purpose::Search).unwrap();
+        let found = Search::new(&*signal).unwrap().extremum(Goal::Smallest, 12, 1 << 12).unwrap();
+        assert_eq!(found.value, Value::Exact(Rational::default()), "{force}");
+        assert!(matches!(found.places[..], [Place::End(_)]), "{force}: {:?}", found.places);
+    }
+}
+
 /// What begins flat, with the square of a wave that begins at zero, is decided at the beginning.
 #[test]
 fn extrema_of_what_begins_flat_are_decided() {

@@ -526,7 +526,11 @@ impl Signal for ClosedSignal<'_> {
             _ => false,
         };
         let least = usize::from(is_zero);
-        let Source::Scene { network, .. } = &self.source else { return Ok(least) };
+        let (Source::Scene { network, .. } | Source::Recurrence { scene: Some(network), .. }) =
+            &self.source
+        else {
+            return Ok(least);
+        };
         let time = &network.scene().time;
         let own = self.exact_at(stretch, &Fraction::symbol(time), Effort::Much);
         let Some(own) = own else { return Ok(least) };
