@@ -30,8 +30,8 @@ pub struct Read<'a> {
     /// The first and the last time, between two numbers each.
     ends: [[BigRational; 2]; 2],
     digits: usize,
-    /// Whether a force at the end of a bar or in a damper is read, which what it is computed from does not tell to be zero where a
-    /// contact opens.
+    /// Whether a force at the end of a bar or in a damper is read: beside an open contact it is zero because its parts cancel,
+    /// which a checker cannot tell.
     is_beside_contact: bool,
     document: Map<String, Json>,
 }
@@ -129,9 +129,7 @@ impl<'a> Read<'a> {
         claims["attained"] = json!(time.to_string());
         Ok(self.claiming("extreme", claims))
     }
-}
 
-impl Read<'_> {
     /// All zeros in the window, with the times that cut it, and those at which waves arrive.
     pub fn zeros(
         mut self,
@@ -139,7 +137,6 @@ impl Read<'_> {
         times: &[BigRational],
         arrivals: &[BigRational],
     ) -> Result<Map<String, Json>, Failure> {
-        let mut step = self.document["step"].clone();
         let (mut zeros, mut rests) = (Vec::new(), Vec::new());
         let told = |window: &[BigRational; 2]| {
             Ok::<_, Failure>(written(self.in_units(window)?, self.digits + SPARE_DIGITS))
@@ -172,10 +169,6 @@ impl Read<'_> {
                     if arrivals.iter().any(|time| low <= time && time <= high) {
                         return Err(undecided("the sign where a wave arrives"));
                     }
-                    if matches!(root, Root::Simple { time, .. } if time.exact().is_some()) {
-                        // A checker's steps are not to end there.
-                        step = json!(unusual(&step));
-                    }
                     zeros.push(told(&window)?);
                 }
             }
@@ -187,7 +180,13 @@ impl Read<'_> {
             "zeros": zeros,
             "rests": rests,
         });
-        self.document.insert("step".into(), step);
+        let is_exact =
+            |root: &Root| matches!(root, Root::Simple { time, .. } if time.exact().is_some());
+        if roots.iter().any(is_exact) {
+            // A checker's steps are not to end there.
+            let step = unusual(&self.document["step"]);
+            self.document.insert("step".into(), json!(step));
+        }
         // Zero is zero in every unit.
         self.document.remove("unit");
         Ok(self.claiming("zeros", claims))
