@@ -185,12 +185,11 @@ fn integer_factors(p: &[BigInt]) -> Option<Vec<Vec<BigInt>>> {
 /// the rationals is a sum of some of these, for every prime.
 fn is_soon_irreducible(p: &[BigInt]) -> bool {
     let degree = p.len() - 1;
-    let all = match 2_u64.checked_shl(degree as u32) {
-        Some(beyond) if degree > 1 => beyond - 1,
-        _ => return degree == 1,
-    };
-    // Bit `d` tells whether there may be a factor of degree `d`.
-    let mut possible = all;
+    if degree < 2 {
+        return degree == 1;
+    }
+    // Bit `d` tells whether there may be a factor of degree `d`, which is at most `MAX_DEGREE`.
+    let mut possible = u64::MAX >> (u64::BITS as usize - 1 - degree);
     SMALL_PRIMES.iter().any(|prime| {
         let prime = Prime(BigInt::from(*prime));
         let monic = prime.monic(p);
