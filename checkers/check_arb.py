@@ -42,6 +42,7 @@ class Ring:
         scenes = [cert] + ([cert["minus"]] if "minus" in cert else [])
         names = {name for scene in scenes for name in (scene["local"], scene["time"], *scene["waves"])}
         need(not names & set(cert["roots"]), "a time or a wave is no root")
+        need("pi" not in names | set(cert["roots"]), "pi is the number")
         names = {*self.times, *cert["roots"], "#n", "#p", "#r"}
 
         def collect(node):
@@ -125,6 +126,9 @@ class Quotient:
     def __mul__(self, other):
         return Quotient(self.ring, self.top * other.top, self.ring.reduced(self.below * other.below))
 
+    def __sub__(self, other):
+        return self + Quotient(self.ring, -other.top, other.below)
+
     def key(self):
         """The same for equal quotients, roots of sums apart, and another one for others."""
         common = self.top.gcd(self.below)
@@ -194,7 +198,36 @@ class Sum:
         return any(p.degrees()[p.context().variable_to_index(symbol)] > 0 for p in polynomials for symbol in symbols if p != 0)
 
     def is_zero(self):
-        return all(quotient.top == 0 for _, quotient in self.parts.values())
+        left = [part for part in self.parts.values() if part[1].top != 0]
+        while left:
+            (x, total), *others = left
+            factors = [turned(y - x) if "pi" in x.ring.symbols else None for y, _ in others]
+            for (_, quotient), factor in zip(others, factors):
+                total = total + quotient * factor if factor else total
+            if total.top != 0:
+                return False
+            left = [other for other, factor in zip(others, factors) if not factor]
+        return True
+
+
+def turned(exponent):
+    """exp(i pi r), where an exponent is that and 12 r is whole; without roots of 2 and 3 where 2 r is."""
+    ring = exponent.ring
+    roots = {square: ring.context.gen(place) for place, square in ring.below.items()}
+    if -1 not in roots:
+        return None
+    i, whole = roots[-1], ring.symbols["pi"] * roots[-1] * exponent.below
+    r = exponent.top.leading_coefficient() / whole.leading_coefficient()
+    if exponent.top != whole * r:
+        return None
+    known = {fmpq(0): 1}
+    if {2, 3} <= roots.keys():
+        sum_, less = roots[2] * (roots[3] + 1), roots[2] * (roots[3] - 1)
+        known |= {fmpq(1, 12): (sum_ + i * less) / 4, fmpq(5, 12): (less + i * sum_) / 4}
+        known |= {fmpq(1, 3): (1 + i * roots[3]) / 2, fmpq(1, 4): (1 + i) * roots[2] / 2, fmpq(1, 6): (i + roots[3]) / 2}
+    quarters = (2 * r).floor()
+    rest = r - fmpq(int(quarters), 2)
+    return Quotient(ring, known[rest] * i ** int(quarters % 4), ring.one) if rest in known else None
 
 
 def constant(ring, value):
@@ -503,7 +536,7 @@ class Claim:
 
     def has_positive_period(self):
         period = Sum.of(self.ring.number(0), self.period)
-        need(not period.has(*self.ring.times, *map(self.ring.names.__getitem__, self.ring.roots)), "a period depends on time, or is no rational function")
+        need(not period.has(*self.ring.times, *{"pi"} & set(self.ring.names), *map(self.ring.names.__getitem__, self.ring.roots)), "a period depends on time, or is no rational function")
         top, below = self.period.top, self.period.below
         if top.is_constant() and below.is_constant():
             return need(number_of(self.period) > 0, "a period is not positive")

@@ -87,17 +87,56 @@ def vanishes(function):
     return not any(over_one(function)[1].values())
 
 
+def turn(function):
+    """r where a rational function is i pi r, pi being the number; None where it is not."""
+    powers, total = over_one(function)
+    if not total or not total[()]:
+        return Fraction(0)
+    below = ONE
+    for factor, power in powers.items():
+        for _ in range(power):
+            below = add({}, {(): dict(factor)}, below)
+    i = next((symbol for symbol, square in ROOTS.items() if square == -1), None)
+    whole = add({}, below, {(): {tuple(sorted([("pi", 1), (i, 1)])): 1}}) if i else {(): {}}
+    r = next((Fraction(total[()].get(m, 0)) / c for m, c in whole[()].items()), 0)
+    return r if r and vanishes(add(add({}, total), whole, {(): {(): -r}})) else None
+
+
+def turned(r):
+    """exp(i pi r) where 12 r is whole: a power of exp(i pi/12) = (sqrt(6) + sqrt(2))/4 + i (sqrt(6) - sqrt(2))/4."""
+    roots = {square: ((symbol, 1),) for symbol, square in ROOTS.items()}
+    if 2 * r == int(2 * r):
+        twelfth, count = {(): {roots[-1]: 1}}, int(2 * r) % 4  # of a fourth of a turn no other root is needed
+    elif {2, 3} <= roots.keys() and 12 * r == int(12 * r):
+        product_of = lambda *squares: tuple(sorted(pair for square in squares for pair in roots[square]))
+        quarter, count = Fraction(1, 4), int(12 * r) % 24
+        real = {product_of(2, 3): quarter, product_of(2): quarter}
+        twelfth = {(): real | {product_of(-1, 2, 3): quarter, product_of(-1, 2): -quarter}}
+    else:
+        return None
+    value = ONE
+    for _ in range(count):
+        value = add({}, value, twelfth)
+    return value
+
+
+def alike(x, y):
+    """exp(x - y) where it is known, as a rational function; None else. One exponent may be written in more than one way."""
+    r = turn(add(add({}, x), y, {(): {(): -1}}))
+    return None if r is None else ONE if r == 0 else turned(r)
+
+
 def is_zero(expression):
-    """Whether the rational functions before each exponential cancel; an exponent may be written in more than one way."""
+    """Whether the rational functions before each exponential cancel."""
     left = [(thawed(x), function) for x, function in expression.items() if not vanishes(function)]
     while left:
         (x, total), *others = left
-        alike = [vanishes(add(add({}, x), y, {(): {(): -1}})) for y, _ in others]
-        for (_, function), is_alike in zip(others, alike):
-            total = add(add({}, total), function) if is_alike else total
+        factors = [alike(y, x) for y, _ in others]
+        for (_, function), factor in zip(others, factors):
+            total = add(add({}, total), function, factor) if factor else total
         if not vanishes(total):
             return False
-        left = [other for other, is_alike in zip(others, alike) if not is_alike]
+        left = [other for other, factor in zip(others, factors) if not factor]
     return True
 
 
@@ -342,13 +381,13 @@ def number(function):
     return {monomial: c for monomial, c in top.items() if c}
 
 
-def coefficients(function, t):
-    """Those of a polynomial in the time, without other symbols."""
+def coefficients(function, t, of=number):
+    """Those of a polynomial in the time, without other symbols unless they are kept."""
     powers = [{}]
     for below, m, c, power in terms(function, t):
         powers += [{} for _ in range(power + 1 - len(powers))]
         add(powers[power], {below: {tuple(pair for pair in m if pair[0] != t): c}})
-    return [number(power) for power in powers]
+    return [of(power) for power in powers]
 
 
 def sign(expression, t, time):

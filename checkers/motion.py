@@ -5,9 +5,11 @@ adds and multiplies these.
 """
 
 from fractions import Fraction
-from math import comb, isqrt
+from functools import cache
+from math import comb, factorial, isqrt
 
-from exact import MINUS, ROOTS, Ball, accumulate, coefficients, frozen, is_zero, number, put, rational, read, read_function, thawed
+from exact import MINUS, ROOTS, Ball, accumulate, coefficients, frozen, is_zero, put, rational, read, read_function, thawed
+from exact import slope as derivative
 from reading import Undecided, decided, need
 from series import ONE, PRECISION, ZERO, Duration, Number, begins, interval, is_positive, shifted, slope, total, value
 
@@ -36,14 +38,16 @@ MOST_CELLS, MOST_BITS, MOST_TERMS, MOST_RUNS = 8000, 4096, 400, 64
 class Load:
     """A force that acts from one time to another, a sum of polynomials times exponentials."""
 
-    def __init__(self, element, cert):
-        self.course, self.time = read(element["course"]), cert["time"]
-        self.begin, self.end = (None if element[key] is None else Fraction(plain(element[key])) for key in ("from", "until"))
-        self.begin = self.begin or Fraction(0)
+    def __init__(self, element, line, cert):
+        self.course, self.line, self.time = read(element["course"]), line, cert["time"]
+        self.begin, self.end = (None if element[key] is None else line.duration(element[key]) for key in ("from", "until"))
+        self.begin = self.begin or Duration({})
         for symbol in (symbol for symbol, square in ROOTS.items() if square == -1):  # the conjugate is the same
             other = put(self.course, symbol, {(): {((symbol, 1),): -1}})
             need(is_zero(accumulate(other, self.course, MINUS)), "a load is not real")
-        need(self.begin >= 0 and (self.end is None or self.end > self.begin), "a load ends before it begins, or begins early")
+        is_late = lambda time: time == Duration({}) or time.number().sign() == 1
+        decided(is_late(self.begin), "a load may begin early")
+        decided(self.end is None or (self.end - self.begin).number().sign() == 1, "a load may end before it begins")
 
     def series(self, begin, step, terms):
         """Its Taylor polynomial in whole steps about a time."""
@@ -52,18 +56,46 @@ class Load:
         there = put(self.course, self.time, {(): {(): (low + high) / 2, ((self.time, 1),): step}})
         sums = [ZERO] * (terms + 1)
         for exponent, function in there.items():
-            factors = coefficients(function, self.time)
+            factors = coefficients(function, self.time, dict)
             need(len(factors) <= terms, "a course has too high a power")
-            own = self.smooth(exponent, factors, terms) if exponent else list(map(plain_or_root, factors)) + [ZERO] * terms
+            own = self.smooth(exponent, factors, terms) if exponent else list(map(self.real, factors)) + [ZERO] * terms
             sums = [a + b for a, b in zip(sums, own)]
+        for k in range(3):  # exactly, where no exponent is left, as at the start of a sine
+            here = put(there, self.time, {(): {(): 0}})
+            if any(here):
+                break
+            sums[k], there = self.real(here.get((), {})).times(Fraction(1, factorial(k))), derivative(there, self.time)
         return shifted(sums, Number.between((low - high) / step, (high - low) / step))
+
+    def complex(self, function):
+        """A sum of products of roots and constants over such ones without roots of -1."""
+        bits, constants = PRECISION["bits"], self.line.constants
+        real = lambda own: Ball(bits, own.units()[0], 0, own.units()[1])
+        sum_ = Ball(bits, 0)
+        for below, top in function.items():
+            over = self.line.number_over(below) if top else ONE
+            for monomial, c in top.items():
+                need(all(s in constants or s in ROOTS and p == 1 for s, p in monomial), "a symbol has no value")
+                own = Ball.of({tuple((s, p) for s, p in monomial if s in ROOTS): c}, bits)
+                for symbol, power in monomial:
+                    for _ in range(power if symbol in constants else 0):
+                        own = own * real(constants[symbol])
+                sum_ = sum_ + (own * real(over) if below else own)
+        return sum_
+
+    def real(self, function):
+        function = {below: top for below, top in function.items() if top}
+        if not function.keys() - {()} and not function.get((), {}).keys() - {()}:
+            return Number(function.get((), {}).get((), Fraction(0)))
+        ball = self.complex(function)
+        return Number(None, ball.real, ball.off)
 
     def smooth(self, exponent, factors, terms):
         """A polynomial times an exponential; of the highest derivative a bound for -1 <= x <= 2."""
         bits = PRECISION["bits"]
-        start, rate, *others = coefficients(thawed(exponent), self.time) + [{}, {}]
+        start, rate, *others = coefficients(thawed(exponent), self.time, dict) + [{}, {}]
         need(not any(others), "an exponent is not linear in the time")
-        factors, x, powers = [Ball.of(part, bits) for part in factors], Ball.of(rate, bits), [Ball.of(start, bits).exp()]
+        factors, x, powers = list(map(self.complex, factors)), self.complex(rate), [self.complex(start).exp()]
         need(x.size() >> bits < 64, "a step is too long for a load")
         for k in range(terms):
             powers.append((powers[-1] * x).over(k + 1))
@@ -77,18 +109,18 @@ class Load:
         return sums + [Number.between(-bound, bound)]
 
 
-def plain_or_root(parts):
-    if not parts.keys() - {()}:
-        return Number(parts.get((), Fraction(0)))
-    ball = Ball.of(parts, PRECISION["bits"])
-    return Number(None, ball.real, ball.off)
+@cache
+def pi(bits):
+    """16 arctan(1/5) - 4 arctan(1/239); each division leaves out less than a unit, of which 2^16 are one of the ball's."""
 
+    def arctan(n):
+        power, sum_, k = (1 << bits + 16) // n, 0, 1
+        while power:
+            sum_ += power // k if k % 4 == 1 else -(power // k)
+            power, k = power // (n * n), k + 2
+        return sum_
 
-def plain(rows):
-    """A rational number."""
-    parts = number(read_function(rows))
-    need(not any(parts.keys() - {()}), "a root where a rational number is due")
-    return Fraction(parts.get((), 0))
+    return Number(None, (16 * arctan(5) - 4 * arctan(239)) >> 16, 2)
 
 
 class Line:
@@ -97,7 +129,8 @@ class Line:
     def __init__(self, cert):
         self.constants = {name: interval(pair) for name, pair in cert["numbers"].items()}
         need(not self.constants.keys() & (ROOTS.keys() | {cert["time"]}), "a name stands for two numbers")
-        need(cert["time"] not in ROOTS, "a name stands for two numbers")
+        need(not {cert["time"], "pi"} & ROOTS.keys() and "pi" not in {cert["time"], *self.constants}, "a name stands for two numbers")
+        self.constants["pi"] = pi(PRECISION["bits"])
         elements = cert["line"]
         need(
             all(element.keys() == KEYS.get(element["is"]) for element in elements),
@@ -134,7 +167,7 @@ class Line:
             for r, run in enumerate(runs)
             for own in of(run, "support")
         ]
-        self.loads = [(r, Load(own, cert)) for r, run in enumerate(runs) for own in of(run, "force")]
+        self.loads = [(r, Load(own, self, cert)) for r, run in enumerate(runs) for own in of(run, "force")]
         self.endless = [bool(of(run, "endless")) for run in runs]
         need(all(len(run) == 1 for run, is_endless in zip(runs, self.endless) if is_endless), "an endless line ends with a bar")
         for i, link in enumerate(self.links):
@@ -156,15 +189,19 @@ class Line:
         need(type(rows) is list, "a number is no list")
         sums = []
         for below, top in read_function(rows).items():
-            divisor = ONE
-            for factor, power in below:
-                for _ in range(power):
-                    divisor = divisor * self.polynomial(dict(factor))
-            sums.append(self.polynomial(top) / divisor)
+            sums.append(self.polynomial(top) * self.number_over(below))
         return total(sums)
 
+    def number_over(self, below):
+        """1 over a product of polynomials in the constants."""
+        divisor = ONE
+        for factor, power in below:
+            for _ in range(power):
+                divisor = divisor * self.polynomial(dict(factor))
+        return ONE / divisor
+
     def duration(self, rows):
-        """A travel time, as a multiple of 1 or of what others are multiples of, too."""
+        """A length of time, as a multiple of 1 or of what others are multiples of, too."""
         function = read_function(rows)
         first = next((c for _, top in sorted(function.items()) for _, c in sorted(top.items()) if c), Fraction(0))
         if not first:
@@ -386,10 +423,10 @@ class Motion:
         """What acts from now on, and when that changes."""
         found, ends = [], []
         for _, load in self.line.loads:
-            times = [exactly(own) for own in (load.begin, load.end) if own is not None]
+            times = [(0, own) for own in (load.begin, load.end) if own is not None]
             ends += [own for own in times if self.later(own, self.now) > 0]
-            acts = self.later(exactly(load.begin), self.now) <= 0
-            acts = acts and (load.end is None or self.later(exactly(load.end), self.now) > 0)
+            acts = self.later((0, load.begin), self.now) <= 0
+            acts = acts and (load.end is None or self.later((0, load.end), self.now) > 0)
             found.append(load.series(self.instant(self.now), self.step, self.terms) if acts else [ZERO] * (self.terms + 1))
         return found, ends
 

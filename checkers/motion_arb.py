@@ -55,6 +55,8 @@ class Parts:
         need(not self.numbers.keys() & (self.roots.keys() | {cert["time"]}), "a name stands for two numbers")
         self.time, line = cert["time"], cert["line"]
         need(type(self.time) is str and self.time not in self.roots, "the time has no name of its own")
+        need("pi" not in {self.time, *self.roots, *self.numbers}, "pi is the number")
+        self.numbers["pi"] = arb.pi()
         need(all(set(own) == ELEMENTS[own["is"]] for own in line), "an element has other keys")
         ends = {"free", "fixed", "endless"}
         need(
@@ -136,7 +138,7 @@ class Parts:
         return total
 
     def length(self, rows):
-        """A travel time: those that are multiples of each other count in one unit."""
+        """A length of time: those that are multiples of each other count in one unit."""
         value = self.number(rows)
         if isinstance(value, fmpq):
             return Length(value)
@@ -144,15 +146,11 @@ class Parts:
         unit = [[[[str(rational(c) / first), names] for c, names in top], factors] for top, factors in rows]
         return Length(0, {json.dumps(unit): [first, value / first]})
 
-    def exact(self, rows):
-        value = self.number(rows)
-        need(isinstance(value, fmpq), "a time is not rational")
-        return value
-
     def load(self, own):
-        begin, end = (None if own[key] is None else self.exact(own[key]) for key in ("from", "until"))
-        begin = begin if begin is not None else NIL
-        need(begin >= 0 and (end is None or end > begin), "a load ends before it begins")
+        begin, end = (None if own[key] is None else self.length(own[key]) for key in ("from", "until"))
+        begin = begin if begin is not None else Length()
+        decided(sign(begin.value()) in (0, 1), "a load may begin early")
+        decided(end is None or sign(end.plus(begin, -1).value()) == 1, "a load may end before it begins")
         need(self.plain(own["course"]) == self.plain(self.conjugate(own["course"])), "a load is not real")
         return {"course": own["course"], "from": begin, "until": end}
 
@@ -185,6 +183,8 @@ class Parts:
                     need(type(exponent) is int and 0 < exponent <= 10**4, "a power is no positive integer")
                     if name == self.time:
                         power = exponent
+                    elif name in self.numbers:
+                        term *= flint.acb(self.numbers[name]) ** exponent
                     else:
                         need(name in self.roots, f"{name} has no value")
                         term *= flint.acb(self.roots[name]).sqrt() ** exponent
@@ -434,7 +434,7 @@ class Story:
         for link in self.parts.links:
             if link["is"] == "bar" and link["travel"] is not None:
                 times += [(n, s.plus(link["travel"])) for n, s in self.begins[-self.count(link["travel"]) :] + [self.now]]
-        times += [at(load[key]) for _, load in self.parts.loads for key in ("from", "until") if load[key] is not None]
+        times += [(0, load[key]) for _, load in self.parts.loads for key in ("from", "until") if load[key] is not None]
         first = None
         for time in times:
             if self.is_later(time, self.now) and (first is None or self.is_later(first, time)):
@@ -469,8 +469,8 @@ class Story:
     def acting(self):
         found = []
         for _, load in self.parts.loads:
-            is_on = not self.is_later(at(load["from"]), self.now) and (
-                load["until"] is None or self.is_later(at(load["until"]), self.now)
+            is_on = not self.is_later((0, load["from"]), self.now) and (
+                load["until"] is None or self.is_later((0, load["until"]), self.now)
             )
             time = self.now[1].value() if self.now[0] == 0 else self.when(self.now)
             found.append(self.parts.pushes(load, time, self.step, self.order) if is_on else [NIL] * (self.order + 1))

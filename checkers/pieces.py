@@ -56,13 +56,14 @@ def check_symbols(cert):
     local, time, waves = cert["local"], cert["time"], cert["waves"]
     need(all(type(name) is str and name for name in [local, time, *waves]) and local != time, "names of times or waves")
     need(not ROOTS.keys() & {local, time, *waves}, "a time or a wave is no root")
+    need("pi" not in {local, time, *waves, *ROOTS}, "pi is the number")
     # Claims hold where the period is positive; a number is, and any other period for some positive numbers if not all is less.
     period = read_function(cert["period"])
     tops = [c for top in period.values() for c in top.values()]
     factors = [c for below in period for factor, _ in below for _, c in factor]
     is_number = all(not m for top in period.values() for m in top) and all(not m for below in period for f, _ in below for m, _ in f)
     is_positive = number_at({(): period}, {}) > 0 if is_number else any(c > 0 for c in tops) or any(c < 0 for c in factors)
-    need(is_positive and not holds(cert["period"], *ROOTS), "a period is not positive")
+    need(is_positive and not holds(cert["period"], "pi", *ROOTS), "a period is not positive")
     forms = [] if "line" in cert else cert["equations"] + cert["continuity"]
     elements = cert.get("line", [])
     fixed = [cert["period"]] + [element[key] for element in elements for key in element if key != "course"]

@@ -2,7 +2,7 @@
 
 use crate::ball::{Ball, BallError, ComplexBall};
 use crate::enclosure::error::EnclosureError;
-use crate::expression::{Expression, Fraction};
+use crate::expression::{Expression, Fraction, PI};
 use std::collections::BTreeMap;
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
@@ -11,7 +11,7 @@ type Powers = BTreeMap<Symbol, Vec<ComplexBall>>;
 
 /// Encloses the value of an expression with about `bits` bits.
 ///
-/// Square roots are known; every other symbol has the value that `values` gives, with the bits that
+/// Square roots and π are known; every other symbol has the value that `values` gives, with the bits that
 /// are wanted. An expression that is real, such as a sum of conjugate terms, has an imaginary part
 /// whose enclosure contains 0.
 ///
@@ -25,6 +25,7 @@ pub fn enclose_expression(
     for symbol in expression.symbols() {
         let value = match symbol.square() {
             Some(square) => root(square, bits),
+            None if symbol.name() == PI => Ball::pi(bits).into(),
             None => match values(&symbol, bits) {
                 Some(value) => value.into(),
                 None => return Err(EnclosureError::MissingValue(symbol)),

@@ -4,7 +4,7 @@ use crate::ball::{Attempt, Ball, ComplexBall, Number, Precisions};
 use crate::enclosure::error::EnclosureError;
 use crate::enclosure::expression::{enclose_expression, real_part};
 use crate::enclosure::zero::{Order, ZeroError, enclose_zero_of};
-use crate::expression::{Constant, Definition, Expression, Field, Fraction, Root};
+use crate::expression::{Constant, Definition, Expression, Field, Fraction, PI, Root};
 use std::cell::RefCell;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -59,7 +59,7 @@ impl Numbers {
                 let precisions = Precisions::doubling(bits + 16, COMPARISON_BITS.max(bits + 16));
                 precisions.raise(attempt).and_then(Attempt::done).ok()?
             }
-            None if symbol.name() == "pi" => Ball::pi(bits),
+            None if symbol.name() == PI => Ball::pi(bits),
             None => return None,
         };
         self.known.borrow_mut().insert(key, ball.clone());
@@ -173,7 +173,7 @@ impl Numbers {
         Ok(z.widened(&distance))
     }
 
-    fn enclose_complex(
+    pub fn enclose_complex(
         &self,
         value: &Expression,
         bits: u64,

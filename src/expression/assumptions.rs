@@ -2,6 +2,7 @@
 
 use crate::expression::fraction::Fraction;
 use crate::expression::sum::Expression;
+use crate::expression::turn::PI;
 use num_traits::{Signed, Zero};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -287,7 +288,7 @@ impl Assumptions {
         let mut bounds = BTreeMap::new();
         for symbol in p.symbols() {
             let condition = self.conditions.get(symbol).and_then(Option::as_ref);
-            let is_pi = symbol.name() == PI && !self.conditions.contains_key(symbol);
+            let is_pi = symbol.name() == PI;
             let of_number = || if is_pi { Some(pi_bounds()) } else { root_bounds(symbol) };
             if let Some(between) = self.bounds.get(symbol).cloned().or_else(of_number) {
                 bounds.insert(symbol.clone(), between);
@@ -318,9 +319,6 @@ impl Assumptions {
             && least.iter().any(|(free, c)| c.is_positive() && cannot_vanish(free))
     }
 }
-
-/// The name of the number π, where it is not declared as a symbol.
-pub const PI: &str = "pi";
 
 /// Rational numbers 2⁻⁶¹ apart between which π lies.
 fn pi_bounds() -> (Rational, Rational) {

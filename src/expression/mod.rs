@@ -17,11 +17,14 @@ mod fraction;
 mod root;
 mod sum;
 mod transform;
+mod turn;
 
-pub use assumptions::{Assumptions, Condition, NotInvertible, PI, Relation, free_name};
+pub use assumptions::{Assumptions, Condition, NotInvertible, Relation, free_name};
 pub use constant::{Constant, Definition, Root};
 pub use echo_sum::EchoSum;
 pub use fraction::{Fraction, NotAUnit};
 pub use sum::{ExponentialSum, Expression};
 pub(crate) use transform::InexactDivision;
 pub use transform::{Exact, Field, Transform};
+pub use turn::PI;
+pub(crate) use turn::is_number;

@@ -1,6 +1,7 @@
 //! The exponential polynomial `Σ_j p_j e^{λ_j}` and its ring operations.
 
 use crate::expression::fraction::{Fraction, NotAUnit};
+use crate::expression::turn::without_turns;
 use num_traits::{One, Zero};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -27,6 +28,11 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol, power};
 /// changes. A polynomial with roots is zero only where its norm, which has none, is; at a rational
 /// point exponents and coefficients are algebraic numbers, and it is for these that the theorem of
 /// Lindemann and Weierstrass holds.
+///
+/// # The number π
+/// Exponents may hold π, as those of sines do. A multiple `iπr` in an exponent, `r` rational, has `−1/2 < r < 1/2`, and `12 r`
+/// is no integer: what is left out is a factor of square roots, so that `sin 2π` is 0. That sums with π that are not zero
+/// here are none as numbers is not proven; enclosures tell it.
 ///
 /// # Invariants
 /// - exponents pairwise different, no coefficient zero.
@@ -63,7 +69,7 @@ impl Expression {
 
     /// `e^{exponent}`.
     pub fn exponential(exponent: Fraction) -> Expression {
-        Expression { terms: BTreeMap::from([(exponent, Fraction::one())]) }
+        Expression::one().times_exponential(&exponent)
     }
 
     pub fn is_zero(&self) -> bool {
@@ -116,6 +122,9 @@ impl Expression {
         if coefficient.is_zero() {
             return;
         }
+        if let Some((exponent, turned)) = without_turns(&exponent) {
+            return self.add_term(exponent, &coefficient * &turned);
+        }
         match self.terms.entry(exponent) {
             Entry::Vacant(place) => {
                 place.insert(coefficient);
@@ -160,8 +169,11 @@ impl Expression {
         if exponent.is_zero() {
             return self;
         }
-        let moved = self.terms.into_iter().map(|(own, p)| (&own + exponent, p));
-        Expression { terms: moved.collect() }
+        let mut moved = Expression::zero();
+        for (own, p) in self.terms {
+            moved.add_term(&own + exponent, p);
+        }
+        moved
     }
 
     pub fn times(&self, factor: &Fraction) -> Expression {

@@ -5,9 +5,10 @@
 
 use crate::ball::{Ball, ComplexBall, Magnitude, Number};
 use crate::enclosure::{EnclosureError, Numbers, enclose_expression};
-use crate::expression::{Expression, Transform};
+use crate::expression::{Expression, Fraction, Transform};
 use crate::history::series::{CellNorm, Series, Truncation};
 use crate::signal::divide;
+use std::iter::successors;
 use wavestep_polynomial::{Rational, Symbol, factorial};
 
 /// Polynomials of this degree or a higher one are not kept exactly.
@@ -22,6 +23,8 @@ pub struct Course {
     terms: Vec<(ComplexBall, Vec<ComplexBall>)>,
     /// It as a polynomial in the time since the start, where its coefficients are rational.
     polynomial: Option<Series>,
+    /// It as it is written.
+    written: (Expression, Symbol),
 }
 
 impl Course {
@@ -35,6 +38,7 @@ impl Course {
         time: &Symbol,
         bits: u64,
     ) -> Result<Course, EnclosureError> {
+        let written = (course.clone(), time.clone());
         let course = Transform::of(course, time);
         let values = |symbol: &Symbol, bits: u64| numbers.value(symbol, bits);
         let enclose = |value: &Expression| enclose_expression(value, &values, bits);
@@ -46,7 +50,7 @@ impl Course {
             }
             terms.push((enclose(&rate.clone().into())?, polynomial));
         }
-        Ok(Course { terms, polynomial: polynomial_of(&course, bits) })
+        Ok(Course { terms, polynomial: polynomial_of(&course, bits), written })
     }
 
     /// A bound of its rates.
@@ -97,13 +101,24 @@ impl Course {
                 power = power.multiply(rate, bits).over(i as u64 + 1, bits);
             }
         }
-        let real = |value: ComplexBall| -> Number { Number::Enclosed(value.real().clone()) };
+        let flat = self.zeros_at(t, |k| sum.get(k).is_some_and(|own| own.real().contains_zero()));
         let zero = |ball: &Ball| ball.is_exact() && ball.contains_zero();
         let number = |value: ComplexBall| match zero(value.real()) {
             true => Number::zero(),
-            false => real(value),
+            false => Number::Enclosed(value.real().clone()),
         };
-        Ok(Series::new(sum.into_iter().map(number).collect(), rest))
+        Ok(Series { flat, ..Series::new(sum.into_iter().map(number).collect(), rest) })
+    }
+
+    /// How many derivatives, from the function itself on, are exactly zero at an instant, of those that may be: a sine begins
+    /// with zero, which no enclosure tells.
+    fn zeros_at(&self, t: &Number, may_be: impl Fn(usize) -> bool) -> usize {
+        let Number::Exact(t) = t else { return 0 };
+        let (written, time) = &self.written;
+        let t = Fraction::constant(t);
+        let derivatives = successors(Some(written.clone()), |own| Some(own.derivative(time)));
+        let is_zero = |own: &Expression| own.substitute(time, &t).is_ok_and(|own| own.is_zero());
+        derivatives.enumerate().take_while(|(k, own)| may_be(*k) && is_zero(own)).count()
     }
 }
 

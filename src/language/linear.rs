@@ -15,7 +15,7 @@ use super::syntax::{
     Expression as Tree, Factor, Function, Index, Name, Node, Operator, Sign, Span, Spanned, Term,
     Wave,
 };
-use crate::expression::{Expression, Fraction, NotAUnit, NotInvertible};
+use crate::expression::{Expression, Fraction, NotAUnit, NotInvertible, PI};
 use crate::limits::{MAX_CONSTANT_BITS, MAX_EXPONENT, MAX_LAG, MAX_TERMS};
 use crate::recurrence::WaveIndex;
 
@@ -353,6 +353,11 @@ impl<'a> Lowering<'a> {
         let delay = &Fraction::symbol(time) - &argument_value;
         if delay.contains(time) {
             return Err(shape());
+        }
+        if delay.roots().next().is_some() || delay.contains(&symbol(PI)) {
+            return Err(self
+                .error("a delay cannot contain a square root or π", argument.span, "is irrational")
+                .with_remedy("measure time in units in which it is rational"));
         }
         if !delay.is_zero() && !self.scope.assumptions.is_positive(&delay) {
             return Err(self

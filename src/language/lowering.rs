@@ -13,13 +13,16 @@ use super::scope::{Scope, symbol};
 use super::source::Source;
 use super::syntax::{self, Name, Span, Spanned, StatementKind};
 use super::written;
-use crate::expression::{Assumptions, Expression, Fraction, NotInvertible};
+use crate::expression::{Assumptions, Expression, Fraction, NotInvertible, PI};
 use crate::recurrence::{
     Clause, Continuity, Fault, InvalidRecurrence, LinearForm, Observable, Observation,
     ObservedWave, ProductTerm, Quadratic, Recurrence, SourceNotation, Statement,
 };
 
 type Outcome<T> = Result<T, Diagnostic>;
+
+/// Names with a meaning of their own in recurrences, and what they mean.
+const TAKEN: [(&str, &str); 2] = [(PI, "is the number π"), ("n", "always counts periods")];
 
 /// Lowers a recurrence, with `values` in place of symbols from the start: two poles that become
 /// equal give the confluent answer.
@@ -81,9 +84,9 @@ impl<'a> Lowering<'a> {
     }
 
     fn declare(&mut self, name: &Name) -> Outcome<()> {
-        if name.value == "n" {
+        if let Some((taken, why)) = TAKEN.iter().find(|(taken, _)| *taken == name.value) {
             return Err(self
-                .error("`n` always counts periods", name.span, "cannot be declared")
+                .error(format!("`{taken}` {why}"), name.span, "cannot be declared")
                 .with_remedy("choose another name"));
         }
         match self.declared.insert(name.value.clone(), name.span) {
@@ -100,7 +103,9 @@ impl<'a> Lowering<'a> {
                 parameters::declare(&mut self.scope, symbol, self.values)?;
             }
         }
-        parameters::all_known(&self.scope, self.values, "recurrence", self.tree.title.span)
+        parameters::all_known(&self.scope, self.values, "recurrence", self.tree.title.span)?;
+        self.scope.symbols.insert(PI.to_owned(), None);
+        Ok(())
     }
 
     fn waves(&mut self) -> Outcome<()> {
@@ -143,13 +148,12 @@ impl<'a> Lowering<'a> {
                     .with_remedy("remove one of the two"));
             }
             let period = self.scope.lower_fraction(length, "a period")?;
-            if period.roots().next().is_some() {
+            let has_root = period.roots().next().is_some();
+            if has_root || period.contains(&symbol(PI)) {
+                let what = if has_root { "a square root" } else { "π" };
+                let message = format!("a period cannot contain {what}");
                 return Err(self
-                    .error(
-                        "a period cannot contain a square root",
-                        length.span,
-                        "contains a square root",
-                    )
+                    .error(message, length.span, format!("contains {what}"))
                     .with_remedy("measure time in units in which it is rational"));
             }
             self.declare(local)?;

@@ -462,7 +462,10 @@ fn is_measurable(measure: Measure, kind: &Kind, place: &Place) -> bool {
         (Kind::Spring(_) | Kind::Hertz(_), Place::Element(_)) => {
             matches!(measure, Force | Compression | Energy)
         }
-        (Kind::Support(_), Place::Element(_)) => matches!(measure, Force | Energy),
+        (Kind::Support(_), Place::Element(_)) => {
+            matches!(measure, Velocity | Displacement | Force | Energy)
+        }
+        (Kind::Load(_), Place::Element(_)) => matches!(measure, Velocity | Displacement),
         _ => false,
     }
 }

@@ -441,7 +441,9 @@ fn masses_that_may_strike_each_other_are_not_taken_for_conserved() {
 /// What no load pushes any more is conserved, and its largest value is found at once; beside a mass it is searched.
 #[test]
 fn energies_stay_after_a_pulse() {
-    for (line, joint) in [("p - a - b - fixed", ""), ("p - a | b - free", "contacts open\n")] {
+    let closed = ("p - a - b - fixed", "", "2.25 = 9/4");
+    let open = ("p - a | b - free", "contacts open\n", "2.25000000000000");
+    for (line, joint, most) in [closed, open] {
         let network = network(&format!(
             "scene \"Pulse\"\nload p {{ force = 3*sin(pi*t), until = 1 }}\n\
              bar a {{ impedance = 2, travel = 1 }}\nbar b {{ impedance = 2, travel = 3/2 }}\n\
@@ -453,7 +455,7 @@ fn energies_stay_after_a_pulse() {
         // `∫ F²/Z dt`
         let search = Search::new(&*signal).unwrap();
         let found = search.extremum(Goal::Largest, 15, 1 << 12).unwrap();
-        assert_eq!(found.value.to_text(15), "2.25000000000000", "{line}");
+        assert_eq!(found.value.to_text(15), most, "{line}");
         let stays = |place: &Place| matches!(place, Place::Plateau { .. });
         let is_limit = |place: &Place| matches!(place, Place::Arrival { .. });
         let [.., place] = &found.places[..] else { panic!("no place") };

@@ -44,6 +44,7 @@ mod source;
 mod source_form;
 mod support;
 mod trials;
+mod turns;
 mod zeros;
 
 use support::snapshot::snapshot;

@@ -160,3 +160,26 @@ fn refusals_have_their_reasons() {
         );
     }
 }
+
+/// What a support or a load moves like is the end of the bar where it acts.
+#[test]
+fn supports_and_loads_move_as_the_places_they_act_at() {
+    for joint in ["| m", "| m - free\ncontacts open\n#", "- m"] {
+        let text = format!(
+            "scene \"Blow\"\nload p {{ force = sin(pi*t), until = 1 }}\nbar b {{ impedance = 1, travel = 2/3 }}\n\
+             support u {{ stiffness = 2, damping = 1/2 }}\nmass m {{ mass = 3 }}\nline free - p - b - u {joint} - free\n\
+             observe vp = velocity(p)\nobserve vb = velocity(b.left)\nobserve vu = velocity(u)\nobserve ve = velocity(b.right)\n\
+             observe xp = displacement(p)\nobserve xb = displacement(b.left)\nobserve xu = displacement(u)\n\
+             observe xe = displacement(b.right)\nobserve e = energy(line)\n"
+        );
+        let problem = wavestep::Problem::read("text", &text).expect("a scene");
+        let at = |name: &str, time: &str| {
+            problem.signal(name).unwrap().at(time, 20).unwrap().to_text(20)
+        };
+        for time in ["1/2", "5/4", "2", "31/10"] {
+            for [own, end] in [["vp", "vb"], ["vu", "ve"], ["xp", "xb"], ["xu", "xe"]] {
+                assert_eq!(at(own, time), at(end, time), "{own} at {time}: {joint}");
+            }
+        }
+    }
+}

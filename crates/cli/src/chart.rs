@@ -2,6 +2,7 @@
 
 use super::arguments::{Chart as Options, Scene};
 use super::chart_page::{check, write};
+use super::command_line::CommandLine;
 use super::failure::Failure;
 use super::input;
 use super::output::written;
@@ -86,11 +87,12 @@ fn single_symbol(scene: &Scene) -> Option<&str> {
 
 /// The command that draws the charts again.
 fn command(options: &Options, scene: &Scene, quantity: &str) -> String {
-    let set: String = scene.set.iter().map(|set| format!(" --set {set}")).collect();
-    let to = options.to.as_ref().map_or(String::new(), |to| format!(" --to {to}"));
-    let quick = if options.quick { " --quick" } else { "" };
-    format!(
-        "wavestep chart {}{set} --quantity {quantity} --from {}{to} --points {} --seed {}{quick} -o DIR",
-        scene.scene, options.from, options.points, options.seed
-    )
+    let line = CommandLine::new("chart", scene)
+        .option("--quantity", quantity)
+        .option("--from", &options.from)
+        .given("--to", options.to.as_ref())
+        .option("--points", &options.points.to_string())
+        .option("--seed", &options.seed.to_string());
+    let line = if options.quick { line.word("--quick") } else { line };
+    line.option("-o", "DIR").into_text()
 }

@@ -2,6 +2,7 @@
 
 use super::advise::{bounds, quantity};
 use super::arguments::{Advise, Format};
+use super::command_line::CommandLine;
 use super::failure::Failure;
 use super::input;
 use super::json::SCHEMA_VERSION;
@@ -220,15 +221,18 @@ impl Told<'_> {
                 points: self.map.columns.iter().map(point).collect(),
             }
         };
-        let set: String =
-            self.options.scene.set.iter().map(|set| format!(" --set {set}")).collect();
         let Advise { scene, to, from, over, points, models, tol, .. } = self.options;
-        let option = |name: &str, text: &Option<String>| {
-            text.as_ref().map_or(String::new(), |text| format!(" --{name} {text}"))
-        };
-        let models = match models.is_empty() {
-            true => String::new(),
-            false => format!(" --models {}", models.join(" ")),
+        let command = CommandLine::new("advise", scene)
+            .option("--quantity", &self.asked.quantity)
+            .option("--tol", tol)
+            .option("--from", from)
+            .given("--to", to.as_ref())
+            .given("--for", over.as_ref());
+        let command = match models.split_first() {
+            Some((first, rest)) => rest
+                .iter()
+                .fold(command.option("--models", first), |command, model| command.word(model)),
+            None => command,
         };
         let caption = Caption {
             norm:
@@ -239,13 +243,7 @@ impl Told<'_> {
                  the simplest model that is enough there."
                     .to_owned(),
             ],
-            command: format!(
-                "wavestep advise {}{set} --quantity {} --tol {tol} --from {from}{}{}{models} --points {points}",
-                scene.scene,
-                self.asked.quantity,
-                option("to", to),
-                option("for", over),
-            ),
+            command: command.option("--points", &points.to_string()).into_text(),
             ..Caption::default()
         };
         let tolerance = self.asked.tolerance.to_f64().unwrap_or(f64::NAN);

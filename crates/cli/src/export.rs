@@ -1,6 +1,7 @@
 //! `export`: values on a window as a program.
 
 use super::arguments::Export;
+use super::command_line::CommandLine;
 use super::doubles::tolerance;
 use super::failure::{ACCURACY, Failure};
 use super::input;
@@ -33,8 +34,12 @@ pub fn run(options: &Export) -> Result<String, Failure> {
         let message = format!("doubles are proven to within {bound:.1e}, not to {tolerance}");
         return Err(Failure::new(ACCURACY, message, "give a larger --tol"));
     }
-    let set: String = options.scene.set.iter().map(|set| format!(" --set {set}")).collect();
-    let tol = options.tol.as_ref().map_or(String::new(), |tol| format!(" --tol {tol}"));
+    let command = CommandLine::new("export", &options.scene)
+        .option("--as", "c")
+        .option("--quantity", &options.quantity)
+        .option("--from", &options.from)
+        .option("--to", &options.to)
+        .given("--tol", options.tol.as_ref());
     let wanted = problem.wanted(&options.quantity)?;
     let heading = CHeading {
         title: problem.title().to_owned(),
@@ -42,10 +47,7 @@ pub fn run(options: &Export) -> Result<String, Failure> {
         unit: wanted.unit(),
         time_unit: problem.time_unit().to_owned(),
         note: pulls.unwrap_or_default(),
-        command: format!(
-            "wavestep export {} --as c{set} --quantity {} --from {} --to {}{tol}",
-            options.scene.scene, options.quantity, options.from, options.to
-        ),
+        command: command.into_text(),
     };
     output::written(to_c(&compiled, &heading), options.output.output.as_deref())
 }

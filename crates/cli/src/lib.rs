@@ -11,6 +11,7 @@ mod certify;
 mod chart;
 mod chart_page;
 mod check;
+mod command_line;
 mod compared;
 mod derive;
 pub mod diagnostic;

@@ -2,6 +2,7 @@
 
 use super::arguments::Report;
 use super::certify;
+use super::command_line::CommandLine;
 use super::failure::Failure;
 use super::input;
 use super::output;
@@ -22,12 +23,15 @@ pub fn run(options: &Report) -> Result<String, Failure> {
             "give --to a time after 0",
         ));
     }
+    let command = CommandLine::new("report", &options.scene)
+        .given("--to", options.to.as_ref())
+        .option("-o", &options.output);
     let progress = progress::spinner("making the page");
     let page = page(
         &problem,
         &Request {
             version: env!("CARGO_PKG_VERSION"),
-            command: &command(options),
+            command: &command.into_text(),
             to: to.as_ref(),
             certificate: &|| certify::of_pieces(&problem).map_err(|failure| failure.to_string()),
             progress: &|part| progress.set_message(part.to_owned()),
@@ -35,19 +39,4 @@ pub fn run(options: &Report) -> Result<String, Failure> {
     );
     drop(progress);
     output::written(page, Some(&options.output))
-}
-
-/// The command that makes the page again; blanks are quoted.
-fn command(options: &Report) -> String {
-    let values = options.scene.set.iter().flat_map(|value| ["--set", value]);
-    let to = options.to.iter().flat_map(|to| ["--to", to]);
-    let words = ["wavestep", "report", &options.scene.scene].into_iter().chain(values).chain(to);
-    let words = words.chain(["-o", &options.output]).map(|word| {
-        let plain = |c: char| c.is_alphanumeric() || "-_=./:+".contains(c);
-        match word.chars().all(plain) && !word.is_empty() {
-            true => word.to_owned(),
-            false => format!("'{}'", word.replace('\'', "'\\''")),
-        }
-    });
-    words.collect::<Vec<String>>().join(" ")
 }

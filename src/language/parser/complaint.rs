@@ -585,6 +585,12 @@ pub(super) fn open_brace(input: Input<'_>, opener: Span, what: &str) -> Diagnost
 
 const COMMAS: &str = "separate properties by commas, even at line ends";
 
+/// `2 kN*sin(t)`
+pub(super) fn unit_first(input: Input<'_>, span: Span) -> Diagnostic {
+    at(input, "a unit follows the whole value", span, "stands after a unit")
+        .with_remedy("write the unit last, and times in seconds: `2*sin(500*pi*t) kN`")
+}
+
 /// A power of a unit that is no small whole number.
 pub(super) fn unit_power(from: Input<'_>, to: Input<'_>) -> Diagnostic {
     let start = from.after_blanks().offset;

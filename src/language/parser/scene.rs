@@ -99,6 +99,9 @@ fn unit_factor(input: &mut Input<'_>, operator: Operator) -> Outcome<UnitFactor>
     let Some(written) = input.word() else {
         return Err(complaint::lacking(*input, complaint::UNIT));
     };
+    if input.after_blanks().text.starts_with('(') {
+        return Err(complaint::unit_first(*input, written.span));
+    }
     let spelt = written.value.replace(['\u{B5}', 'μ'], "u");
     let name = Spanned::new(name::normalise(&spelt), written.span);
     let power = unit_power(input)?;

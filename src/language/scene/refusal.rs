@@ -220,7 +220,9 @@ impl Lowering<'_> {
             }
             (Kind::Bar(_), _) if is_section => format!("`{word}({name})`"),
             (Kind::Bar(_), _) => format!("`{word}({name}.left)` or `{word}({name}.at(1/2))`"),
-            (Kind::Mass(_), _) => format!("`velocity({name})` or `displacement({name})`"),
+            (Kind::Mass(_) | Kind::Load(_), _) => {
+                format!("`velocity({name})` or `displacement({name})`")
+            }
             (Kind::Spring(_) | Kind::Hertz(_), Measure::Displacement) => {
                 format!("`compression({name})`")
             }
@@ -228,7 +230,6 @@ impl Lowering<'_> {
                 format!("`compression({name})` or `force({name})`")
             }
             (Kind::Support(_), _) => format!("`force({name})` or `energy({name})`"),
-            (Kind::Load(_), _) => format!("`force({name})`"),
         };
         let beside = match (&scene.elements[element].kind, seen.measure) {
             (Kind::Bar(_), _) => "",

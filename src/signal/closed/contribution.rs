@@ -2,7 +2,7 @@
 //! square roots, as an expression.
 
 use crate::ball::{Ball, BallError, evaluate_divided, exp_of_rational};
-use crate::expression::{Expression, Fraction};
+use crate::expression::{Expression, Fraction, is_number};
 use crate::signal::closed::modular;
 use crate::signal::closed::modular::Residue;
 use crate::signal::error::{EvaluateError, Outcome};
@@ -55,7 +55,7 @@ impl Parts {
                 let polynomial = Rc::new(Univariate::constant(&Rational::from_integer(1.into())));
                 Contribution { factor: value, polynomial, x: Rational::zero(), exponent }
             })),
-            Err(symbol) if symbol.square().is_none() => {
+            Err(symbol) if !is_number(&symbol) => {
                 return Err(EvaluateError::MissingValue(symbol));
             }
             Err(_) => {
@@ -65,7 +65,7 @@ impl Parts {
                         .expect("no denominator holds a time"),
                     None => expression.clone(),
                 };
-                if let Some(symbol) = at.symbols().into_iter().find(|x| x.square().is_none()) {
+                if let Some(symbol) = at.symbols().into_iter().find(|x| !is_number(x)) {
                     return Err(EvaluateError::MissingValue(symbol));
                 }
                 self.algebraic += &at;

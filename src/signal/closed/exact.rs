@@ -1,7 +1,7 @@
 //! Exact forms of waves and observables of a recurrence at rational times.
 
 use crate::enclosure::enclose_expression;
-use crate::expression::{EchoSum, Expression, Fraction};
+use crate::expression::{EchoSum, Expression, Fraction, is_number};
 use crate::limits::{MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM};
 use crate::recurrence::{Observation, ObservedWave, Recurrence, Statement, WaveIndex};
 use crate::signal::closed::contribution::{Contribution, Parts, enclose, rational_value};
@@ -112,7 +112,7 @@ impl<'a> ExactEchoes<'a> {
                         parts.add_scaled(wave()?, factor, extra);
                     }
                 }
-                Err(symbol) if symbol.square().is_none() => {
+                Err(symbol) if !is_number(&symbol) => {
                     return Err(EvaluateError::MissingValue(symbol));
                 }
                 Err(_) => parts.algebraic += &(&wave()?.into_expression() * &seen.coefficient),

@@ -5,8 +5,7 @@
 
 use super::{Mark, Outcome, Rule, Scale, flatness_of, value_at};
 use crate::ball::{Arithmetic as _, Ball};
-use crate::expression::PI;
-use crate::expression::{Expression, Fraction};
+use crate::expression::{Expression, Fraction, is_number};
 use crate::network::Network;
 use crate::signal::{
     At, Effort, Enclosure, Instant, Known, Limit, Near, Signal, Taylor, later, zeros_of,
@@ -40,7 +39,7 @@ impl<'a> Difference<'a> {
         symbols.iter().all(|symbol| {
             let is_clock = self.scales.iter().all(|scale| scale.clock == symbol);
             let is_time = is_clock || *symbol == later();
-            is_time || symbol.square().is_some() || symbol.name() == PI || shared.contains(&symbol)
+            is_time || is_number(symbol) || shared.contains(&symbol)
         })
     }
 

@@ -341,3 +341,30 @@ fn bodies_that_move_alike_do_not_press() {
     let history = History::of(&network_of(text, &[]), Some(&rational(10, 1)), 12).unwrap();
     assert!(history.events.is_empty() && history.assumptions.is_empty(), "{:?}", history.events);
 }
+
+/// Loads that begin with zero press masses together from the start on, and nothing is assumed to say so.
+#[test]
+fn loads_that_begin_with_zero_press_at_once() {
+    let loads =
+        ["sin(3*t)", "sin(pi*t)", "t*exp(-t)", "1 - cos(2*t)", "exp(-t) - 1 + t", "sin(pi*t)^2"];
+    for force in loads {
+        let text = format!(
+            "scene \"Blow\"\nload blow {{ force = {force}, until = 1 }}\nmass ram {{ mass = 1 }}\n\
+             bar pile {{ impedance = sqrt(2), travel = 1 }}\nline free - blow - ram | pile - fixed\ncontacts open\n\
+             observe top = force(pile.left)"
+        );
+        let history = History::of(&network_of(&text, &[]), Some(&rational(1, 2)), 12).unwrap();
+        assert!(history.assumptions.is_empty(), "{force}: {:?}", history.assumptions);
+        let pull = text.replace(force, &format!("-({force})"));
+        let history = History::of(&network_of(&pull, &[]), Some(&rational(1, 2)), 12).unwrap();
+        assert!(history.assumptions.is_empty(), "-{force}: {:?}", history.assumptions);
+        let [first, ..] = &history.events[..] else {
+            panic!("-{force}: the ram is not pulled away")
+        };
+        assert!(
+            matches!(first.kind, EventKind::Opening | EventKind::Release),
+            "-{force}: {:?}",
+            first.kind
+        );
+    }
+}

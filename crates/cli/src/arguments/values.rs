@@ -88,7 +88,7 @@ pub struct Eval {
     wavestep find rigid-mass --min strain_fixed --equal mu=1/10..1 --between 3*mu,5*mu,7*mu\n\n\
     The window includes both ends. Every root is listed, with what is proven about it. An extremum may\n\
     be known to all digits even if its time is not. Exit code 3 if a root, or a digit of an extremum,\n\
-    stays undecided. A level is in the unit of the quantity, or has a unit of its own.")]
+    stays undecided. In a scene with units a level has one, as in force=10kN.")]
 pub struct Find {
     #[command(flatten)]
     pub scene: Scene,

@@ -241,11 +241,14 @@ fn doubles(problem: &Problem, name: &str, options: &Certify) -> Result<Map<Strin
         let message = format!("the errors of {} have no proven bound", found.method);
         Failure::usage(message, "leave --method out, or give `certified` or `compiled`")
     })?;
+    // Beside large values a checker cannot tell that one is exactly zero.
+    let largest = found.values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let least = BigRational::from_float(largest * 2.0_f64.powi(-64)).expect("values are finite");
     let rows = found.values.iter().map(|&value| {
         let exact = BigRational::from_float(value).expect("values are finite");
         let unit = BigRational::from_float(value.abs().next_up() - value.abs());
         let off = &bound + unit.expect("it is finite") / BigRational::from_integer(2.into());
-        json!([exact.to_string(), off.to_string()])
+        json!([exact.to_string(), off.max(least.clone()).to_string()])
     });
     let mut document = match seen {
         Ok((document, _)) => document,

@@ -10,7 +10,7 @@ use serde_json::{Map, Value as Json, json};
 use std::collections::BTreeSet;
 use wavestep::ball::{Ball, Bound, Decimal, Number};
 use wavestep::enclosure::Numbers;
-use wavestep::expression::{Fraction, Root};
+use wavestep::expression::{Fraction, PI, Root};
 use wavestep::history::{Event, EventKind};
 use wavestep::network::{Contacts, ElementLaw, Layout, Network, Node};
 use wavestep::problem::Problem;
@@ -137,10 +137,9 @@ impl<'a> Line<'a> {
         let shortest = self.travels().map(size).fold(to, f64::min);
         let mut rate = self.layout.nodes.iter().map(|node| self.rate(node)).fold(0.0, f64::max);
         for load in self.network.model().loads.values() {
-            let exponents = load.course.terms().map(|(exponent, _)| exponent);
-            let fastest =
-                |own: &Fraction| own.numerator().terms().map(|(_, c)| about(&c)).sum::<f64>();
-            rate = exponents.map(fastest).fold(rate, f64::max);
+            let time = &self.network.scene().time;
+            let rates = load.course.terms().map(|(exponent, _)| exponent.derivative(time));
+            rate = rates.map(|own| self.size_of_rate(own)).fold(rate, f64::max);
         }
         // A power of two, at most the time of the fastest decay.
         let exponent = shortest.min(1.0 / rate).log2().floor();
@@ -171,6 +170,15 @@ impl<'a> Line<'a> {
         ball.midpoint().to_double()
     }
 
+    /// About how large a number is that may be complex.
+    fn size_of_rate(&self, rate: Fraction) -> f64 {
+        let ball = self.numbers.enclose_complex(&rate.into(), 64);
+        ball.map_or(0.0, |ball| {
+            let [x, y] = [ball.real(), ball.imaginary()].map(|part| part.midpoint().to_double());
+            x.hypot(y)
+        })
+    }
+
     fn travels(&self) -> impl Iterator<Item = &Fraction> {
         self.network.model().bars.values().filter_map(|bar| bar.travel.as_ref())
     }
@@ -198,24 +206,19 @@ impl<'a> Line<'a> {
         damping / mass + (stiffness / mass).sqrt() + stiffness / damps
     }
 
-    /// Loads are forces that hold rational numbers and roots only, at rational times.
+    /// Loads are forces of numbers that are known.
     fn refuse_loads(&self) -> Result<(), Failure> {
         let mut laws = self.layout.nodes.iter().flat_map(|node| &node.elements);
         if laws.any(|own| own.law == ElementLaw::Load(Drive::Velocity)) {
             return Err(refused("under imposed velocities"));
         }
         let time = &self.network.scene().time;
-        let is_other = |own: &Symbol| own != time && own.square().is_none();
+        let is_other = |own: &Symbol| {
+            own != time && own.square().is_none() && self.numbers.value(own, 64).is_none()
+        };
         for load in self.network.model().loads.values() {
             if let Some(symbol) = load.course.symbols().into_iter().find(is_other) {
                 return Err(refused(&format!("under loads that hold the number {symbol}")));
-            }
-            if [Some(&load.from), load.until.as_ref()]
-                .into_iter()
-                .flatten()
-                .any(|own| own.as_constant().is_none())
-            {
-                return Err(refused("under loads that begin or end at irrational times"));
             }
         }
         Ok(())
@@ -276,16 +279,13 @@ impl<'a> Line<'a> {
 
     /// `{symbol: [low, high], …}`.
     fn told_numbers(&self, symbols: &BTreeSet<Symbol>, bits: u64) -> Json {
-        let numbers = symbols.iter().filter_map(|symbol| {
+        let others = symbols.iter().filter(|symbol| symbol.name() != PI);
+        let numbers = others.filter_map(|symbol| {
             let bounds = self.numbers.value(symbol, bits)?.bounds();
             Some((symbol.to_string(), json!(written(bounds, bits as usize / 3))))
         });
         Json::Object(numbers.collect())
     }
-}
-
-fn about(value: &BigRational) -> f64 {
-    value.to_f64().unwrap_or(f64::INFINITY).abs()
 }
 
 /// The ends of an interval, exactly where they are one number, else as decimals around it.

@@ -215,12 +215,15 @@ struct Cover<'a> {
     levels: Vec<BigRational>,
     bits: u64,
     cells: Vec<Cell>,
+    /// Where a rest ended last, as near as it takes.
+    woken: Option<BigRational>,
 }
 
 impl<'a> Cover<'a> {
     fn of(signal: &'a dyn Signal, digits: usize) -> Cover<'a> {
         let bits = SPARE_BITS + 4 * digits as u64;
-        Cover { signal, levels: vec![BigRational::default()], bits, cells: Vec::new() }
+        let levels = vec![BigRational::default()];
+        Cover { signal, levels, bits, cells: Vec::new(), woken: None }
     }
 
     fn run(&mut self, cuts: &[BigRational]) -> Result<(), Failure> {
@@ -242,6 +245,8 @@ impl<'a> Cover<'a> {
             let [from, to] = [near(Limit::Right)?, near(Limit::Left)?];
             let (from, to) = (from.max(first.clone()), to.min(last.clone()));
             if from < to {
+                let is_rest = self.cells.last().is_some_and(|own| own.order.is_none());
+                self.woken = is_rest.then(|| from.clone());
                 self.descend(stretch, from, to, 0)?;
             }
         }
@@ -282,7 +287,7 @@ impl<'a> Cover<'a> {
         }
         let mut orders = vec![0, 1];
         for (end, time) in [(Limit::Right, from), (Limit::Left, to)] {
-            if self.signal.exact_time(stretch, end).as_ref() == Some(time) {
+            if self.signal.exact_time(stretch, end).or(self.woken.clone()).as_ref() == Some(time) {
                 orders.push(1 + self.signal.flatness(stretch, end, 1)?);
             }
         }

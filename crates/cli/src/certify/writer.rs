@@ -3,7 +3,7 @@
 use num_rational::BigRational;
 use serde_json::{Map, Value as Json, json};
 use std::collections::BTreeSet;
-use wavestep::expression::{Expression, Fraction};
+use wavestep::expression::{Expression, Fraction, PI};
 use wavestep::recurrence::{LinearForm, Recurrence};
 use wavestep::solution::{Family, GeneralForm};
 use wavestep_polynomial::{Polynomial, Symbol};
@@ -107,10 +107,13 @@ impl Writer {
         }
     }
 
-    /// What is below each root.
+    /// What is below each root; those that turns hold are among them.
     pub fn told_roots(&self) -> Json {
+        let has_turns = self.others.iter().any(|symbol| symbol.name() == PI);
+        let of_turns = [-1, 2, 3].into_iter().filter(|_| has_turns);
+        let of_turns: Vec<Symbol> = of_turns.filter_map(Symbol::square_root).collect();
         let square =
             |symbol: &Symbol| Some((symbol.to_string(), json!(symbol.square()?.to_string())));
-        Json::Object(self.roots.iter().filter_map(square).collect())
+        Json::Object(self.roots.iter().chain(&of_turns).filter_map(square).collect())
     }
 }

@@ -103,6 +103,22 @@ const NICE: &str = "scene \"Nice times\"\nload p { force = 1 - t, until = 3 }\n\
     line free - p - rod | target - free\nobserve f = force(rod.left)\nobserve m = velocity(target.at(1/3))\n\
     contacts open\n";
 
+/// A half-sine blow with units, which begins and ends smoothly, at no simple time in the unit of the line.
+const BLOW: &str = "scene \"Blow\"\nload blow { force = 200*sin(200*pi*t) kN, until = 5 ms }\nmass ram { mass = 500 kg }\n\
+    material steel { modulus = 210 GPa, density = 7850 kg/m^3 }\n\
+    bar pile { material = steel, diameter = 200 mm, length = 10 m }\n\
+    support soil { stiffness = 20 kN/mm, damping = 50 kN*s/m }\n\
+    line free - blow - ram | pile - soil - free\ncontacts open\n\
+    observe top = force(pile.left)\nobserve toe = velocity(pile.right)\n";
+
+const BLOWS: [&str; 5] = [
+    "blow.wave --events --to 10ms",
+    "blow.wave --max top --to 10ms",
+    "blow.wave --quantity toe --at 3ms",
+    "blow.wave --quantity top --points 4 --to 8ms",
+    "blow.wave --zero toe --to 4ms",
+];
+
 /// Zeros of what is read: between arrivals, with a rest before, a force that begins again and ends where its contact opens.
 const ZEROS: [&str; 3] = [
     "mass-that-bounces --zero strain_fixed --to 6",
@@ -276,9 +292,15 @@ fn laws_of_all_elements_are_those_of_the_drawing() {
         "mass m { mass = 2 }\nspring s { stiffness = 2 }\n\
          bar c { impedance = 3, travel = 1/2, strain = 1/2 }\nline fixed - c - b - m - s - a - fixed\n",
         "spring s { damping = 1 }\nmass m { mass = 1/2, velocity = 1 }\nline fixed - b - a - s - m - free\n",
+        "mass m { mass = 2 }\nload p { force = sin(pi*t) + cos(pi*t/2), from = 1, until = 3 }\n\
+         line free - p - m - a - b - fixed\n",
+        "load p { force = sin(pi*t/3) + t*cos(pi*t/4) }\nmass m { mass = 1 }\nline free - p - m - a - b - free\n",
+        "symbol l > 0\nload p { force = sin(pi*t/l) }\nbar s { impedance = 1, travel = l }\n\
+         line free - p - s - fixed\n",
     ];
     let written = lines.iter().enumerate().map(|(i, line)| {
         let (scene, file) = (format!("{i}.wave"), format!("{i}.json"));
+        let bars = if line.contains("bar s") { "" } else { bars };
         std::fs::write(folder.join(&scene), format!("scene \"Line {i}\"\n{bars}{line}")).unwrap();
         certify(&folder, &format!("{scene} --through 3"), &file);
         file
@@ -304,7 +326,9 @@ fn motions_of_shipped_scenes_are_verified() {
     let folder = folder("certificates-of-events");
     std::fs::write(folder.join("pi.wave"), PI).unwrap();
     std::fs::write(folder.join("nice.wave"), NICE).unwrap();
+    std::fs::write(folder.join("blow.wave"), BLOW).unwrap();
     let lines = MORE_EVENTS.iter().chain(&MORE_READINGS).chain(&MORE_EXTREMES).chain(&MORE_ZEROS);
+    let lines = lines.chain(&BLOWS);
     let files = lines.enumerate().map(|(i, line)| {
         certify(&folder, line, &format!("{i}.json"));
         format!("{i}.json")
@@ -338,6 +362,10 @@ fn events_beside_all_elements_are_verified() {
          bar c { impedance = 2, travel = 2*sqrt(2) }\nline free - a | b - c - free\n",
         "mass m { mass = 1, velocity = pi }\nspring s { stiffness = 4 }\nmass h { mass = 2 }\n\
          load p { force = -sqrt(2) }\nline free - p - m | s - h - free\n",
+        "load p { force = sin(pi*t)/pi, until = 2 }\nmass m { mass = 1 }\nbar b { impedance = 1, travel = 1 }\n\
+         line free - p - m | b - fixed\n",
+        "load p { force = 1 - cos(2*pi*t), until = 1 }\nmass m { mass = 1/2 }\nbar b { impedance = sqrt(3), travel = 1 }\n\
+         support u { stiffness = 1, damping = 1 }\nline free - p - m | b - u - free\n",
     ];
     let written = lines.iter().enumerate().map(|(i, line)| {
         let (scene, file) = (format!("{i}.wave"), format!("{i}.json"));
@@ -400,6 +428,16 @@ fn of(coefficient: &str, symbol: &str) -> serde_json::Value {
     json!([[[[coefficient, { symbol: 1 }]], []]])
 }
 
+/// A mass that is at rest after a whole period of a sine, and only then.
+const PUSH: &str = "scene \"Push and pull\"\nmass m { mass = 1 }\nload p { force = sin(pi*t), until = 2 }\n\
+    bar rod { impedance = 1, travel = 1 }\nline free - p - m - rod - free\nobserve v = velocity(m)\n";
+
+/// Gives a symbol another name.
+fn renamed(certificate: &mut serde_json::Value, name: &str, other: &str) {
+    let text = certificate.to_string().replace(&format!("\"{name}\""), &format!("\"{other}\""));
+    *certificate = serde_json::from_str(&text).unwrap();
+}
+
 /// Each part of the checkers finds what it is there for.
 #[test]
 fn wrong_claims_are_told_by_what_is_wrong() {
@@ -423,7 +461,15 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let (events, unequal) = (ask(EVENTS[0]), ask(EVENTS[1]));
     let (sampled, fastest, lowest) = (ask(EXTREMES[0]), ask(EXTREMES[1]), ask(EXTREMES[2]));
     let (crossing, released) = (ask(ZEROS[0]), ask(ZEROS[2]));
-    let cases: [(&serde_json::Value, Change, &str); 117] = [
+    std::fs::write(folder.join("push.wave"), PUSH).unwrap();
+    let (turns, pushed) = (ask("push.wave"), ask("push.wave --quantity v --at 3/2"));
+    let cases: [(&serde_json::Value, Change, &str); 123] = [
+        (&turns, |own| own["local"] = "pi".into(), "pi is the number"),
+        (&turns, |own| own["roots"]["pi"] = "5".into(), "pi is the number"),
+        (&turns, |own| renamed(own, "pi", "tau"), "continuity 0 at the start of period 1"),
+        (&turns, |own| own["period"] = of("1", "pi"), "a period is not positive"),
+        (&pushed, |own| own["numbers"]["pi"] = json!(["3", "4"]), "stands for two numbers"),
+        (&pushed, |own| renamed(own, "pi", "tau"), "a symbol has no value"),
         (
             &crossing,
             |own| drop(own["zeros"].as_array_mut().unwrap().pop()),

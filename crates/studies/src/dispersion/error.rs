@@ -86,7 +86,7 @@ impl DispersionError {
             Self::NoPeak => "give a spectrum that is positive".to_owned(),
             Self::AccuracyNotReached { .. } => "use fewer digits".to_owned(),
             Self::Ball(_) => "use smaller wavenumbers".to_owned(),
-            Self::Grid(_) => "give a positive time, shorter or with fewer points where the grid is too large".to_owned(),
+            Self::Grid(reason) => reason.remedy().to_owned(),
         }
     }
 }
@@ -103,10 +103,19 @@ pub enum NoGrid {
     WaveNumber,
     #[error("the time of travel is not positive")]
     Time,
-    #[error(
-        "the grid would need more than {limit} points: take a shorter time of travel, or a longer pulse"
-    )]
+    #[error("the grid would need more than {limit} points")]
     TooLong { limit: usize },
-    #[error("the grid needs more than two points to the shortest wave, and at most {limit} in all")]
-    Points { limit: usize },
+    #[error("the grid needs more than {least} points, and at most {limit}")]
+    Points { least: usize, limit: usize },
+}
+
+impl NoGrid {
+    fn remedy(self) -> &'static str {
+        match self {
+            Self::WaveNumber => "give a finite wavenumber",
+            Self::Time => "give a positive time",
+            Self::TooLong { .. } => "give a shorter time of travel, or a longer pulse",
+            Self::Points { .. } => "give other --points, or none",
+        }
+    }
 }

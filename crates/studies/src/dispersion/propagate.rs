@@ -72,14 +72,14 @@ pub fn propagate(
     let last = (LEAST_WAVES + way / wave).ceil();
     let length = last * wave;
     let step = 2.0 * PI / length;
-    let wanted = last * POINTS_A_WAVE;
+    let (least, wanted) = (2.0 * last, last * POINTS_A_WAVE);
     let points = match points {
-        Some(points) => points,
+        Some(points) if least < MAX_POINTS as f64 => points,
         None if wanted <= MAX_POINTS as f64 => (wanted.ceil() as usize).next_power_of_two(),
-        None => return Err(NoGrid::TooLong { limit: MAX_POINTS }.into()),
+        _ => return Err(NoGrid::TooLong { limit: MAX_POINTS }.into()),
     };
-    if points > MAX_POINTS || (points as f64) <= 2.0 * last {
-        return Err(NoGrid::Points { limit: MAX_POINTS }.into());
+    if points > MAX_POINTS || points as f64 <= least {
+        return Err(NoGrid::Points { least: least as usize, limit: MAX_POINTS }.into());
     }
     let spectrum = pulse.spectrum(relation);
     let mut waves = Vec::new();
