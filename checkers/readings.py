@@ -13,6 +13,7 @@ READS = {"quantity", "observed"}
 
 # What can be read of elements, and how much more has to be said: delays of both waves, a side.
 READINGS = {("bar", what): 2 for what in ("velocity", "displacement", "force")}
+READINGS |= {("bar", "momentum"): 0}
 READINGS |= {("spring", what): 1 for what in ("velocity", "displacement")}
 READINGS |= {(kind, what): 0 for kind in ("mass", "support", "force") for what in ("velocity", "displacement")}
 READINGS |= {(kind, what): 0 for kind in ("spring", "support") for what in ("compression", "force")}
@@ -77,6 +78,9 @@ class Reader:
             kind, n = line.places[name]
             need((kind, what) in READINGS and len(of) == READINGS[kind, what], f"{what} of {name} cannot be read")
             factor, link = line.number(coefficient), line.links[n] if kind in ("bar", "spring") else {}
+            if what == "momentum":
+                sums += self.momentum(n, factor * link["impedance"], known)
+                continue
             if kind == "bar":
                 is_sum, (right, left) = what == "displacement", of
                 self.need_section(n, right, left)
@@ -101,6 +105,23 @@ class Reader:
                 sums.append(scaled(factor * way, known(("v", r), None, False)))
         return list(map(total, zip_longest(*sums, fillvalue=ZERO)))
 
+    def momentum(self, n, factor, known):
+        """That of a bar: what both waves add is in it for its travel time, in an endless bar from the start on."""
+        line, link = self.motion.line, self.motion.line.links[n]
+        travel, sums = line.travels[n], []
+        need(travel is not None or link["velocity"].is_zero(), "the momentum of an endless bar is infinite")
+        for way, is_endless in (("right", line.endless[n]), ("left", line.endless[n + 1])):
+            sums += [] if is_endless else [scaled(factor, known((way, n), None, True))]
+            sums += [] if travel is None else [scaled(-factor, known((way, n), travel, True))]
+        return sums + ([] if travel is None else [[factor * link["velocity"] * link["travel"].number()]])
+
+    def delays(self, rows):
+        """How much later than waves begin what is read of them changes."""
+        places = self.motion.line.places
+        of_bars = [self.motion.line.travels[places[name][1]] for _, what, name, *_ in rows if what == "momentum"]
+        told = [own for row in rows for own in row[3:] if type(own) is list] + [own for own in of_bars if own is not None]
+        return [Duration({})] + [self.motion.line.duration(own) for own in told]
+
     def need_section(self, n, right, left):
         """Two delays are those of one section of a bar: from an endless side comes nothing, else they add up to the travel time."""
         line, delays = self.motion.line, [own for own in (right, left) if own is not None]
@@ -115,7 +136,7 @@ class Reader:
         """Times in order, from one to another, between which nothing that is read arrives; these ones are among them, but for
         those of which it is not decided whether they are before an arrival."""
         later = self.motion.later
-        delays = [Duration({})] + [self.motion.line.duration(own) for row in rows for own in row[3:] if type(own) is list]
+        delays = self.delays(rows)
         cuts = {moved(mark, delay) for mark in self.motion.marks for delay in delays}
         cuts |= {time for time in times if all(time == cut or self.motion.since(time, cut).sign() for cut in cuts)}
         inside = [cut for cut in cuts if later(begin, cut) < 0 < later(end, cut)]

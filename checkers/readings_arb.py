@@ -64,13 +64,31 @@ class Place:
             rest = sum(lengths) - parts.links[n]["travel"].value()
             need(rest == 0 if isinstance(rest, fmpq) else rest.contains(0), "the delays are not those of one section")
 
+    def momentum(self, n):
+        """That of a bar: its impedance times the sum of the velocities of all sections, each of them a travel time wide."""
+        link, endless, now = self.story.parts.links[n], self.story.parts.endless[n : n + 2], lambda time: time
+        travel, total = link["travel"], [NIL]
+        need(travel is not None or is_nil(link["velocity"]), "a bar of infinite momentum is read")
+        for way, is_far in zip("fg", endless):
+            if not is_far:
+                total = plus(total, self.series((way, n), now, True))
+        if travel is not None:
+            left = lambda time: (time[0], time[1].plus(travel))
+            total = plus(total, [link["velocity"] * travel.value()])
+            for way in "fg":
+                total = plus(total, times(-1, self.series((way, n), left, True)))
+        return times(link["impedance"], total)
+
     def observed(self, rows):
         """The sum of what is read of elements by their names."""
         parts, result = self.story.parts, [NIL]
         now = lambda time: time
         for factor, what, name, *of in rows:
             kind, n = parts.named[name]
-            if kind == "bar":
+            if what == "momentum":
+                need(kind == "bar" and not of, "the momentum of a bar alone is read")
+                read = self.momentum(n)
+            elif kind == "bar":
                 need(what in ("velocity", "force", "displacement") and len(of) == 2, "a bar is read in another way")
                 self.check_section(n, *of)
                 link, over = parts.links[n], what == "displacement"
@@ -142,6 +160,8 @@ def cut(story, cert, begin, end, hints):
     last = end if isinstance(end, fmpq) else rational_above(end)
     need(0 <= first and last < story.end and sign(end - begin) == 1, "the window is empty, or outside what is followed")
     lags = [Length()] + [story.parts.length(own) for row in cert["observed"] for own in row[3:] if type(own) is list]
+    bars = [story.parts.links[story.parts.named[row[2]][1]] for row in cert["observed"] if row[1] == "momentum"]
+    lags += [bar["travel"] for bar in bars if bar["travel"] is not None]
     cuts = [at(first)]
     arrivals = [(n, s.plus(lag)) for n, s in story.begins for lag in lags]
     # Hints that are not known to be before or after an arrival are none.

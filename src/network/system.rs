@@ -47,11 +47,6 @@ impl<V> System<V> {
         self.change.len()
     }
 
-    /// How many displacements the state has, behind the velocities.
-    pub fn displacements(&self) -> usize {
-        self.change.len() - self.heavy.len()
-    }
-
     /// How many entries the input has.
     pub fn inputs(&self) -> usize {
         2 + self.driven.iter().flatten().count()

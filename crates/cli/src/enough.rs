@@ -223,7 +223,7 @@ impl Told<'_> {
         };
         let Advise { scene, to, from, over, points, models, tol, .. } = self.options;
         let command = CommandLine::new("advise", scene)
-            .option("--quantity", &self.asked.quantity)
+            .option("--quantity", self.asked.quantity)
             .option("--tol", tol)
             .option("--from", from)
             .given("--to", to.as_ref())

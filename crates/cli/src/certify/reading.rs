@@ -52,9 +52,7 @@ impl<'a> Read<'a> {
             return Ok(None);
         };
         let mut writer = Writer::default();
-        let rows: Option<Vec<Json>> =
-            terms.iter().map(|term| read(&line, term, &mut writer)).collect();
-        let Some(rows) = rows else { return Ok(None) };
+        let rows: Vec<Json> = terms.iter().map(|term| read(&line, term, &mut writer)).collect();
         // The motion is followed a little further, so that it is known from the last time on.
         let end = &line.in_units(to, SPARE_BITS)?[1] + BigRational::new(1.into(), 8.into());
         let end = Decimal::bound(&end, 6, Bound::Upper).to_rational();
@@ -223,7 +221,7 @@ fn unusual(step: &Json) -> String {
 }
 
 /// `[coefficient, what, element, …]`: of bars with the delays of both waves, of springs with a side.
-fn read(line: &Line<'_>, term: &Term, writer: &mut Writer) -> Option<Json> {
+fn read(line: &Line<'_>, term: &Term, writer: &mut Writer) -> Json {
     let layout = &line.network.layout;
     let name = |element: usize| &line.network.scene().elements[element].name;
     let lump = |lump: &Lump| &layout.nodes[lump.node].elements[lump.place];
@@ -236,7 +234,7 @@ fn read(line: &Line<'_>, term: &Term, writer: &mut Writer) -> Option<Json> {
         }
         json!(row)
     };
-    Some(match &term.of {
+    match &term.of {
         Reading::InBar(field, section) => {
             let what = match field {
                 Field::Velocity => "velocity",
@@ -252,6 +250,6 @@ fn read(line: &Line<'_>, term: &Term, writer: &mut Writer) -> Option<Json> {
         Reading::Displacement(face) => beside("displacement", face),
         Reading::Compression(own) => json!([coefficient, "compression", name(lump(own).element)]),
         Reading::Force(own) => json!([coefficient, "force", name(lump(own).element)]),
-        Reading::Momentum(_) => return None,
-    })
+        Reading::Momentum(bar) => json!([coefficient, "momentum", name(layout.bars[*bar])]),
+    }
 }
