@@ -42,7 +42,7 @@ class Ring:
         scenes = [cert] + ([cert["minus"]] if "minus" in cert else [])
         names = {name for scene in scenes for name in (scene["local"], scene["time"], *scene["waves"])}
         need(not names & set(cert["roots"]), "a time or a wave is no root")
-        need("pi" not in names | set(cert["roots"]), "pi is the number")
+        need("pi" not in names | set(cert["roots"]) | set(cert.get("numbers", {})), "pi is the number")
         names = {*self.times, *cert["roots"], "#n", "#p", "#r"}
 
         def collect(node):

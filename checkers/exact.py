@@ -223,6 +223,7 @@ def read_function(rows):
     function = {}
     for top, below in rows:
         key = ()
+        need(type(below) is list, "factors are no list")
         for factor, power in below:
             need(is_count(power) and power > 0, "a power is no positive integer, or too large")
             # Roots of -1 and of primes are independent: nothing but zero divides zero.

@@ -40,6 +40,9 @@ class Load:
 
     def __init__(self, element, line, cert):
         self.course, self.line, self.time = read(element["course"]), line, cert["time"]
+        for function in self.course.values():
+            for below in function:
+                line.number_over(below)  # also where nothing stands above it
         self.begin, self.end = (None if element[key] is None else line.duration(element[key]) for key in ("from", "until"))
         self.begin = self.begin or Duration({})
         for symbol in (symbol for symbol, square in ROOTS.items() if square == -1):  # the conjugate is the same
@@ -73,12 +76,12 @@ class Load:
         real = lambda own: Ball(bits, own.units()[0], 0, own.units()[1])
         sum_ = Ball(bits, 0)
         for below, top in function.items():
-            over = self.line.number_over(below) if top else ONE
+            over = self.line.number_over(below)
             for monomial, c in top.items():
-                need(all(s in constants or s in ROOTS and p == 1 for s, p in monomial), "a symbol has no value")
+                need(all(p == 1 if s in ROOTS else s in constants for s, p in monomial), "a symbol has no value")
                 own = Ball.of({tuple((s, p) for s, p in monomial if s in ROOTS): c}, bits)
                 for symbol, power in monomial:
-                    for _ in range(power if symbol in constants else 0):
+                    for _ in range(0 if symbol in ROOTS else power):
                         own = own * real(constants[symbol])
                 sum_ = sum_ + (own * real(over) if below else own)
         return sum_
@@ -160,6 +163,7 @@ class Line:
         of = lambda run, kind: [element for element in run if element["is"] == kind]
         self.fixed = [bool(of(run, "fixed")) for run in runs]
         self.masses = [total(self.number(own["mass"]) for own in of(run, "mass")) for run in runs]
+        self.own_masses = {own["name"]: self.number(own["mass"]) for own in elements if own["is"] == "mass"}
         momenta = [total(self.number(own["mass"]) * self.number(own["velocity"]) for own in of(run, "mass")) for run in runs]
         self.starts = [p / m if m.sign() else ZERO for p, m in zip(momenta, self.masses)]
         self.supports = [
@@ -202,6 +206,7 @@ class Line:
 
     def duration(self, rows):
         """A length of time, as a multiple of 1 or of what others are multiples of, too."""
+        self.number(rows)  # nothing is divided by what may be zero
         function = read_function(rows)
         first = next((c for _, top in sorted(function.items()) for _, c in sorted(top.items()) if c), Fraction(0))
         if not first:

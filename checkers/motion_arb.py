@@ -65,7 +65,7 @@ class Parts:
         )
         self.links, self.mass, self.momentum, self.fixed, self.endless = [], [NIL], [NIL], [False], [False]
         self.supports, self.loads = [], []
-        self.named = {}
+        self.named, self.masses = {}, {}
         for own in line:
             run = len(self.mass) - 1
             if "name" in own:
@@ -84,6 +84,7 @@ class Parts:
             elif own["is"] == "mass":
                 mass = self.number(own["mass"])
                 need(sign(mass) == 1, "a mass is not positive")
+                self.masses[own["name"]] = mass
                 self.mass[run] = short(self.mass[run] + mass)
                 self.momentum[run] = short(self.momentum[run] + product(mass, self.number(own["velocity"])))
             elif own["is"] == "support":
@@ -151,7 +152,8 @@ class Parts:
         begin = begin if begin is not None else Length()
         decided(sign(begin.value()) in (0, 1), "a load may begin early")
         decided(end is None or sign(end.plus(begin, -1).value()) == 1, "a load may end before it begins")
-        need(self.plain(own["course"]) == self.plain(self.conjugate(own["course"])), "a load is not real")
+        parts = lambda course: sorted([self.plain(exponent), self.plain(function)] for exponent, function in course)
+        need(parts(own["course"]) == parts(self.conjugate(own["course"])), "a load is not real")
         return {"course": own["course"], "from": begin, "until": end}
 
     def conjugate(self, rows):
@@ -175,6 +177,7 @@ class Parts:
             need(all(self.time not in names for factor, _ in factors for _, names in factor), "a divisor holds the time")
             below = flint.acb(1)
             for factor, power in factors:
+                need(type(power) is int and 0 < power <= 10**4, "a power is no positive integer")
                 below *= self.complex([[factor, []]]).get(0, flint.acb(0)) ** power
             decided(not below.contains(0), "a divisor may be zero")
             for c, names in distinct(top):
@@ -202,7 +205,7 @@ class Parts:
                     if names.keys() - {self.time}:
                         return None
                     power = names.get(self.time, 0)
-                    need(type(power) is int and 0 <= power <= 10**4, "a power is no positive integer")
+                    need(not names or type(power) is int and 0 < power <= 10**4, "a power is no positive integer")
                     coefficients[power] = coefficients.get(power, NIL) + rational(c)
         return coefficients
 

@@ -7,13 +7,13 @@ from itertools import zip_longest
 from exact import MINUS, accumulate, decimal, is_count, is_zero, rational, read_function
 from motion import check_events, exactly, moved
 from reading import Wrong, decided, need
-from series import ONE, ZERO, Duration, Number, interval, is_positive, shifted, slope, total, value
+from series import ONE, ZERO, Duration, Number, interval, is_positive, shifted, slope, squared, total, value
 
-READS = {"quantity", "observed"}
+READS, HALF = {"quantity", "observed"}, Fraction(1, 2)
 
 # What can be read of elements, and how much more has to be said: delays of both waves, a side.
 READINGS = {("bar", what): 2 for what in ("velocity", "displacement", "force")}
-READINGS |= {("bar", "momentum"): 0}
+READINGS |= {("bar", "momentum"): 0} | {(kind, "energy"): 0 for kind in ("bar", "mass", "spring", "support")}
 READINGS |= {("spring", what): 1 for what in ("velocity", "displacement")}
 READINGS |= {(kind, what): 0 for kind in ("mass", "support", "force") for what in ("velocity", "displacement")}
 READINGS |= {(kind, what): 0 for kind in ("spring", "support") for what in ("compression", "force")}
@@ -33,32 +33,33 @@ class Reader:
                 return n, after.times(1 / self.motion.step)
         raise Wrong("a time before the start")
 
-    def integral(self, n, key):
-        """The integral from the start on as a series on a cell."""
-        over = lambda m: [c.times(self.motion.step / (k + 1)) for k, c in enumerate(self.motion.past[m][key])]
-        while len(self.sums.setdefault(key, [ZERO])) <= n:
-            m = len(self.sums[key]) - 1
+    def integral(self, n, key, of):
+        """The integral from the start on, of what is known or of its square, as a series on a cell."""
+        over = lambda m: [c.times(self.motion.step / (k + 1)) for k, c in enumerate(of(self.motion.past[m][key]))]
+        sums = self.sums.setdefault((key, of), [ZERO])
+        while len(sums) <= n:
+            m = len(sums) - 1
             length = self.motion.since(self.motion.marks[m + 1], self.motion.marks[m]).times(1 / self.motion.step)
-            self.sums[key].append(value([self.sums[key][m], *over(m)], length))
-        return [self.sums[key][n], *over(n)]
+            sums.append(value([sums[m], *over(m)], length))
+        return [sums[n], *over(n)]
 
     def at(self, time):
-        """What is known at a time: a function of what, how long before, and whether its integral from the start on is meant."""
+        """What is known at a time: a function of what, how long before, and of what of it the integral from the start on is meant."""
 
-        def known(key, delay, is_sum):
+        def known(key, delay, summed=None):
             there = time - self.motion.line.number(delay) if delay else time
             decided(there.sign() is not None, "it is not decided whether a wave has arrived")
             if there.sign() == -1:  # nothing was before the start
                 return [ZERO]
             n, x = self.cell_at(there)
-            return [value(self.integral(n, key) if is_sum else self.motion.past[n][key], x)]
+            return [value(self.integral(n, key, summed) if summed else self.motion.past[n][key], x)]
 
         return [time], known
 
     def on(self, begin, end):
         """The same between two times between which nothing arrives, as series about the first one."""
 
-        def known(key, delay, is_sum):
+        def known(key, delay, summed=None):
             delay = self.motion.line.duration(delay) if delay else Duration({})
             is_past = lambda n: n < len(self.motion.marks) and self.motion.later(moved(self.motion.marks[n], delay), begin) <= 0
             n = next(n for n in range(-1, len(self.motion.marks)) if not is_past(n + 1))
@@ -66,7 +67,7 @@ class Reader:
             if n < 0:
                 return [ZERO]
             after = self.motion.since(begin, moved(self.motion.marks[n], delay)).times(1 / self.motion.step)
-            return shifted(self.integral(n, key) if is_sum else self.motion.past[n][key], after)
+            return shifted(self.integral(n, key, summed) if summed else self.motion.past[n][key], after)
 
         return [self.motion.instant(begin), Number(self.motion.step)], known
 
@@ -78,8 +79,8 @@ class Reader:
             kind, n = line.places[name]
             need((kind, what) in READINGS and len(of) == READINGS[kind, what], f"{what} of {name} cannot be read")
             factor, link = line.number(coefficient), line.links[n] if kind in ("bar", "spring") else {}
-            if what == "momentum":
-                sums += self.momentum(n, factor * link["impedance"], known)
+            if kind == "bar" and what in ("momentum", "energy"):
+                sums += [scaled(factor * link["impedance"], own) for own in getattr(self, what)(n, link, known)]
                 continue
             if kind == "bar":
                 is_sum, (right, left) = what == "displacement", of
@@ -88,37 +89,61 @@ class Reader:
                 size, way = (link["impedance"], -link["impedance"]) if what == "force" else (ONE, ONE)
                 sums.append(scaled(factor, [link["force"]] if what == "force" else at_rest))
                 for key, own, amount in ((("right", n), right, size), (("left", n), left, way)):
-                    sums += [] if own is None else [scaled(factor * amount, known(key, own, is_sum))]
+                    sums += [] if own is None else [scaled(factor * amount, known(key, own, list if is_sum else None))]
                 continue
             if what in ("velocity", "displacement"):
                 need(kind != "spring" or of[0] in ("left", "right"), "a side is missing")
                 run = n + (of[0] == "right") if kind == "spring" else line.supports[n][0] if kind == "support" else n
-                sums.append(scaled(factor, known(("v", run), None, what == "displacement")))
+                sums.append(scaled(factor, known(("v", run), None, list if what == "displacement" else None)))
                 continue
-            read = known(("alpha", n) if kind == "spring" else ("u", n), None, False)
+            if kind == "mass":
+                sums.append(scaled((factor * line.own_masses[name]).times(HALF), squared(known(("v", n), None))))
+                continue
+            read = known(("alpha", n) if kind == "spring" else ("u", n), None)
+            if what == "energy":
+                stiffness = link["stiffness"] if link else line.supports[n][1]
+                sums.append(scaled((factor * stiffness).times(HALF), squared(read)))
+                continue
             if what == "compression":
                 sums.append(scaled(factor, read))
                 continue
             stiffness, damping = (link["stiffness"], link["damping"]) if link else line.supports[n][1:]
             sums.append(scaled(factor * stiffness, read))
             for r, way in ((n, damping), (n + 1, -damping)) if link else ((line.supports[n][0], damping),):
-                sums.append(scaled(factor * way, known(("v", r), None, False)))
+                sums.append(scaled(factor * way, known(("v", r), None)))
         return list(map(total, zip_longest(*sums, fillvalue=ZERO)))
 
-    def momentum(self, n, factor, known):
-        """That of a bar: what both waves add is in it for its travel time, in an endless bar from the start on."""
-        line, link = self.motion.line, self.motion.line.links[n]
-        travel, sums = line.travels[n], []
-        need(travel is not None or link["velocity"].is_zero(), "the momentum of an endless bar is infinite")
-        for way, is_endless in (("right", line.endless[n]), ("left", line.endless[n + 1])):
-            sums += [] if is_endless else [scaled(factor, known((way, n), None, True))]
-            sums += [] if travel is None else [scaled(-factor, known((way, n), travel, True))]
-        return sums + ([] if travel is None else [[factor * link["velocity"] * link["travel"].number()]])
+    def inside(self, n, way, known, of):
+        """What a wave in a bar, or its square, adds up to over all sections: for its travel time, or else from the start on."""
+        line, key = self.motion.line, (way, n)
+        if line.endless[n + (way == "left")]:
+            return []
+        gone = [] if line.travels[n] is None else [scaled(-ONE, known(key, line.travels[n], of))]
+        return [known(key, None, of), *gone]
+
+    def momentum(self, n, link, known):
+        """Of a bar over its impedance: the sum of the velocities of all sections."""
+        need(link["travel"] or link["velocity"].is_zero(), "the momentum of an endless bar is infinite")
+        at_rest = link["velocity"] * link["travel"].number() if link["travel"] else ZERO
+        return [[at_rest], *self.inside(n, "right", known, list), *self.inside(n, "left", known, list)]
+
+    def energy(self, n, link, known):
+        """Of a bar over its impedance: half the squares of velocities and of forces over the impedance. For the waves a and b these
+        are v + a + b and x + a - b, so that they add up to (v^2 + x^2)/2 + a^2 + b^2 + (v + x) a + (v - x) b."""
+        v, x = link["velocity"], link["force"] / link["impedance"]
+        need(link["travel"] or v.is_zero() and x.is_zero(), "the energy of an endless bar is infinite")
+        at_rest = (v * v + x * x).times(HALF) * link["travel"].number() if link["travel"] else ZERO
+        sums = [[at_rest]]
+        for way, factor in (("right", v + x), ("left", v - x)):
+            sums += self.inside(n, way, known, squared)
+            sums += [scaled(factor, own) for own in self.inside(n, way, known, list)]
+        return sums
 
     def delays(self, rows):
         """How much later than waves begin what is read of them changes."""
         places = self.motion.line.places
-        of_bars = [self.motion.line.travels[places[name][1]] for _, what, name, *_ in rows if what == "momentum"]
+        in_bars = [places[name][1] for _, what, name, *_ in rows if what in ("momentum", "energy") and places[name][0] == "bar"]
+        of_bars = [self.motion.line.travels[n] for n in in_bars]
         told = [own for row in rows for own in row[3:] if type(own) is list] + [own for own in of_bars if own is not None]
         return [Duration({})] + [self.motion.line.duration(own) for own in told]
 
@@ -171,6 +196,7 @@ def check_readings(cert):
     begin, end, unit = (interval(cert[key]) for key in ("from", "until", "unit"))
     within(reader.motion, begin)
     within(reader.motion, end)
+    need(cert["points"] == 1 or (end - begin).sign() == 1, "the window runs backwards, or may do so")
     need(is_count(cert["points"]) and cert["points"] == len(cert["values"]) > 0, "a value is missing, or there is one too many")
     for i, (claim, off) in enumerate([rational(own) for own in row] for row in cert["values"]):
         share = Fraction(i, max(cert["points"] - 1, 1))

@@ -4,7 +4,7 @@ from flint import arb, fmpq
 
 from motion_arb import at, check_motion, rational_above, rational_below
 from reading import decided, need
-from series_arb import NIL, Length, derivative, horner, interval, is_nil, moved, rational, short, sign, span, stays_positive
+from series_arb import NIL, Length, derivative, horner, interval, is_nil, moved, rational, short, sign, span, square, stays_positive
 
 READ = "quantity observed "
 
@@ -31,8 +31,8 @@ class Place:
         delay = self.story.parts.length(rows)
         return lambda time: (time[0], time[1].plus(delay))
 
-    def series(self, key, later, over):
-        """Something in the last cell that begins no later, counted from there; where `over`, its integral from the start on."""
+    def series(self, key, later, over=None):
+        """Something in the last cell that begins no later, counted from there; or the integral of some of it from the start on."""
         story, found = self.story, None
         for n, begin in enumerate(story.begins):
             if story.is_later(later(begin), self.begin):
@@ -41,14 +41,14 @@ class Place:
             found = n
         if found is None:
             return [NIL]
-        own = self.integral(key, found) if over else story.past[found][key]
+        own = self.integral(key, found, over) if over else story.past[found][key]
         gone = short(story.between(self.begin, later(story.begins[found])) / story.step)
         return moved(own, gone) if self.end else [horner(own, gone)]
 
-    def integral(self, key, n):
+    def integral(self, key, n, over):
         story = self.story
-        grown = lambda m: times(story.step, [NIL] + [c / (k + 1) for k, c in enumerate(story.past[m][key])])
-        sums = story.integrals.setdefault(key, [NIL])
+        grown = lambda m: times(story.step, [NIL] + [c / (k + 1) for k, c in enumerate(over(story.past[m][key]))])
+        sums = story.integrals.setdefault((key, over), [NIL])
         for m in range(len(sums) - 1, n):
             length = short(story.between(story.begins[m + 1], story.begins[m]) / story.step)
             sums.append(short(sums[m] + horner(grown(m), length)))
@@ -64,20 +64,28 @@ class Place:
             rest = sum(lengths) - parts.links[n]["travel"].value()
             need(rest == 0 if isinstance(rest, fmpq) else rest.contains(0), "the delays are not those of one section")
 
-    def momentum(self, n):
-        """That of a bar: its impedance times the sum of the velocities of all sections, each of them a travel time wide."""
-        link, endless, now = self.story.parts.links[n], self.story.parts.endless[n : n + 2], lambda time: time
-        travel, total = link["travel"], [NIL]
-        need(travel is not None or is_nil(link["velocity"]), "a bar of infinite momentum is read")
-        for way, is_far in zip("fg", endless):
-            if not is_far:
-                total = plus(total, self.series((way, n), now, True))
-        if travel is not None:
-            left = lambda time: (time[0], time[1].plus(travel))
-            total = plus(total, [link["velocity"] * travel.value()])
-            for way in "fg":
-                total = plus(total, times(-1, self.series((way, n), left, True)))
-        return times(link["impedance"], total)
+    def gathered(self, n, way, over):
+        """The integral over a bar of a wave, or of its square: what has entered and not left yet."""
+        endless, travel, now = self.story.parts.endless, self.story.parts.links[n]["travel"], lambda time: time
+        if endless[n] if way == "f" else endless[n + 1]:
+            return [NIL]
+        entered = self.series((way, n), now, over)
+        if travel is None:
+            return entered
+        return plus(entered, times(-1, self.series((way, n), lambda time: (time[0], time[1].plus(travel)), over)))
+
+    def whole(self, n, what):
+        """The momentum of a bar, or its energy: that of v + f + g and p + Z (f - g) is Z/2 (v + f + g)^2 + (p + Z (f - g))^2/(2 Z)."""
+        link = self.story.parts.links[n]
+        z, v, p, travel = (link[key] for key in ("impedance", "velocity", "force", "travel"))
+        need(travel is not None or is_nil(v) and (what == "momentum" or is_nil(p)), "something infinite is read")
+        width = NIL if travel is None else travel.value()
+        f, g = (self.gathered(n, way, list) for way in "fg")
+        if what == "momentum":
+            return plus([short(z * v * width)], times(z, plus(f, g)))
+        squares = times(z, plus(self.gathered(n, "f", square), self.gathered(n, "g", square)))
+        mixed = plus(times(short(z * v + p), f), times(short(z * v - p), g))
+        return plus([short((z * v * v + p * p / z) * width / 2)], plus(squares, mixed))
 
     def observed(self, rows):
         """The sum of what is read of elements by their names."""
@@ -85,15 +93,21 @@ class Place:
         now = lambda time: time
         for factor, what, name, *of in rows:
             kind, n = parts.named[name]
-            if what == "momentum":
-                need(kind == "bar" and not of, "the momentum of a bar alone is read")
-                read = self.momentum(n)
+            if kind == "bar" and what in ("momentum", "energy"):
+                need(not of, "a bar as a whole has no section")
+                read = self.whole(n, what)
+            elif what == "energy":
+                need(kind in ("mass", "spring", "support") and not of, "this has no energy")
+                key = {"mass": "speed", "spring": "alpha", "support": "u"}[kind]
+                own = {"mass": parts.masses.get(name), "support": parts.supports[n][1] if kind == "support" else None}
+                own = parts.links[n]["stiffness"] if kind == "spring" else own[kind]
+                read = times(own / 2, square(self.series((key, n), now)))
             elif kind == "bar":
                 need(what in ("velocity", "force", "displacement") and len(of) == 2, "a bar is read in another way")
                 self.check_section(n, *of)
                 link, over = parts.links[n], what == "displacement"
                 f, g = (
-                    [NIL] if own is None else self.series((way, n), self.delayed(own), over) for way, own in zip("fg", of)
+                    [NIL] if own is None else self.series((way, n), self.delayed(own), list if over else None) for way, own in zip("fg", of)
                 )
                 read = plus(times(link["velocity"], self.time() if over else [fmpq(1)]), plus(f, g))
                 if what == "force":
@@ -101,16 +115,16 @@ class Place:
             elif what in ("velocity", "displacement"):
                 need(of in (["left"], ["right"]) if kind == "spring" else not of, "a spring has two sides, others have none")
                 run = n + (of == ["right"]) if kind == "spring" else parts.supports[n][0] if kind == "support" else n
-                read = self.series(("speed", run), now, what == "displacement")
+                read = self.series(("speed", run), now, list if what == "displacement" else None)
             else:
                 need(what in ("compression", "force") and kind in ("spring", "support") and not of, "this cannot be read")
-                read = self.series(("alpha" if kind == "spring" else "u", n), now, False)
+                read = self.series(("alpha" if kind == "spring" else "u", n), now)
                 if what == "force":
                     run, stiffness, damping = (
                         (n, parts.links[n]["stiffness"], parts.links[n]["damping"]) if kind == "spring" else parts.supports[n]
                     )
-                    beyond = self.series(("speed", n + 1), now, False) if kind == "spring" else [NIL]
-                    rate = plus(self.series(("speed", run), now, False), times(-1, beyond))
+                    beyond = self.series(("speed", n + 1), now) if kind == "spring" else [NIL]
+                    rate = plus(self.series(("speed", run), now), times(-1, beyond))
                     read = plus(times(stiffness, read), times(damping, rate))
             result = plus(result, times(parts.number(factor), read))
         return result
@@ -160,8 +174,9 @@ def cut(story, cert, begin, end, hints):
     last = end if isinstance(end, fmpq) else rational_above(end)
     need(0 <= first and last < story.end and sign(end - begin) == 1, "the window is empty, or outside what is followed")
     lags = [Length()] + [story.parts.length(own) for row in cert["observed"] for own in row[3:] if type(own) is list]
-    bars = [story.parts.links[story.parts.named[row[2]][1]] for row in cert["observed"] if row[1] == "momentum"]
-    lags += [bar["travel"] for bar in bars if bar["travel"] is not None]
+    bars = [story.parts.named[row[2]] for row in cert["observed"] if row[1] in ("momentum", "energy")]
+    travels = [story.parts.links[n]["travel"] for kind, n in bars if kind == "bar"]
+    lags += [travel for travel in travels if travel is not None]
     cuts = [at(first)]
     arrivals = [(n, s.plus(lag)) for n, s in story.begins for lag in lags]
     # Hints that are not known to be before or after an arrival are none.

@@ -161,6 +161,12 @@ def shifted(series, x):
     return [part(k) if k <= some[-1] else ZERO for k in range(count)]
 
 
+def squared(series):
+    """The last coefficient encloses what the derivative of that order is on a whole step, by those of all orders."""
+    last, on_step = len(series) - 1, shifted(series, Number.between(Fraction(0), Fraction(1)))
+    return [total(a[j] * a[k - j] for j in range(k + 1)) for k, a in enumerate([series] * last + [on_step])]
+
+
 def value(series, x):
     result = ZERO
     for own in reversed(series):

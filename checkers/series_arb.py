@@ -108,6 +108,13 @@ def horner(series, x):
     return result
 
 
+def square(series):
+    """Its last coefficient is enclosed for the whole step by the coefficients about all of its places."""
+    everywhere = moved(series, span(NIL, fmpq(1)))
+    times = lambda c, k: sum((short(product(c[i], c[k - i])) for i in range(k + 1)), NIL)
+    return [short(times(series, k)) for k in range(len(series) - 1)] + [short(times(everywhere, len(series) - 1))]
+
+
 def derivative(series):
     return [c * k for k, c in enumerate(series) if k] or [NIL]
 

@@ -1,7 +1,7 @@
 //! The exponential polynomial `Σ_j p_j e^{λ_j}` and its ring operations.
 
 use crate::expression::fraction::{Fraction, NotAUnit};
-use crate::expression::turn::without_turns;
+use crate::expression::turn::{has_pi, without_turns};
 use num_traits::{One, Zero};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -30,9 +30,9 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol, power};
 /// Lindemann and Weierstrass holds.
 ///
 /// # The number π
-/// Exponents may hold π, as those of sines do. A multiple `iπr` in an exponent, `r` rational, has `−1/2 < r < 1/2`, and `12 r`
-/// is no integer: what is left out is a factor of square roots, so that `sin 2π` is 0. That sums with π that are not zero
-/// here are none as numbers is not proven; enclosures tell it.
+/// Exponents may hold π, as those of sines do. Of a multiple `iπr` in an exponent, `r` rational, twelfths are taken off, as
+/// factors of square roots, so that `sin 2π` is 0, and exponents that differ by such turns are the same. That sums with π
+/// that are not zero here are none as numbers is not proven; enclosures tell it.
 ///
 /// # Invariants
 /// - exponents pairwise different, no coefficient zero.
@@ -169,11 +169,13 @@ impl Expression {
         if exponent.is_zero() {
             return self;
         }
-        let mut moved = Expression::zero();
-        for (own, p) in self.terms {
-            moved.add_term(&own + exponent, p);
+        let moved = self.terms.into_iter().map(|(own, p)| (&own + exponent, p));
+        if !has_pi(exponent) {
+            return Expression { terms: moved.collect() };
         }
-        moved
+        let mut sum = Expression::zero();
+        moved.for_each(|(own, p)| sum.add_term(own, p));
+        sum
     }
 
     pub fn times(&self, factor: &Fraction) -> Expression {

@@ -55,6 +55,25 @@ fn turns_multiply() {
     }
 }
 
+/// However a turn is put together, it is the same: a half and two fifths are nine tenths.
+#[test]
+fn turns_add_up() {
+    let once =
+        |k: i64, whole: i64| Expression::exponential(turn(&Rational::new(k.into(), whole.into())));
+    for whole in [5, 7, 8, 9, 10, 16, 25, 27, 49, 60] {
+        for k in -whole..=whole {
+            for m in 0..24 {
+                let whole_turn = once(12 * k + m * whole, 12 * whole);
+                assert_eq!(&once(k, whole) * &once(m, 12), whole_turn, "{k}/{whole} + {m}/12");
+            }
+            let cosine =
+                Expression::cosine(&named("pi").scale(&Rational::new(k.into(), whole.into())));
+            let i = Symbol::square_root(-1).expect("the imaginary unit");
+            assert_eq!(cosine.conjugate(&i), cosine, "cos({k} pi/{whole})");
+        }
+    }
+}
+
 /// Whole turns are taken off functions of time as well.
 #[test]
 fn turns_are_taken_off_functions() {
@@ -63,6 +82,15 @@ fn turns_are_taken_off_functions() {
     assert_eq!(Expression::sine(&angle(2)), Expression::sine(&angle(0)));
     assert_eq!(Expression::sine(&angle(-3)), -&Expression::sine(&angle(0)));
     assert_eq!(Expression::cosine(&angle(1)), -&Expression::cosine(&angle(0)));
+    let [l, m] = ["l", "m"].map(named);
+    for below in [l.clone(), &(&l + &m) * &l] {
+        let unit = Fraction::reciprocal(below.numerator()).unwrap();
+        let angle =
+            |turns: i64| &(&angle(0) * &unit) + &pi.scale(&Rational::from_integer(turns.into()));
+        assert_eq!(Expression::sine(&angle(2)), Expression::sine(&angle(0)));
+        assert_eq!(Expression::sine(&angle(5)), -&Expression::sine(&angle(0)));
+        assert_ne!(Expression::sine(&angle(0)), -&Expression::sine(&angle(0)));
+    }
     let third = &angle(0) + &pi.scale(&Rational::new(1.into(), 3.into()));
     let sum =
         &Expression::sine(&third) + &Expression::sine(&(&third - &pi.scale(&Rational::one())));
@@ -81,8 +109,24 @@ fn a_whole_period_leaves_a_mass_at_rest() {
     {
         let signal = problem.signal(name).unwrap();
         assert_eq!(signal.at("1", 15).unwrap().to_text(15), half, "{name}");
-        for time in ["2", "3", "100"] {
+        for time in ["2", "3", "100", "2.7", "17/8"] {
             assert_eq!(signal.at(time, 15).unwrap().to_text(15), "0", "{name}({time})");
+        }
+    }
+}
+
+/// After a part of a sine an endless bar is at rest, whenever that is asked.
+#[test]
+fn a_cut_sine_leaves_an_endless_bar_at_rest() {
+    for until in ["1/2", "1/4", "1/3", "5/6", "3/2", "1", "7/10", "5/8"] {
+        let text = format!(
+            "scene \"Cut\"\nbar rod {{ impedance = 1 }}\nload blow {{ force = sin(pi*t), until = {until} }}\n\
+             line free - blow - rod - endless\nobserve v = velocity(blow)\n"
+        );
+        let problem = Problem::read("text", text).unwrap();
+        let signal = problem.signal("v").unwrap();
+        for time in ["1.6", "1.71", "1.8", "1.9", "13/8", "17/9"] {
+            assert_eq!(signal.at(time, 15).unwrap().to_string(), "0", "until {until} at {time}");
         }
     }
 }

@@ -64,6 +64,13 @@ const UNDERFLOW: f64 = f64::MIN_POSITIVE / (1_u64 << 38) as f64;
 /// Heads are not scaled below this, `2⁻⁹⁶⁰`, where their grid is still far from underflow.
 const SMALLEST_HEAD: f64 = f64::MIN_POSITIVE * (1_u64 << 62) as f64;
 
+/// The powers of two that the text above speaks of.
+const _: () = {
+    assert!(WIDENING.to_bits() == 1_f64.to_bits() + (1 << 12));
+    assert!(UNDERFLOW.to_bits() == 1 << (1074 - 1060));
+    assert!(SMALLEST_HEAD.to_bits() == (1023 - 960) << 52);
+};
+
 /// Magnitudes of the coefficients of a piece, all rows padded to one degree.
 pub(crate) struct Magnitudes {
     /// `|low_k| r^k`.
@@ -185,5 +192,56 @@ impl Magnitudes {
         }
         let test = 2.0 * UNIT * UNIT * (self.total() + size);
         (error + rounding + test + self.underflow()) * WIDENING
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against the sums that the definition states.
+    #[test]
+    fn tails_are_counted_as_often_as_they_are_rounded() {
+        let tails = [1.0, 2.0, 4.0, 8.0, 16.0];
+        for n in 1..tails.len() {
+            let stated: f64 = tails[..n].iter().sum::<f64>() + tails[1..=n].iter().sum::<f64>();
+            assert_eq!(horner_roundings(&tails[..=n]), stated, "{n}");
+        }
+        assert_eq!(horner_roundings(&tails[..1]), 0.0);
+    }
+
+    /// All magnitudes of one polynomial, counted by hand: `1 − 2 u + 4 u² + 8 u³` for `|u| ≤ 1/2`.
+    #[test]
+    fn magnitudes_are_those_of_the_definitions() {
+        let low = [1e-20, 0.0, -4e-20];
+        let own = Magnitudes::new(&[1.0, -2.0, 4.0, 8.0], &low, 0.5, false);
+        // c_k r^k = 1, 1, 1, 1 and low_k r^k = 1e-20, 0, 1e-20
+        assert_eq!((own.total(), &own.tails[..]), (4.0, &[4.0, 3.0, 2.0, 1.0][..]));
+        assert_eq!(own.sizes, [4.0, 6.0, 8.0, 8.0]);
+        assert_eq!((own.derivative, own.second_derivative), (6.0 + 2e-20, 8.0 + 2e-20));
+        assert_eq!(own.underflow(), UNDERFLOW * (4.0 + 1.0 + 6.0));
+        let near = |bound: f64, stated: f64| {
+            assert!(bound >= stated && bound <= stated * (1.0 + 1e-11), "{bound:e}, {stated:e}");
+        };
+        near(own.of_doubles(1e-16), 1e-16 + 2e-20 + UNIT * (9.0 + 6.0 + 6.0));
+        let exact = Magnitudes::new(&[1.0, -2.0, 4.0, 8.0], &low, 0.5, true);
+        near(exact.of_doubles(0.0), 2e-20 + UNIT * (9.0 + 6.0));
+        assert_eq!(
+            [own.largest_head(1), own.largest_head(2), own.largest_head(4)],
+            [8.0, 8.0, 16.0]
+        );
+        let allowed = [UNIT * 15.0 + 2e-20, UNIT * 8.0 + 1e-20, UNIT * 3.0 + 1e-20, 0.0];
+        for (split, allowed) in allowed.into_iter().enumerate() {
+            assert_eq!(own.split(allowed), split, "{allowed:e}");
+        }
+        // Two pairs, whose grid is 16 ε: ρ₁ = 16 ε + 8 ε and ρ₀ = 16 ε + 6 ε, with λ₁ = ρ₁ and λ₀ = ρ₁/2 + ρ₀.
+        let (first, second) = (24.0 * UNIT, 22.0 * UNIT);
+        let size = first / 2.0 + second;
+        let rounding = (3.0 * first / 2.0 + second + 2.0 * size) * UNIT + 3.0 * UNIT + 1e-20;
+        let test = 2.0 * UNIT * UNIT * (4.0 + size);
+        near(exact.of_pairs(&[0.0, 0.0], 0.0), rounding + test);
+        let moved =
+            UNIT * 2e-20 + 2.0 * UNIT * size + UNIT * UNIT * (8.0 * (6.0 + 2e-20) + 8.0 + 2e-20);
+        near(own.of_pairs(&[0.0, 0.0], 1e-25), 1e-25 + rounding + test + moved);
     }
 }

@@ -309,10 +309,28 @@ impl Quantity<'_> {
         if let Some(number) = writer.others.iter().find(|own| !is_time(own)) {
             return Err(refused(&format!("whose formulas hold the number {number}")));
         }
+        let line = document.get("line").and_then(Json::as_array);
+        if line.into_iter().flatten().any(has_root_in_law) {
+            return Err(refused("whose laws hold a square root"));
+        }
         document.insert("quantity".into(), json!(self.name));
         document.insert("roots".into(), writer.told_roots());
         Ok((document, begins))
     }
+}
+
+/// Whether a law of an element holds a square root, for which checkers cannot put numbers.
+fn has_root_in_law(element: &Json) -> bool {
+    fn has_root(value: &Json) -> bool {
+        let is_root = |name: &String| name.starts_with("sqrt(");
+        match value {
+            Json::Array(parts) => parts.iter().any(has_root),
+            Json::Object(powers) => powers.keys().any(is_root),
+            _ => false,
+        }
+    }
+    let laws = ["impedance", "mass", "stiffness", "damping"];
+    laws.iter().any(|law| element.get(law).is_some_and(has_root))
 }
 
 /// What a quantity of a scene is made of until a time, and the times at which new pieces may begin.

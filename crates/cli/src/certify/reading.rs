@@ -12,6 +12,7 @@ use wavestep::ball::{Bound, Decimal};
 use wavestep::expression::Fraction;
 use wavestep::network::{Contacts, Face, Field, Lump, MeasuredValue, Reading, Term};
 use wavestep::problem::Problem;
+use wavestep::scene::Kind;
 use wavestep::signal::{Place, Root, Value};
 
 /// The bits of times that are not claimed.
@@ -47,12 +48,23 @@ impl<'a> Read<'a> {
         let Ok(network) = problem.network() else { return Ok(None) };
         let line = Line::of(problem, Contacts::of(network.scene()))?;
         let measured = network.measures.iter().find(|measured| measured.name == name);
-        let Some((measured, MeasuredValue::Linear(terms))) = measured.map(|own| (own, &own.value))
-        else {
-            return Ok(None);
-        };
+        let Some(measured) = measured else { return Ok(None) };
         let mut writer = Writer::default();
-        let rows: Vec<Json> = terms.iter().map(|term| read(&line, term, &mut writer)).collect();
+        let rows: Vec<Json> = match &measured.value {
+            MeasuredValue::Linear(terms) => {
+                terms.iter().map(|term| read(&line, term, &mut writer)).collect()
+            }
+            MeasuredValue::Energy(parts) => {
+                let elements = &network.scene().elements;
+                // Loads hold none.
+                let held =
+                    parts.iter().filter(|own| !matches!(elements[own.1].kind, Kind::Load(_)));
+                let row = |(c, own): &(Fraction, usize)| {
+                    json!([writer.function(c), "energy", elements[*own].name])
+                };
+                held.map(row).collect()
+            }
+        };
         // The motion is followed a little further, so that it is known from the last time on.
         let end = &line.in_units(to, SPARE_BITS)?[1] + BigRational::new(1.into(), 8.into());
         let end = Decimal::bound(&end, 6, Bound::Upper).to_rational();
@@ -74,7 +86,11 @@ impl<'a> Read<'a> {
             }
             _ => false,
         };
-        let is_beside_contact = network.scene().contacts_open && terms.iter().any(is_at_end);
+        let is_force = match &measured.value {
+            MeasuredValue::Linear(terms) => terms.iter().any(is_at_end),
+            MeasuredValue::Energy(_) => false,
+        };
+        let is_beside_contact = network.scene().contacts_open && is_force;
         Ok(Some(Read { line, precision, ends, digits, is_beside_contact, document }))
     }
 
@@ -148,10 +164,12 @@ impl<'a> Read<'a> {
                         let remedy = "observe a spring there, or ask for an earlier end";
                         return Err(Failure::usage(message, remedy));
                     }
-                    let [from, to] = [from, to].map(|time| match time.exact() {
-                        Some(_) => time.bounds(),
-                        None => around(time, self.digits),
-                    });
+                    // Just before a rest a checker cannot tell a small value from zero.
+                    let told_by = |time: &Value, is_known: bool| match time.exact() {
+                        Some(_) if is_known => time.bounds(),
+                        _ => around(time, self.digits),
+                    };
+                    let (from, to) = (told_by(from, is_first), told_by(to, true));
                     rests.push([told(&from)?, told(&to)?]);
                 }
                 // At the last time there is a limit alone.
