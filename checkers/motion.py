@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cache
 from math import comb, factorial, isqrt
 
-from exact import MINUS, ROOTS, Ball, accumulate, coefficients, frozen, is_zero, put, rational, read, read_function, thawed
+from exact import MINUS, ROOTS, Ball, accumulate, add, alike, coefficients, frozen, is_zero, put, rational, read, read_function, thawed
 from exact import slope as derivative
 from reading import Undecided, decided, need
 from series import ONE, PRECISION, ZERO, Duration, Number, begins, interval, is_positive, shifted, slope, total, value
@@ -63,11 +63,15 @@ class Load:
             need(len(factors) <= terms, "a course has too high a power")
             own = self.smooth(exponent, factors, terms) if exponent else list(map(self.real, factors)) + [ZERO] * terms
             sums = [a + b for a, b in zip(sums, own)]
-        for k in range(3):  # exactly, where no exponent is left, as at the start of a sine
-            here = put(there, self.time, {(): {(): 0}})
-            if any(here):
+        for k in range(3):  # exactly, where no exponent is left but for turns, as where a sine begins
+            here = put(there, self.time, {(): {(): 0}}).items()
+            known = [(alike(thawed(exponent), {}), function) for exponent, function in here]
+            if not all(factor for factor, _ in known):
                 break
-            sums[k], there = self.real(here.get((), {})).times(Fraction(1, factorial(k))), derivative(there, self.time)
+            own = {}
+            for factor, function in known:
+                add(own, function, factor)
+            sums[k], there = self.real(own).times(Fraction(1, factorial(k))), derivative(there, self.time)
         return shifted(sums, Number.between((low - high) / step, (high - low) / step))
 
     def complex(self, function):

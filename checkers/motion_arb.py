@@ -217,7 +217,18 @@ class Parts:
             series = [known.get(k, NIL) for k in range(order + 1)]
             return [short(c * step**k) for k, c in enumerate(moved(series, begin))]
 
-        def at(time):
+        def turn(exponent):
+            """r where an exponent is i pi r at the beginning, and grows by a multiple of i pi."""
+            if not isinstance(begin, fmpq) or any(factors for _, factors in exponent):
+                return None
+            i, r = next((name for name, square in self.roots.items() if square == -1), None), NIL
+            for c, names in (term for top, _ in exponent for term in top):
+                if names.get("pi") != 1 or names.get(i) != 1 or names.keys() - {"pi", i, self.time}:
+                    return None
+                r += rational(c) * begin ** names.get(self.time, 0)
+            return r
+
+        def at(time, is_begin):
             total = flint.acb_series([0], prec=order + 1)
             t = flint.acb_series([time, step], prec=order + 1)
             for exponent, function in load["course"]:
@@ -227,14 +238,19 @@ class Parts:
                     flint.acb_series([linear.get(0, 0)], prec=order + 1)
                     + flint.acb_series([linear.get(1, 0)], prec=order + 1) * t
                 )
+                r, begins = turn(exponent) if is_begin else None, x.exp()
+                if r is not None:  # without rounding where that is a number
+                    sine, cosine = arb.sin_cos_pi_fmpq(r)
+                    x = flint.acb_series([0, linear.get(1, 0) * step], prec=order + 1)
+                    begins = x.exp() * flint.acb(cosine, sine)
                 value = flint.acb_series([0], prec=order + 1)
                 for power in range(max(powers, default=0), -1, -1):
                     value = value * t + flint.acb_series([powers.get(power, 0)], prec=order + 1)
-                total = total + value * x.exp()
+                total = total + value * begins
             return [total[k].real for k in range(order + 1)]
 
         flint.ctx.cap = order + 1
-        return at(arb(begin))[:order] + [at(span(arb(begin), arb(begin) + arb(step)))[order]]
+        return at(arb(begin), True)[:order] + [at(span(arb(begin), arb(begin) + arb(step)), False)[order]]
 
 
 class Laws:

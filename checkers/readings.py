@@ -217,7 +217,7 @@ def check_extreme(cert):
     for a, b in reader.parts(rows, exactly(first), exactly(last), [exactly(rational(own)) for own in cert["times"]]):
         below, reach = left(reader.seen(rows, reader.on(a, b)), way * slack), motion.since(b, a).ends()[1] / motion.step
         need(below[0].sign() == 1, f"a value is beyond the extremum at {float(motion.instant(a).ends()[0])}")
-        decided(is_positive(below, Fraction(0), reach, 40), "between two times there may be an extremum")
+        decided(is_positive(below, Fraction(0), reach), "between two times there may be an extremum")
     time = rational(cert["attained"])
     need(after <= time < before, "the extremum is taken outside the window")
     [near] = left(reader.seen(rows, reader.at(Number(time))), -way * slack)
@@ -267,7 +267,7 @@ def check_zeros(cert):
             way = read[0].sign()
             decided(way in (1, -1), "it is not decided whether it is zero at a time")
             decided(is_rest[n + 1] or value(read, length).sign() == way, "it is not decided whether it is zero just before a time")
-            decided(is_positive(scaled(Number(Fraction(way)), read), Fraction(0), reach, 40), "between two times there may be a zero")
+            decided(is_positive(scaled(Number(Fraction(way)), read), Fraction(0), reach), "between two times there may be a zero")
         is_after_rest = False
     need(crossed == list(range(len(zeros))), "an interval of a zero is cut by an arrival")
     need(len(rests) == len(claims), f"there are {len(rests)} rests")

@@ -206,7 +206,7 @@ def check_extreme(cert):
         left = times(-way * unit, Place(story, a, b).observed(cert["observed"]))
         until = length(story, a, b)
         left = plus([way * value + half], left)
-        decided(sign(left[0]) == 1 and stays_positive(left, NIL, until, 40), "a value is beyond the extremum, or may be")
+        decided(sign(left[0]) == 1 and stays_positive(left, NIL, until), "a value is beyond the extremum, or may be")
     time = rational(cert["attained"])
     need(sign(time - begin) in (0, 1) and sign(end - time) == 1, "the extremum is taken outside the window")
     left = way * (value - read(story, cert, time))
@@ -260,7 +260,7 @@ def check_zeros(cert):
                 read = read[1:]
             way = sign(read[0])
             decided(way in (1, -1) and (rests_next or sign(horner(read, steps)) == way), "there may be another zero at an arrival")
-            decided(stays_positive(times(way, read), NIL, until, 40), "there may be another zero")
+            decided(stays_positive(times(way, read), NIL, until), "there may be another zero")
     need(len(found) == len(pairs), "a zero is missing")
     need(len(rests) == len(claims), "there are more or fewer rests")
     for rest, (early, late) in zip(rests, claims):

@@ -186,7 +186,7 @@ def begins(series):
     return 0 if series[-1].is_zero() else None
 
 
-def is_positive(series, low, high, depth=20):
+def is_positive(series, low, high, depth=80):
     """Whether a function that is not negative at the start of the cell is positive between two places of it; zeros with which
     it begins there, and one at the end, do not count."""
     if not low:

@@ -119,7 +119,7 @@ def derivative(series):
     return [c * k for k, c in enumerate(series) if k] or [NIL]
 
 
-def stays_positive(series, begin, end, depth=24):
+def stays_positive(series, begin, end, depth=80):
     """Whether it is positive strictly between two places; what it begins with at 0 may be zeros."""
     if begin == 0:
         first = next((k for k, c in enumerate(series) if not is_nil(c)), len(series) - 1)

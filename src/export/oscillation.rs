@@ -80,14 +80,18 @@ pub fn oscillations(expression: &Expression) -> Vec<(Oscillation, Cow<'_, Fracti
         let minus_i = -&Fraction::symbol(&i);
         let real = |value: &Fraction| (value + &value.conjugate(&i)).scale(&half);
         let imaginary = |value: &Fraction| &(value - &value.conjugate(&i)).scale(&half) * &minus_i;
+        // A conjugate exponent may be written with another turn; the two are told as one.
+        let conjugate = Expression::exponential(exponent.conjugate(&i));
+        let (partner, _) = conjugate.terms().next().expect("one term");
         let angle = imaginary(exponent);
-        // Of the two conjugates, the one whose angle starts without a sign.
-        if fraction_terms(&angle).first().is_some_and(|term| term.0 == Sign::Minus) {
+        if writing(&imaginary(partner)) < writing(&angle) {
             continue;
         }
-        let two = Rational::from_integer(2.into());
-        let values =
-            [(Circular::Cosine, real(p).scale(&two)), (Circular::Sine, -&imaginary(p).scale(&two))];
+        let count = Rational::from_integer(if partner == exponent { 1 } else { 2 }.into());
+        let values = [
+            (Circular::Cosine, real(p).scale(&count)),
+            (Circular::Sine, -&imaginary(p).scale(&count)),
+        ];
         for (wave, value) in values.into_iter().filter(|(_, value)| !value.is_zero()) {
             let growth = real(exponent);
             let angle = Some((wave, angle.clone()));
@@ -95,4 +99,12 @@ pub fn oscillations(expression: &Expression) -> Vec<(Oscillation, Cow<'_, Fracti
         }
     }
     parts
+}
+
+/// Of two conjugates the lesser one is written: the one whose angle begins without a sign, then with fewer signs.
+fn writing(angle: &Fraction) -> (bool, usize, &Fraction) {
+    let terms = fraction_terms(angle);
+    let is_minus = |sign: Sign| sign == Sign::Minus;
+    let begins = terms.first().is_some_and(|term| is_minus(term.0));
+    (begins, terms.iter().filter(|term| is_minus(term.0)).count(), angle)
 }

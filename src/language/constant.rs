@@ -1,6 +1,7 @@
 //! The value of an expression without names: a bound in `symbol r > 1/2`, a number on the command
 //! line. Exact, with limits that keep a short text from asking for an astronomically long number.
 
+use crate::expression::PI;
 use crate::limits::MAX_CONSTANT_BITS;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -138,6 +139,16 @@ fn zero_divisor(span: Span, source: &Source) -> Diagnostic {
 
 fn not_constant(expression: &Expression, source: &Source) -> Diagnostic {
     let (message, label) = match &expression.value {
+        Node::Name(name) if name == PI => {
+            let message = "`pi` is irrational, so it is not an exact constant";
+            return Diagnostic::new(
+                source,
+                message,
+                expression.span,
+                "a rational number is needed here",
+            )
+            .with_remedy("write it where the symbol stands, in the scene itself");
+        }
         Node::Name(name) if is_like_infinity(name) => {
             (format!("`{name}` is not a finite number"), "a finite number is needed here")
         }

@@ -8,6 +8,7 @@
 mod balance;
 mod energy;
 
+use crate::ball::BallError;
 use crate::expression::{Fraction, Root};
 use crate::history::{self, FollowedSignal, Follower, HistoryError};
 use crate::network::{
@@ -16,7 +17,8 @@ use crate::network::{
 };
 use crate::recurrence::Observation;
 use crate::signal::{
-    ClosedForm, ClosedSignal, Difference, EvaluateError, Operation, Scale, Signal, Taps, Vibrating,
+    ClosedForm, ClosedSignal, Difference, EvaluateError, Limit, Operation, Scale, Signal, Taps,
+    Vibrating, value,
 };
 use num_traits::Zero as _;
 use std::rc::Rc;
@@ -202,7 +204,11 @@ pub(crate) fn chosen<'a>(
     if origin(network, window[1], purpose) == Origin::Closed
         || purpose == Purpose::Polynomials && is_cheap_closed(network, observed, window)
     {
-        return closed();
+        let found = closed()?;
+        return match purpose != Purpose::Echoes && resonates(network, &*found.1, window[1]) {
+            true => from(Origin::Followed),
+            false => Ok(found),
+        };
     }
     match from(Origin::Followed) {
         // The closed form gives the clearer error for a window that cannot be followed.
@@ -219,6 +225,17 @@ pub(crate) fn chosen<'a>(
         Err(_) if ClosedForm::foreseen(network, window[1]).is_ok() => closed(),
         followed => followed,
     }
+}
+
+/// Bits by which numbers that differ are told apart.
+const TELLING_BITS: u64 = 1 << 12;
+
+/// Whether a load has a rate of the motion, where both are numbers with names and no form tells that they are equal.
+fn resonates(network: &Network, signal: &dyn Signal, at: &Rational) -> bool {
+    let model = network.model();
+    let may_resonate = !model.loads.is_empty() && !model.constants.is_empty();
+    let divides = EvaluateError::Ball(BallError::DivisorMayBeZero);
+    may_resonate && value(signal, at, Limit::Left, 1, TELLING_BITS) == Err(divides)
 }
 
 /// Whether the closed form is cheap for polynomials: a march through waves of one pole and one lag, which takes no memory, or

@@ -144,3 +144,19 @@ fn recurrences_hold_pi() {
     let wanted = (-pi / 2.0).exp() * (0.5 + (-pi).exp());
     assert!((signal.at("3/2", 15).unwrap().to_f64() - wanted).abs() < 1e-15);
 }
+
+/// A mass on a spring, driven at its own rate π, which no formula tells from the rate of the load: `x = (sin πt − πt cos πt)/(2π²)`,
+/// and afterwards it swings on.
+#[test]
+fn resonance_with_a_rate_of_pi_is_followed() {
+    let text = "scene \"Resonance\"\nmass one { mass = 1 }\nspring k { stiffness = pi^2 }\n\
+                load f { force = sin(pi*t), until = 2 }\nline fixed - k - one - f - free\n\
+                observe x = displacement(one)\n";
+    let problem = Problem::read("text", text).unwrap();
+    let signal = problem.signal("x").unwrap();
+    let largest = std::f64::consts::FRAC_1_PI;
+    for (time, wanted) in [("1", largest / 2.0), ("2", -largest), ("3", largest)] {
+        let off = signal.at(time, 12).unwrap().to_f64() - wanted;
+        assert!(off.abs() < 1e-12, "{time}: {off:e}");
+    }
+}

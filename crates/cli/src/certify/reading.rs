@@ -152,6 +152,7 @@ impl<'a> Read<'a> {
         arrivals: &[BigRational],
     ) -> Result<Map<String, Json>, Failure> {
         let (mut zeros, mut rests) = (Vec::new(), Vec::new());
+        let mut times = times.to_vec();
         let told = |window: &[BigRational; 2]| {
             Ok::<_, Failure>(written(self.in_units(window)?, self.digits + SPARE_DIGITS))
         };
@@ -185,6 +186,7 @@ impl<'a> Read<'a> {
                     if arrivals.iter().any(|time| low <= time && time <= high) {
                         return Err(undecided("the sign where a wave arrives"));
                     }
+                    times.retain(|time| time <= low || high <= time);
                     zeros.push(told(&window)?);
                 }
             }
@@ -192,7 +194,7 @@ impl<'a> Read<'a> {
         let claims = json!({
             "from": self.told(&self.ends[0]),
             "until": self.told(&self.ends[1]),
-            "times": self.hints(times)?,
+            "times": self.hints(&times)?,
             "zeros": zeros,
             "rests": rests,
         });

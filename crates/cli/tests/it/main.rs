@@ -13,6 +13,7 @@ mod everywhere;
 mod extremes;
 mod find;
 mod first_contact;
+mod forged;
 mod json;
 mod local_contact;
 mod lock;

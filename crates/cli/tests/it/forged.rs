@@ -1,0 +1,316 @@
+//! Certificates with wrong claims: each is refused, and it is said what is wrong.
+
+use super::certificates::{
+    CONTENTS, DISTANCES, DOUBLES, EVENTS, EXTREMES, MORE_CONTENTS, READINGS, VALUES, WINDOWS,
+    ZEROS, certify, checked, with_flint,
+};
+use super::folder;
+use serde_json::json;
+
+/// The function c x of a symbol x.
+fn of(coefficient: &str, symbol: &str) -> serde_json::Value {
+    json!([[[[coefficient, { symbol: 1 }]], []]])
+}
+
+/// A mass that is at rest after a whole period of a sine, and only then.
+const PUSH: &str = "scene \"Push and pull\"\nmass m { mass = 1 }\nload p { force = sin(pi*t), until = 2 }\n\
+    bar rod { impedance = 1, travel = 1 }\nline free - p - m - rod - free\nobserve v = velocity(m)\n";
+
+/// Gives a symbol another name.
+fn renamed(certificate: &mut serde_json::Value, name: &str, other: &str) {
+    let text = certificate.to_string().replace(&format!("\"{name}\""), &format!("\"{other}\""));
+    *certificate = serde_json::from_str(&text).unwrap();
+}
+
+/// A mass and a load with one square root.
+const ROOTED: &str = "scene \"Root\"\nload push { force = sqrt(2)*t*exp(-t) }\nmass ram { mass = sqrt(2) }\n\
+    bar rod { impedance = 1, travel = 1 }\nline free - push - ram - rod | fixed\ncontacts open\nobserve v = velocity(ram)\n";
+
+/// The course c/2^power.
+fn over(c: &str, power: i64) -> serde_json::Value {
+    json!([[[], [[[[c, {}]], [[[["2", {}]], power]]]]]])
+}
+
+/// A term a·exp(i b t).
+fn of_complex(a: &str, b: &str) -> serde_json::Value {
+    json!([[[[[b, { "sqrt(-1)": 1, "t": 1 }]], []]], [[[[a, {}]], []]]])
+}
+
+fn number(value: &str) -> serde_json::Value {
+    json!([[[[value, {}]], []]])
+}
+
+fn one() -> serde_json::Value {
+    number("1")
+}
+
+/// Each part of the checkers finds what it is there for.
+#[test]
+fn wrong_claims_are_told_by_what_is_wrong() {
+    let folder = folder("wrong-certificates");
+    let ask = |line: &str| {
+        certify(&folder, line, "asked.json");
+        let text = std::fs::read_to_string(folder.join("asked.json")).unwrap();
+        serde_json::from_str::<serde_json::Value>(&text).unwrap()
+    };
+    let pieces = ask("rigid-mass --through 2");
+    let line = ask("hopkinson --through 2");
+    let value = ask(VALUES[0]);
+    let general = ask("saint-venant --general");
+    let sequences = ask("two-bars --general");
+    let stated = ask("rigid-mass --general");
+    let velocity = ask(WINDOWS[1]);
+    let (roots, largest) = (ask(WINDOWS[0]), ask(WINDOWS[4]));
+    let (rings, distance, doubles) = (ask(VALUES[6]), ask(DISTANCES[0]), ask(DOUBLES[0]));
+    type Change = fn(&mut serde_json::Value);
+    let (bounced, strained) = (ask(READINGS[0]), ask(READINGS[1]));
+    let (events, unequal) = (ask(EVENTS[0]), ask(EVENTS[1]));
+    let (sampled, fastest, lowest) = (ask(EXTREMES[0]), ask(EXTREMES[1]), ask(EXTREMES[2]));
+    let (crossing, released) = (ask(ZEROS[0]), ask(ZEROS[2]));
+    std::fs::write(folder.join("push.wave"), PUSH).unwrap();
+    let (turns, pushed) = (ask("push.wave"), ask("push.wave --quantity v --at 3/2"));
+    std::fs::write(folder.join("contents.wave"), CONTENTS).unwrap();
+    std::fs::write(folder.join("root.wave"), ROOTED).unwrap();
+    let rooted = ask("root.wave --quantity v --at 3/2");
+    let [held, moved] = [MORE_CONTENTS[0], MORE_CONTENTS[3]].map(ask);
+    let cases: [(&serde_json::Value, Change, &str); 134] = [
+        (&held, |own| own["line"][1]["velocity"] = number("2"), "the value is between"),
+        (&held, |own| own["line"][1]["force"] = number("1"), "the value is between"),
+        (&held, |own| own["line"][7]["force"] = number("1"), "an endless bar is infinite"),
+        (&held, |own| own["observed"][0][2] = "nobody".into(), "there is no nobody"),
+        (&held, |own| own["observed"][0][1] = "momentum".into(), "the value is between"),
+        (&moved, |own| own["observed"][0] = json!([one(), "momentum", "k"]), "cannot be read"),
+        (&moved, |own| own["observed"][0] = json!([one(), "energy", "a"]), "the value is between"),
+        (&rooted, |own| own["value"] = "0.413237192503764".into(), "the value is between"),
+        (&rooted, |own| own["line"][1]["course"] = over("1", 0), "no positive integer"),
+        (
+            &rooted,
+            |own| {
+                own["roots"]["sqrt(-1)"] = "-1".into();
+                own["line"][1]["course"] = json!([of_complex("1", "1"), of_complex("1", "2")]);
+            },
+            "not real",
+        ),
+        (&turns, |own| own["numbers"]["pi"] = json!(["3", "3"]), "pi is the number"),
+        (&turns, |own| own["local"] = "pi".into(), "pi is the number"),
+        (&turns, |own| own["roots"]["pi"] = "5".into(), "pi is the number"),
+        (&turns, |own| renamed(own, "pi", "tau"), "continuity 0 at the start of period 1"),
+        (&turns, |own| own["period"] = of("1", "pi"), "a period is not positive"),
+        (&pushed, |own| own["numbers"]["pi"] = json!(["3", "4"]), "stands for two numbers"),
+        (&pushed, |own| renamed(own, "pi", "tau"), "a symbol has no value"),
+        (
+            &crossing,
+            |own| drop(own["zeros"].as_array_mut().unwrap().pop()),
+            "it is zero just before",
+        ),
+        (&crossing, |own| own["zeros"][1] = own["zeros"][0].clone(), "overlap"),
+        (&crossing, |own| own["zeros"][0] = json!(["3/2", "8/5"]), "there may be no zero"),
+        (&crossing, |own| own["rests"][0][1][1] = "0.9999999".into(), "at another time"),
+        (&crossing, |own| own["rests"][0][0] = json!(["1/2", "7"]), "at another time"),
+        (&crossing, |own| own["zeros"] = json!({}), "a list is missing"),
+        (&crossing, |own| own["zeros"][0] = json!(["1/10", "1/5"]), "zero all of the time"),
+        (&crossing, |own| own["rests"] = json!([]), "there are 1 rests"),
+        (&crossing, |own| own["rests"][0][1] = json!(["2", "2"]), "at another time"),
+        (&crossing, |own| own["until"] = json!(["60", "60"]), "outside the window"),
+        (&crossing, |own| own["until"] = own["from"].clone(), "the window is empty"),
+        (&released, |own| own["rests"][1][0][1] = own["rests"][1][0][0].clone(), "may be a zero"),
+        (&released, |own| drop(own["rests"].as_array_mut().unwrap().remove(0)), "may be a zero"),
+        (&sampled, |own| own["values"][3][1] = "0".into(), "value 3 is between"),
+        (&sampled, |own| own["until"] = own["from"].clone(), "the window runs backwards"),
+        (&sampled, |own| own["points"] = 4.into(), "a value is missing"),
+        (&sampled, |own| own["until"] = json!(["9", "9"]), "outside the window"),
+        (&fastest, |own| own["value"] = "0.99999998".into(), "a value is beyond"),
+        (&fastest, |own| own["value"] = "1.00000001".into(), "not taken where it is said"),
+        (&fastest, |own| own["attained"] = "1/2".into(), "not taken where it is said"),
+        (&fastest, |own| own["attained"] = "4".into(), "outside the window"),
+        (&lowest, |own| own["goal"] = "largest".into(), "a value is beyond"),
+        (&lowest, |own| own["value"] = "0.1".into(), "a value is beyond"),
+        (
+            &lowest,
+            |own| {
+                own["until"] = own["from"].clone();
+                own["attained"] = own["from"][0].clone();
+            },
+            "the window is empty",
+        ),
+        (&fastest, |own| own["attained"] = own["until"][0].clone(), "outside the window"),
+        (&sampled, |own| own["from"] = json!(["0", "1000"]), "outside the window"),
+        (&strained, |own| own["observed"][0][3] = json!(null), "a wave is left out"),
+        (&strained, |own| own["observed"][0][3] = of("-5", "q"), "q has no value"),
+        (&strained, |own| own["observed"][0][3] = json!([[[["-5", {}]], []]]), "may be negative"),
+        (&strained, |own| own["observed"][0][4] = json!([]), "do not add up to the travel time"),
+        (&events, |own| drop(own["events"].as_array_mut().unwrap().pop()), "no event is claimed"),
+        (
+            &events,
+            |own| drop(own["events"].as_array_mut().unwrap().remove(0)),
+            "no event is claimed",
+        ),
+        (&events, |own| own["events"][1][3] = "3".into(), "runs backwards"),
+        (
+            &events,
+            |own| own["events"][1] = json!([0, "opening", "3.06", "3.067"]),
+            "not changed yet",
+        ),
+        (
+            &events,
+            |own| own["events"][1] = json!([0, "opening", "3.068", "3.07"]),
+            "changed before",
+        ),
+        (&events, |own| own["events"][1][1] = "closing".into(), "something else"),
+        (&events, |own| own["events"].as_array_mut().unwrap().swap(1, 2), "in one interval"),
+        (&events, |own| own["to"] = "3.1".into(), "2 events instead of 4"),
+        (&events, |own| own["line"][1]["velocity"] = of("1", "q"), "q has no value"),
+        (&events, |own| own["line"][2]["is"] = "free".into(), "two ends"),
+        (&events, |own| own["line"][3]["travel"] = json!([]), "without length"),
+        (&events, |own| own["step"] = "1/100000".into(), "too long"),
+        (&unequal, |own| own["events"][1][0] = 1.into(), "without a contact"),
+        (&unequal, |own| own["events"][1][1] = "opening".into(), "something else"),
+        (&unequal, |own| own["events"][2] = json!([0, "opening", "4", "4"]), "between 5.0 and 5.0"),
+        (&bounced, |own| own["value"] = "-0.698875581996164".into(), "the value is between"),
+        (&bounced, |own| own["last_place"] = (-14).into(), "more digits than it says"),
+        (&bounced, |own| own["at"] = json!(["9", "9"]), "outside the window"),
+        (&bounced, |own| own["observed"][0][2] = "anvil".into(), "there is no anvil"),
+        (&bounced, |own| own["observed"][0][1] = "force".into(), "cannot be read"),
+        (&strained, |own| own["unit"] = json!(["1", "1"]), "the value is between"),
+        (&strained, |own| own["line"][1]["name"] = "incident".into(), "a name stands twice"),
+        (&pieces, |own| own["pieces"]["f"][2][0][1][0][0][0][0] = "7".into(), "period 2"),
+        (&pieces, |own| own["continuity"][0]["start"] = json!([]), "continuity 0"),
+        (&pieces, |own| own["continuity"] = json!([]), "leaves values open"),
+        (&pieces, |own| own["equations"][0] = own["equations"][1].clone(), "derivatives open"),
+        (&pieces, |own| own["pieces"]["g"][1] = json!([]), "equation"),
+        (&line, |own| own["line"][1]["impedance"] = own["period"].clone(), "equation"),
+        (&line, |own| own["line"][1]["velocity"] = json!([]), "equation"),
+        (&line, |own| own["line"][2]["travel"] = own["period"].clone(), "no multiple"),
+        (&line, |own| own["line"][0]["is"] = "fixed".into(), "no multiple"),
+        (&line, |own| own["line"][1]["right"] = json!(null), "lacks a wave"),
+        (&general, |own| own["general"]["f"]["rate"] = own["period"].clone(), "different echoes"),
+        (
+            &general,
+            |own| own["general"]["g"]["terms"][0][1] = own["period"].clone(),
+            "an equation for echo 1",
+        ),
+        (&general, |own| own["line"][1]["mass"] = own["period"].clone(), "echo"),
+        (&sequences, |own| own["general"]["f"]["terms"][1][1] = 1.into(), "equation"),
+        (&value, |own| own["value"] = "0.3".into(), "another one"),
+        (&rings, |own| own["value"] = "0.3".into(), "another one"),
+        (
+            &rings,
+            |own| {
+                let i = json!([[[[["1", { "sqrt(-1)": 1 }]], []]]]);
+                own["observed"]["forcing"] = json!([[[], i[0]]]);
+            },
+            "not real",
+        ),
+        // A power of a root is no root: √3³ is not 1.73.
+        (
+            &value,
+            |own| {
+                own["roots"] = json!({ "q": "3" });
+                own["observed"]["waves"] = json!([]);
+                own["observed"]["forcing"] = json!([[[], [[[["1", { "q": 3 }]], []]]]]);
+                (own["value"], own["last_place"]) = ("1.73".into(), (-2).into());
+            },
+            "another one",
+        ),
+        // A root whose name is that of a number: e^√3 is not e^3.
+        (
+            &value,
+            |own| {
+                own["roots"] = json!({ "3": "3" });
+                own["observed"]["waves"] = json!([]);
+                let root = json!([[[[["1", { "3": 1 }]], []]], [[[["1", {}]], []]]]);
+                let number = json!([[[[["3", {}]], []]], [[[["-1", {}]], []]]]);
+                own["observed"]["forcing"] = json!([root, number]);
+                (own["value"], own["last_place"]) = ("0".into(), (-1).into());
+            },
+            "another one",
+        ),
+        (&pieces, |own| own["minus"] = json!({ "observed": {} }), "for nothing"),
+        (&distance, |own| own["minus"]["minus"] = own["minus"].clone(), "a third scene"),
+        (&distance, |own| own["minus"]["local"] = "x".into(), "names"),
+        (&doubles, |own| own["values"][9][0] = "1/3".into(), "the value at"),
+        (&doubles, |own| own["values"][9][1] = "0".into(), "the value at"),
+        (&doubles, |own| own["to"] = "5".into(), "the value at"),
+        (&distance, |own| own["value"] = "-0.03".into(), "beyond"),
+        (&distance, |own| own["goal"] = "smallest".into(), "beyond the extremum"),
+        (&distance, |own| drop(own.as_object_mut().unwrap().remove("minus")), "beyond"),
+        (&distance, |own| own["minus"]["time"] = "x".into(), "names"),
+        (&distance, |own| own["minus"]["pieces"]["rod"][0] = json!([]), "equation"),
+        (&value, |own| own["at"] = "34/10".into(), "another one"),
+        (&value, |own| own["last_place"] = (-3).into(), "more digits than it says"),
+        (&roots, |own| own["zeros"] = json!([]), "1 zeros instead of 0"),
+        (&roots, |own| own["zeros"][0] = json!(["3", "306/100"]), "is not told"),
+        (&roots, |own| drop(own["cells"].as_array_mut().unwrap().remove(1)), "gaps"),
+        (&roots, |own| own["cells"] = json!([["2", "4", 0]]), "no sign is seen"),
+        (&roots, |own| own["cells"][0][2] = 2.into(), "do not vanish"),
+        (&roots, |own| own["to"] = "5".into(), "end early"),
+        (&velocity, |own| own["cells"] = json!([["0", "6", 0]]), "a wave arrives"),
+        (&largest, |own| own["value"] = "-0.1".into(), "beyond the extremum"),
+        (&largest, |own| own["attained"][1] = "0".into(), "not taken"),
+        (&pieces, |own| own["roots"] = json!({ "r": "4" }), "nor a prime"),
+        (&pieces, |own| own["roots"] = json!({ "r": "3", "q": "3" }), "two roots of one"),
+        (
+            &pieces,
+            |own| {
+                own["roots"] = json!({ "r": "3" });
+                let zero = json!([[], [[[], [[[["1", { "r": 2 }], ["-3", {}]], 1]]]]]);
+                own["pieces"]["f"][1].as_array_mut().unwrap().push(zero);
+            },
+            "a divisor is zero",
+        ),
+        (&pieces, |own| own["roots"] = json!({ "s": "-1" }), "is no root"),
+        (&pieces, |own| own["roots"] = json!({ "t": "3" }), "is no root"),
+        (&pieces, |own| own["roots"] = json!({ "g": "3" }), "is no root"),
+        (&line, |own| own["line"][1]["impedance"] = of("1", "s"), "depends on time"),
+        (&line, |own| own["line"][1]["force"] = of("1", "t"), "depends on time"),
+        (&pieces, |own| own["equations"][0]["waves"][0][3] = json!([[[], of("1", "s")]]), "time"),
+        (&pieces, |own| own["pieces"]["f"][1][0][1] = of("1", "t"), "depends on another time"),
+        (&value, |own| own["observed"]["waves"][0][3] = json!([[[], of("1", "t")]]), "on time"),
+        (&value, |own| own["period"] = json!([[[["-1", {}]], []]]), "not positive"),
+        (&pieces, |own| own["period"] = of("-2", "mu"), "not positive"),
+        (&pieces, |own| own["period"] = json!([]), "not positive"),
+        (&line, |own| own["line"][2]["travel"] = json!([[[["-2", {}]], []]]), "without length"),
+        (
+            &stated,
+            |own| {
+                let sum = json!(["f", "sum", 0, [[[], [[[["1", {}]], []]]]]]);
+                own["continuity"][0]["waves"].as_array_mut().unwrap().push(sum);
+            },
+            "a sum or a slope",
+        ),
+        (
+            &general,
+            |own| {
+                let all = own["general"].as_object_mut().unwrap();
+                all.values_mut().for_each(|form| form["laguerre"] = json!([]));
+            },
+            "of nothing",
+        ),
+        (
+            &roots,
+            |own| {
+                own["to"] = own["from"].clone();
+                (own["cells"], own["zeros"]) = (json!([]), json!([]));
+            },
+            "the window is empty",
+        ),
+        (&pieces, |own| own["kind"] = "pieces\n".into(), "unknown kind \"pieces\\n\""),
+        (&pieces, |own| own["equations"][0]["waves"][0][2] = 1_000_000_000.into(), "too large"),
+        (&pieces, |own| own["period"][0][0][0][1]["mu"] = 1_000_000_000.into(), "too large"),
+        (&value, |own| own["last_place"] = (-1_000_000_000).into(), "too large"),
+        (&sequences, |own| own["general"]["f"]["terms"][0][1] = 1_000_000_000.into(), "too large"),
+        (&general, |own| own["general"]["f"]["terms"][0][0] = 1_000_000_000.into(), "too late"),
+    ];
+    for (certificate, change, wrong) in cases {
+        let mut altered = certificate.clone();
+        change(&mut altered);
+        std::fs::write(folder.join("altered.json"), altered.to_string()).unwrap();
+        let file = ["altered.json".to_owned()];
+        let told = checked(&folder, &file);
+        let Some((proven, told)) = told else { return };
+        assert!(!proven && told.contains("NOT proven") && told.contains(wrong), "{wrong}: {told}");
+        if let Some((proven, told)) = with_flint(&folder, "check_arb.py", &file) {
+            assert!(!proven && told.contains("NOT proven"), "{wrong}: {told}");
+        }
+    }
+}
