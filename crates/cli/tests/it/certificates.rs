@@ -439,7 +439,10 @@ fn all_observables_are_verified_or_refused() {
         let symbols: Vec<String> =
             problem.symbols().iter().map(|name| format!("--set {name}=3/2")).collect();
         for quantity in problem.observables() {
-            for asked in questions.iter().chain(&windows) {
+            // Those of whole elements take checkers longer.
+            let is_whole = ["energy", "momentum"].contains(&quantity);
+            let [of_questions, of_windows] = if is_whole { [1..2, 1..2] } else { [0..3, 0..3] };
+            for asked in questions[of_questions].iter().chain(&windows[of_windows]) {
                 let file = format!("{}.json", files.len());
                 let (symbols, asked) = (symbols.join(" "), asked.replace('Q', quantity));
                 let line = format!("certify {scene} {symbols} {asked} -o {file}");
