@@ -201,14 +201,15 @@ pub(crate) fn chosen<'a>(
         return from(Origin::Followed);
     }
     let closed = || from(Origin::Closed);
-    if origin(network, window[1], purpose) == Origin::Closed
-        || purpose == Purpose::Polynomials && is_cheap_closed(network, observed, window)
-    {
+    if origin(network, window[1], purpose) == Origin::Closed {
         let found = closed()?;
         return match purpose != Purpose::Echoes && resonates(network, &*found.1, window[1]) {
             true => from(Origin::Followed),
             false => Ok(found),
         };
+    }
+    if purpose == Purpose::Polynomials && is_cheap_closed(network, observed, window) {
+        return closed();
     }
     match from(Origin::Followed) {
         // The closed form gives the clearer error for a window that cannot be followed.

@@ -65,11 +65,13 @@ impl Chance {
         let until = self.is(2).then(|| self.one_of(&[(5, 2), (4, 1), (17, 3), (20, 1)]));
         let is_short = self.is(2);
         let none = Quotient::ZERO;
+        let turns = if self.is(3) { self.one_of(&[(1, 1), (2, 1), (1, 2), (2, 3)]) } else { none };
         let strength = self.one_of(&[(1, 4), (-1, 4), (1, 10), (1, 2), (-1, 3)]);
         Load {
             constant: strength,
             slope: if is_short { self.one_of(&[(1, 2), (-1, 2), (0, 1)]) } else { none },
             rate: if is_short { self.one_of(&[(1, 1), (1, 2), (2, 1)]) } else { none },
+            turns,
             from: self.one_of(&[(0, 1), (0, 1), (1, 2), (7, 3)]),
             until,
         }

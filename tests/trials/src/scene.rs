@@ -55,12 +55,14 @@ pub enum End {
     Endless,
 }
 
-/// The force `(constant + slope t) e^(−rate t)`, from a time until another.
+/// The force `(constant + slope t) e^(−rate t)`, times `sin(π turns t)` where these are not 0, from a time until another.
 #[derive(Clone, Debug)]
 pub struct Load {
     pub constant: Quotient,
     pub slope: Quotient,
     pub rate: Quotient,
+    /// Half turns in the unit of time.
+    pub turns: Quotient,
     pub from: Quotient,
     pub until: Option<Quotient>,
 }
@@ -70,7 +72,12 @@ impl Load {
     pub fn force(&self, time: f64) -> f64 {
         let acts = time > self.from.value() && self.until.is_none_or(|until| time < until.value());
         let [constant, slope, rate] = [self.constant, self.slope, self.rate].map(Quotient::value);
-        if acts { (constant + slope * time) * (-rate * time).exp() } else { 0.0 }
+        let decays = (constant + slope * time) * (-rate * time).exp();
+        match self.turns.value() {
+            _ if !acts => 0.0,
+            0.0 => decays,
+            turns => decays * (std::f64::consts::PI * turns * time).sin(),
+        }
     }
 }
 
@@ -285,10 +292,13 @@ impl Scene {
                 let all = vec![own("stiffness", stiffness, STIFFNESS), damping];
                 (if is_spring { "spring" } else { "support" }, all)
             }
-            Element::Load(Load { constant, slope, rate, from, until }) => {
+            Element::Load(Load { constant, slope, rate, turns, from, until }) => {
                 // Here the time is in seconds.
                 let time = self.units.map_or("t".to_owned(), |own| format!("{}*t", own.per_second));
-                let force = format!("({constant} + {slope}*{time})*exp(-{rate}*{time})");
+                let mut force = format!("({constant} + {slope}*{time})*exp(-{rate}*{time})");
+                if turns.value() != 0.0 {
+                    force += &format!("*sin({turns}*pi*{time})");
+                }
                 let mut all = vec![("force", self.with_unit(&force, FORCE))];
                 all.push(own("from", from, TIME));
                 all.extend(until.map(|until| own("until", &until, TIME)));
