@@ -147,7 +147,7 @@ impl Problem {
     }
 
     /// What contacts do until nothing can meet again, at most for a hundred of the longest travel times, or ten beside
-    /// a local contact: every separation and re-impact, with proof that none is missed. Instants have `digits` proven digits.
+    /// a local contact, and until some 250 events: every separation and re-impact, with proof that none is missed. Instants have `digits` proven digits.
     ///
     /// ```
     /// let hammer = wavestep::Problem::builtin("saint-venant")?.with("mu", 1)?;

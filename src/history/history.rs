@@ -233,7 +233,7 @@ impl History {
     }
 
     /// Follows a scene until a time in the user's units or until nothing can meet again; without a time for
-    /// a hundred of the longest travel times at most, or ten beside a local contact. Instants have the digits asked for, unless they are exact.
+    /// a hundred of the longest travel times at most, or ten beside a local contact, and until some 250 events. Instants have the digits asked for, unless they are exact.
     ///
     /// # Errors
     /// [`HistoryError::MissingValue`] for a symbol without a value; [`HistoryError::Refused`] for what is

@@ -17,7 +17,7 @@ use crate::history::history::{
     Body, ContactSummary, Ending, Event, EventKind, History, precisions,
 };
 use crate::history::moment::Moment;
-use crate::limits::{MAX_HISTORY_BITS, MAX_HISTORY_CELLS, memory};
+use crate::limits::{MAX_EVENTS, MAX_HISTORY_BITS, MAX_HISTORY_CELLS, memory};
 use crate::network::Network;
 use crate::scene::{Dimension, Kind};
 use crate::signal::Limit;
@@ -34,6 +34,9 @@ const PATIENCE_WITH_LOCAL_CONTACTS: u32 = 10;
 /// How many cells are followed where no end is given, until the next multiple of that time: echoes of travel times without a
 /// common measure are ever more.
 const MANY_CELLS: usize = MAX_HISTORY_CELLS / 4;
+
+/// And after so many events.
+const MANY_EVENTS: usize = MAX_EVENTS / 4;
 
 /// Events are told on the way where what is kept takes more than this share of the memory.
 const MUCH: u64 = 64;
@@ -170,7 +173,7 @@ impl Story<'_> {
         loop {
             count += if count < patience { 1 } else { patience };
             let next = match until {
-                None if count > patience || self.engine.count() > MANY_CELLS => return Ok(()),
+                None if count > patience || self.is_long() => return Ok(()),
                 None => times(count),
                 Some(until) => self.engine.clock.earlier(until.clone(), times(count))?,
             };
@@ -190,6 +193,11 @@ impl Story<'_> {
                 self.tell_and_forget()?;
             }
         }
+    }
+
+    /// Whether there is much to tell already, where no end was asked for.
+    fn is_long(&self) -> bool {
+        self.engine.count() > MANY_CELLS || self.engine.happenings.len() > MANY_EVENTS
     }
 
     /// Tells what was before the end and forgets it, unless a contact has come to no force: the event that follows, if

@@ -368,3 +368,17 @@ fn loads_that_begin_with_zero_press_at_once() {
         );
     }
 }
+
+/// A drill that a feed presses to the rock chatters on; without an end it is followed until there is much to tell.
+#[test]
+fn much_chatter_is_told_as_far_as_it_is_followed() {
+    let text = "scene \"Drill\"\nbar piston { impedance = 8, travel = 2, velocity = 9 }\n\
+        bar rod { impedance = 3, travel = 15 }\nbar bit { impedance = 13, travel = 1 }\n\
+        support rock { stiffness = 2, damping = 1/2 }\nload feed { force = 5 }\n\
+        line free - feed - piston | rod - bit - rock - free\ncontacts open";
+    let history = History::of(&network_of(text, &[]), None, 6).unwrap();
+    let Ending::Followed(end) = &history.ending else { panic!("{:?}", history.ending) };
+    assert!(history.events.len() > 250 && end.to_f64() < 1500.0, "{}", history.events.len());
+    let times: Vec<f64> = history.events.iter().map(|event| event.time.to_f64()).collect();
+    assert!(times.windows(2).all(|pair| pair[0] <= pair[1]) && times[250] <= end.to_f64());
+}
