@@ -87,6 +87,7 @@ class Ring:
     def quotient(self, rows):
         total = Quotient(self, self.zero, self.one)
         for top, factors in rows:
+            need(type(factors) is list, "factors are no list")
             below = self.one
             for factor, power in factors:
                 need(is_index(power) and power > 0, "a power is no positive integer")

@@ -130,6 +130,7 @@ class Parts:
         need(type(rows) is list, "a number is no list")
         total = NIL
         for top, factors in rows:
+            need(type(factors) is list, "factors are no list")
             below = fmpq(1)
             for factor, power in factors:
                 need(type(power) is int and 0 < power <= 10**4, "a power is no positive integer")
@@ -174,6 +175,7 @@ class Parts:
         """A rational function of time: its powers, in complex numbers."""
         powers = {}
         for top, factors in rows:
+            need(type(factors) is list, "factors are no list")
             need(all(self.time not in names for factor, _ in factors for _, names in factor), "a divisor holds the time")
             below = flint.acb(1)
             for factor, power in factors:
