@@ -103,7 +103,7 @@ class Load:
         start, rate, *others = coefficients(thawed(exponent), self.time, dict) + [{}, {}]
         need(not any(others), "an exponent is not linear in the time")
         factors, x, powers = list(map(self.complex, factors)), self.complex(rate), [self.complex(start).exp()]
-        need(x.size() >> bits < 64, "a step is too long for a load")
+        decided(x.size() >> bits < 64, "a step is too long for a load")
         for k in range(terms):
             powers.append((powers[-1] * x).over(k + 1))
         real = lambda own: Number(None, own.real, own.off)
