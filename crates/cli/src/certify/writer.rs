@@ -109,7 +109,8 @@ impl Writer {
 
     /// What is below each root; those that turns hold are among them.
     pub fn told_roots(&self) -> Json {
-        let has_turns = self.others.iter().any(|symbol| symbol.name() == PI);
+        let has_turns = self.others.iter().any(|symbol| symbol.name() == PI)
+            && self.roots.iter().any(|root| root.square() == Some(-1));
         let of_turns = [-1, 2, 3].into_iter().filter(|_| has_turns);
         let of_turns: Vec<Symbol> = of_turns.filter_map(Symbol::square_root).collect();
         let square =
