@@ -7,7 +7,7 @@ use wavestep_trials::{EVENTS, KINDS, Tally, Trial, Verdict, random_scene};
 fn random_texts_agree_in_all_ways() {
     let mut tally = Tally::default();
     let mut agree = [0; KINDS.len()];
-    for number in 1..=60 {
+    for number in 1..=90 {
         let trial = Trial::new(number);
         let (kind, text) = (trial.kind, trial.text.clone());
         match trial.run() {
