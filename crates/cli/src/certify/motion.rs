@@ -8,7 +8,7 @@ use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
 use serde_json::{Map, Value as Json, json};
 use std::collections::BTreeSet;
-use wavestep::ball::{Ball, Bound, Decimal, Number};
+use wavestep::ball::{Bound, Decimal, Number};
 use wavestep::enclosure::Numbers;
 use wavestep::expression::{Fraction, PI, Root};
 use wavestep::history::{Event, EventKind};
@@ -139,7 +139,7 @@ impl<'a> Line<'a> {
         for load in self.network.model().loads.values() {
             let time = &self.network.scene().time;
             let rates = load.course.terms().map(|(exponent, _)| exponent.derivative(time));
-            rate = rates.map(|own| self.size_of_rate(own)).fold(rate, f64::max);
+            rate = rates.map(|own| self.size(&own)).fold(rate, f64::max);
         }
         // A power of two, at most the time of the fastest decay.
         let exponent = shortest.min(1.0 / rate).log2().floor();
@@ -164,15 +164,9 @@ impl<'a> Line<'a> {
         Ok(Precision { step, terms, bits: bits as u64 })
     }
 
-    /// About how large a number of the line is.
+    /// About how large a number of the line is, which may be complex.
     fn size(&self, value: &Fraction) -> f64 {
-        let ball = self.numbers.enclose(value, 64).unwrap_or_else(|_| Ball::zero());
-        ball.midpoint().to_double()
-    }
-
-    /// About how large a number is that may be complex.
-    fn size_of_rate(&self, rate: Fraction) -> f64 {
-        let ball = self.numbers.enclose_complex(&rate.into(), 64);
+        let ball = self.numbers.enclose_complex(&value.clone().into(), 64);
         ball.map_or(0.0, |ball| {
             let [x, y] = [ball.real(), ball.imaginary()].map(|part| part.midpoint().to_double());
             x.hypot(y)
