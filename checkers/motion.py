@@ -32,6 +32,7 @@ CLAIMS = {
     "terms",
     "bits",
 }
+OF_SECOND = {"title", "constants", "time", "line", "events", "observed"}
 MOST_CELLS, MOST_BITS, MOST_TERMS, MOST_RUNS = 8000, 4096, 400, 64
 
 
@@ -368,15 +369,16 @@ class System:
 
 
 class Motion:
-    """The motion as far as it is followed. A time is the number of an event, 0 for the start, and an exact time after it."""
+    """The motion as far as it is followed. A time is the number of an event, 0 for the start, and an exact time after it; the
+    events of a second motion are counted on."""
 
-    def __init__(self, cert):
+    def __init__(self, cert, instants):
         self.line, self.claims, self.to = Line(cert), read_claims(cert), rational(cert["to"])
         self.step, self.terms = rational(cert["step"]), cert["terms"]
         need(self.to > 0 and self.step > 0 and self.to / self.step < MOST_CELLS, "the window is empty, or too long")
         line = self.line
         need(all(0 <= contact < len(line.contacts) for contact, *_ in self.claims), "an event without a contact")
-        self.instants, self.now, self.marks, self.past, self.events = [ZERO], START, [], [], []
+        self.instants, self.now, self.marks, self.past, self.events = instants, START, [], [], []
         self.open = {i: {"flat": 0, "idle": None, "pressed": False} for i in line.contacts}
         self.closed = set(line.contacts)
         springs = [i for i, link in enumerate(line.links) if link["is"] == "spring"]
@@ -663,13 +665,21 @@ def read_claims(cert):
     return claims
 
 
-def check_events(cert, more=()):
-    """The contacts of the line close, open and lose their force in this order, and no other ones do before the end."""
+def check_motions(cert, more):
+    """The contacts of each line close, open and lose their force in this order, and no other ones do before the end."""
     need(cert.keys() == CLAIMS.union(more), "a claim lacks something, or has too much")
     for key, most in (("bits", MOST_BITS), ("terms", MOST_TERMS)):
         need(type(cert[key]) is int and 4 <= cert[key] <= most, f"{key} are too few, or too many")
     PRECISION["bits"] = cert["bits"]
-    motion = Motion(cert)
+    scenes, instants = [cert], [ZERO]
+    if "minus" in cert:
+        need(cert["minus"].keys() == OF_SECOND, "a second scene lacks something, or has too much")
+        scenes.append(cert | cert["minus"])
+    return [(followed(scene, instants), scene) for scene in scenes]
+
+
+def followed(cert, instants):
+    motion = Motion(cert, instants)
     motion.follow()
     need(len(motion.claims) == len(motion.events), f"{len(motion.events)} events instead of {len(motion.claims)}")
     found = {i: [own for own in motion.events if own[1] == i] for i in motion.line.contacts}
@@ -683,3 +693,7 @@ def check_events(cert, more=()):
     for a, b in zip(times, times[1:]):
         decided(motion.since(b, a).sign() in (0, 1), "events are not in the order of time")
     return motion
+
+
+def check_events(cert):
+    check_motions(cert, ())

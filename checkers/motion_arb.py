@@ -411,9 +411,10 @@ def at(time):
 
 
 class Story:
-    """What has happened so far. A time is (n, s): s after the n-th instant that is not exact, the 0-th is the start."""
+    """What has happened so far. A time is (n, s): s after the n-th instant that is not exact, the 0-th is the start; two stories
+    have one list of these."""
 
-    def __init__(self, cert):
+    def __init__(self, cert, origins):
         self.parts = parts = Parts(cert)
         self.order, self.step, self.end = cert["terms"], rational(cert["step"]), rational(cert["to"])
         need(self.step > 0 and self.end > 0 and self.end / self.step < 8000, "a window without steps, or with too many")
@@ -424,7 +425,7 @@ class Story:
             need(0 <= self.told[-1][2] <= self.told[-1][3], "an interval runs backwards")
             before = [own[3] for own in self.told[:-1] if own[0] == self.told[-1][0]]
             need(not before or before[-1] <= self.told[-1][2], "two events of a contact are in one interval")
-        self.origins, self.now = [arb(0)], START
+        self.origins, self.now = origins, START
         self.begins, self.past, self.integrals, self.happened = [], [], {}, []
         self.closed, self.idle, self.flush, self.pressed = set(parts.contacts), {}, {}, set()
         heavy = [r for r, m in enumerate(parts.mass) if sign(m) == 1 and not parts.fixed[r]]
@@ -730,12 +731,23 @@ def rational_below(ball):
 
 
 def check_motion(cert, more=""):
+    """The story that is claimed, and what is observed of it; of a second one too, where one is subtracted."""
     names = "wavestep_certificate kind title constants time line numbers roots to events step terms bits " + more
-    need(set(cert) == set(names.split()), "a certificate has other keys")
+    others = {"minus"} if more and "minus" in cert else set()
+    need(set(cert) == set(names.split()) | others, "a certificate has other keys")
     bits, terms = cert["bits"], cert["terms"]
     need(all(type(own) is int for own in (bits, terms)) and 4 <= bits <= 4096 and 4 <= terms <= 400, "bits or terms")
     flint.ctx.prec = bits + 32
-    story = Story(cert)
+    lines, origins = [cert], [arb(0)]
+    if others:
+        need(set(cert["minus"]) == set("title constants time line events observed".split()), "a second scene has other keys")
+        lines.append({**cert, **cert["minus"]})
+    return [(told(own, origins), own.get("observed")) for own in lines]
+
+
+def told(cert, origins):
+    """What happens, which has to be what is claimed."""
+    story = Story(cert, origins)
     story.run()
     need(len(story.told) == len(story.happened), "there are more or fewer events")
     times = []

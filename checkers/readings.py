@@ -5,7 +5,7 @@ from functools import cmp_to_key
 from itertools import zip_longest
 
 from exact import MINUS, accumulate, decimal, is_count, is_zero, rational, read_function
-from motion import check_events, exactly, moved
+from motion import check_motions, exactly, moved
 from reading import Wrong, decided, need
 from series import ONE, ZERO, Duration, Number, interval, is_positive, shifted, slope, squared, total, value
 
@@ -21,8 +21,8 @@ READINGS |= {(kind, what): 0 for kind in ("spring", "support") for what in ("com
 class Reader:
     """Reads a motion that has been followed."""
 
-    def __init__(self, motion):
-        self.motion, self.sums = motion, {}
+    def __init__(self, motion, rows):
+        self.motion, self.rows, self.sums = motion, rows, {}
 
     def cell_at(self, time):
         """The number of the cell that holds a time, and how far in it the time is, in steps."""
@@ -71,10 +71,10 @@ class Reader:
 
         return [self.motion.instant(begin), Number(self.motion.step)], known
 
-    def seen(self, rows, where):
+    def seen(self, where):
         """A sum of coefficients times what is read of elements, as a value or a series."""
         line, sums, (time, known) = self.motion.line, [[ZERO]], where
-        for coefficient, what, name, *of in rows:
+        for coefficient, what, name, *of in self.rows:
             need(name in line.places, f"there is no {name}")
             kind, n = line.places[name]
             need((kind, what) in READINGS and len(of) == READINGS[kind, what], f"{what} of {name} cannot be read")
@@ -139,13 +139,14 @@ class Reader:
             sums += [scaled(factor, own) for own in self.inside(n, way, known, list)]
         return sums
 
-    def delays(self, rows):
-        """How much later than waves begin what is read of them changes."""
-        places = self.motion.line.places
+    def arrivals(self):
+        """When what is read may change."""
+        places, rows = self.motion.line.places, self.rows
         in_bars = [places[name][1] for _, what, name, *_ in rows if what in ("momentum", "energy") and places[name][0] == "bar"]
         of_bars = [self.motion.line.travels[n] for n in in_bars]
         told = [own for row in rows for own in row[3:] if type(own) is list] + [own for own in of_bars if own is not None]
-        return [Duration({})] + [self.motion.line.duration(own) for own in told]
+        delays = [Duration({})] + [self.motion.line.duration(own) for own in told]
+        return {moved(mark, delay) for mark in self.motion.marks for delay in delays}
 
     def need_section(self, n, right, left):
         """Two delays are those of one section of a bar: from an endless side comes nothing, else they add up to the travel time."""
@@ -157,13 +158,30 @@ class Reader:
             rest = accumulate({(): read_function(right)}, {(): read_function(left)})
             need(is_zero(accumulate(rest, {(): read_function(line.travels[n])}, MINUS)), "the delays do not add up to the travel time")
 
-    def parts(self, rows, begin, end, times):
+
+class Reading:
+    """What is read of a motion, less what is read of a second one, if any."""
+
+    def __init__(self, cert, more):
+        motions = check_motions(cert, READS.union(more, {"minus"} & cert.keys()))
+        self.readers, self.motion = [Reader(motion, scene["observed"]) for motion, scene in motions], motions[0][0]
+
+    def less(self, series):
+        one, *others = series
+        return list(map(total, zip_longest(one, *(scaled(-ONE, own) for own in others), fillvalue=ZERO)))
+
+    def at(self, time):
+        return self.less([reader.seen(reader.at(time)) for reader in self.readers])[0]
+
+    def on(self, begin, end):
+        return self.less([reader.seen(reader.on(begin, end)) for reader in self.readers])
+
+    def parts(self, begin, end, times):
         """Times in order, from one to another, between which nothing that is read arrives; these ones are among them, but for
         those of which it is not decided whether they are before an arrival."""
-        later = self.motion.later
-        delays = self.delays(rows)
-        cuts = {moved(mark, delay) for mark in self.motion.marks for delay in delays}
-        cuts |= {time for time in times if all(time == cut or self.motion.since(time, cut).sign() for cut in cuts)}
+        later, since = self.motion.later, self.motion.since
+        cuts = set().union(*(reader.arrivals() for reader in self.readers))
+        cuts |= {time for time in times if all(time == cut or since(time, cut).sign() for cut in cuts)}
         inside = [cut for cut in cuts if later(begin, cut) < 0 < later(end, cut)]
         found = [begin, *sorted(inside, key=cmp_to_key(later)), end]
         return [(a, b) for a, b in zip(found, found[1:]) if later(a, b)]
@@ -182,53 +200,56 @@ def within(motion, time):
 
 def check_reading(cert):
     """What is read at a time is the decimal, correctly rounded, for all times and units of the two intervals."""
-    reader = Reader(check_events(cert, READS | {"unit", "at", "value", "last_place"}))
+    reading = Reading(cert, {"unit", "at", "value", "last_place"})
     (claim, slack), time = decimal(cert), interval(cert["at"])
-    within(reader.motion, time)
-    [read] = reader.seen(cert["observed"], reader.at(time))
-    low, high = (read * interval(cert["unit"])).ends()
+    within(reading.motion, time)
+    low, high = (reading.at(time) * interval(cert["unit"])).ends()
     need(claim - slack <= low and high <= claim + slack, f"the value is between {float(low)} and {float(high)}")
 
 
 def check_readings(cert):
     """What is read at evenly spaced times is off by the bound at most, for all times and units of the intervals."""
-    reader = Reader(check_events(cert, READS | {"unit", "from", "until", "points", "values"}))
+    reading = Reading(cert, {"unit", "from", "until", "points", "values"})
     begin, end, unit = (interval(cert[key]) for key in ("from", "until", "unit"))
-    within(reader.motion, begin)
-    within(reader.motion, end)
+    within(reading.motion, begin)
+    within(reading.motion, end)
     need(cert["points"] == 1 or (end - begin).sign() == 1, "the window runs backwards, or may do so")
     need(is_count(cert["points"]) and cert["points"] == len(cert["values"]) > 0, "a value is missing, or there is one too many")
     for i, (claim, off) in enumerate([rational(own) for own in row] for row in cert["values"]):
         share = Fraction(i, max(cert["points"] - 1, 1))
-        [read] = reader.seen(cert["observed"], reader.at(begin.times(1 - share) + end.times(share)))
-        low, high = (read * unit).ends()
+        low, high = (reading.at(begin.times(1 - share) + end.times(share)) * unit).ends()
         need(claim - off <= low and high <= claim + off, f"value {i} is between {float(low)} and {float(high)}")
 
 
 def check_extreme(cert):
     """Nothing that is read in the window is beyond the decimal by more than half a unit of its last place, and at one time it is
-    as near."""
-    way, (claim, slack) = {"largest": 1, "smallest": -1}[cert["goal"]], decimal(cert)
-    motion = check_events(cert, READS | {"unit", "from", "until", "goal", "value", "last_place", "times", "attained"})
-    reader, rows, (begin, end, unit) = Reader(motion), cert["observed"], (interval(cert[key]) for key in ("from", "until", "unit"))
+    as near; a distance is so on both sides of zero, and as near on one."""
+    ways, (claim, slack) = {"largest": [1], "smallest": [-1], "distance": [1, -1]}[cert["goal"]], decimal(cert)
+    reading = Reading(cert, {"unit", "from", "until", "goal", "value", "last_place", "times", "attained"})
+    motion, (begin, end, unit) = reading.motion, (interval(cert[key]) for key in ("from", "until", "unit"))
     (first, after), (before, last) = within(motion, begin), within(motion, end)
     need(after < before, "the window is empty")
-    left = lambda read, by: scaled(Number(Fraction(-way)), [read[0] * unit - Number(claim + by), *scaled(unit, read[1:])])
-    for a, b in reader.parts(rows, exactly(first), exactly(last), [exactly(rational(own)) for own in cert["times"]]):
-        below, reach = left(reader.seen(rows, reader.on(a, b)), way * slack), motion.since(b, a).ends()[1] / motion.step
-        need(below[0].sign() == 1, f"a value is beyond the extremum at {float(motion.instant(a).ends()[0])}")
-        decided(is_positive(below, Fraction(0), reach), "between two times there may be an extremum")
+    size = lambda way: claim * way if cert["goal"] == "distance" else claim
+    # How far what is read is below a bound, which is half a unit beyond the decimal or short of it.
+    left = lambda way, read, by: scaled(Number(Fraction(-way)), [read[0] * unit - Number(size(way) + way * by), *scaled(unit, read[1:])])
+    for a, b in reading.parts(exactly(first), exactly(last), [exactly(rational(own)) for own in cert["times"]]):
+        read, reach = reading.on(a, b), motion.since(b, a).ends()[1] / motion.step
+        for below in (left(way, read, slack) for way in ways):
+            need(below[0].sign() == 1, f"a value is beyond the extremum at {float(motion.instant(a).ends()[0])}")
+            decided(is_positive(below, Fraction(0), reach), "between two times there may be an extremum")
     time = rational(cert["attained"])
     need(after <= time < before, "the extremum is taken outside the window")
-    [near] = left(reader.seen(rows, reader.at(Number(time))), -way * slack)
-    decided(near.sign() in (0, -1), "the extremum is not taken where it is said")
+    near = [left(way, [reading.at(Number(time))], -slack)[0].sign() for way in ways]
+    decided(any(sign in (0, -1) for sign in near), "the extremum is not taken where it is said")
 
 
 def check_zeros(cert):
     """From the least to the greatest time of the window what is read is zero once in each of the intervals, and throughout each of
     the rests, and nowhere else but perhaps in the interval in which a rest begins."""
-    motion = check_events(cert, READS | {"from", "until", "times", "zeros", "rests"})
-    reader, rows, ((first, after), (before, last)) = Reader(motion), cert["observed"], (map(rational, cert[key]) for key in ("from", "until"))
+    reading, ((first, after), (before, last)) = Reading(cert, {"from", "until", "times", "zeros", "rests"}), (
+        map(rational, cert[key]) for key in ("from", "until")
+    )
+    motion = reading.motion
     need(first <= after and before <= last and first < last, "the window is empty, or runs backwards")
     need(0 <= first and last < motion.to, "the time is outside the window")
     need(all(type(cert[key]) is list for key in ("zeros", "rests", "times")), "a list is missing")
@@ -238,8 +259,8 @@ def check_zeros(cert):
     crossed, rests, is_after_rest = [], [], False
     claims = [[tuple(map(rational, time)) for time in rest] for rest in cert["rests"]]
     hints = list(map(exactly, [*map(rational, cert["times"]), *ends, *(low for (low, _), _ in claims)]))
-    parts = reader.parts(rows, exactly(first), exactly(last), hints)
-    reads = [reader.seen(rows, reader.on(a, b)) for a, b in parts]
+    parts = reading.parts(exactly(first), exactly(last), hints)
+    reads = [reading.on(a, b) for a, b in parts]
     is_rest = [all(own.is_zero() for own in read) for read in reads] + [False]
     for n, ((a, b), read) in enumerate(zip(parts, reads)):
         length = motion.since(b, a).times(1 / motion.step)

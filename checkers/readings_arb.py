@@ -130,12 +130,51 @@ class Place:
         return result
 
 
-def read(story, cert, time):
-    """The value at a time that may be an interval, in its unit."""
-    need(sign(time) in (0, 1) and sign(story.end - time) == 1, "the time is outside the window")
-    begin = at(time) if isinstance(time, fmpq) else (len(story.origins), Length())
-    story.origins += [] if isinstance(time, fmpq) else [time]
-    return Place(story, begin, None).observed(cert["observed"])[0] * interval(cert["unit"])
+class Observed:
+    """What is read of a motion, less what is read of a second one, if any."""
+
+    def __init__(self, cert, more):
+        self.told = check_motion(cert, READ + more)
+        self.story = self.told[0][0]
+
+    def seen(self, begin, end):
+        series = [Place(story, begin, end).observed(rows) for story, rows in self.told]
+        return series[0] if len(series) == 1 else plus(series[0], times(-1, series[1]))
+
+    def read(self, time):
+        """The value at a time that may be an interval."""
+        story = self.story
+        need(sign(time) in (0, 1) and sign(story.end - time) == 1, "the time is outside the window")
+        begin = at(time) if isinstance(time, fmpq) else (len(story.origins), Length())
+        story.origins += [] if isinstance(time, fmpq) else [time]
+        return self.seen(begin, None)[0]
+
+    def cut(self, begin, end, hints):
+        """Parts of a window between which nothing that is read arrives, as pairs of times; some begin at these times."""
+        story = self.story
+        first = begin if isinstance(begin, fmpq) else rational_below(begin)
+        last = end if isinstance(end, fmpq) else rational_above(end)
+        need(0 <= first and last < story.end and sign(end - begin) == 1, "the window is empty, or outside what is followed")
+        arrivals = [(n, s.plus(lag)) for own, rows in self.told for n, s in own.begins for lag in lags(own, rows)]
+        # Hints that are not known to be before or after an arrival are none.
+        hints = [at(rational(time)) for time in hints]
+        arrivals += [time for time in hints if all(time == own or sign(story.between(time, own)) for own in arrivals)]
+        cuts = [at(first)]
+        while cuts[-1] != at(last):
+            following = at(last)
+            for time in arrivals:
+                if story.is_later(time, cuts[-1]) and story.is_later(following, time):
+                    following = time
+            cuts.append(following)
+        return zip(cuts, cuts[1:])
+
+
+def lags(story, rows):
+    """How much later than something begins it is read."""
+    found = [Length()] + [story.parts.length(own) for row in rows for own in row[3:] if type(own) is list]
+    bars = [story.parts.named[row[2]] for row in rows if row[1] in ("momentum", "energy")]
+    travels = [story.parts.links[n]["travel"] for kind, n in bars if kind == "bar"]
+    return found + [travel for travel in travels if travel is not None]
 
 
 def is_within(value, error):
@@ -152,43 +191,21 @@ def decimal(cert):
 
 def check_reading(cert):
     """The decimal is what is read, correctly rounded, whatever the time and the unit are within their intervals."""
-    story, (value, half) = check_motion(cert, READ + "unit at value last_place"), decimal(cert)
-    need(is_within(read(story, cert, interval(cert["at"])) - value, half), "the value is another one")
+    observed, (value, half) = Observed(cert, "unit at value last_place"), decimal(cert)
+    read = observed.read(interval(cert["at"])) * interval(cert["unit"])
+    need(is_within(read - value, half), "the value is another one")
 
 
 def check_readings(cert):
     """Each value is as near to what is read at its time as its bound says."""
-    story, count = check_motion(cert, READ + "unit from until points values"), cert["points"]
-    begin, end = (interval(cert[key]) for key in ("from", "until"))
+    observed, count = Observed(cert, "unit from until points values"), cert["points"]
+    begin, end, unit = (interval(cert[key]) for key in ("from", "until", "unit"))
     need(type(count) is int and len(cert["values"]) == count > 0, "there are more or fewer values than points")
     need(sign(end - begin) in (0, 1) or count == 1, "the window runs backwards")
     for i, (value, error) in enumerate(cert["values"]):
         share = fmpq(i, max(count - 1, 1))
         time = begin * (1 - share) + end * share
-        need(is_within(read(story, cert, time) - rational(value), rational(error)), f"value {i} is another one")
-
-
-def cut(story, cert, begin, end, hints):
-    """Parts of a window between which nothing that is read arrives, as pairs of times; some begin at these times."""
-    first = begin if isinstance(begin, fmpq) else rational_below(begin)
-    last = end if isinstance(end, fmpq) else rational_above(end)
-    need(0 <= first and last < story.end and sign(end - begin) == 1, "the window is empty, or outside what is followed")
-    lags = [Length()] + [story.parts.length(own) for row in cert["observed"] for own in row[3:] if type(own) is list]
-    bars = [story.parts.named[row[2]] for row in cert["observed"] if row[1] in ("momentum", "energy")]
-    travels = [story.parts.links[n]["travel"] for kind, n in bars if kind == "bar"]
-    lags += [travel for travel in travels if travel is not None]
-    cuts = [at(first)]
-    arrivals = [(n, s.plus(lag)) for n, s in story.begins for lag in lags]
-    # Hints that are not known to be before or after an arrival are none.
-    hints = [at(rational(time)) for time in hints]
-    arrivals += [time for time in hints if all(time == own or sign(story.between(time, own)) for own in arrivals)]
-    while cuts[-1] != at(last):
-        following = at(last)
-        for time in arrivals:
-            if story.is_later(time, cuts[-1]) and story.is_later(following, time):
-                following = time
-        cuts.append(following)
-    return zip(cuts, cuts[1:])
+        need(is_within(observed.read(time) * unit - rational(value), rational(error)), f"value {i} is another one")
 
 
 def length(story, a, b):
@@ -198,19 +215,21 @@ def length(story, a, b):
 
 
 def check_extreme(cert):
-    """What is read stays on one side of a bound, half a unit in the last place beyond the decimal, and comes as near once."""
-    story = check_motion(cert, READ + "unit from until goal value last_place times attained")
+    """What is read stays on one side of a bound, half a unit in the last place beyond the decimal, and comes as near once; of a
+    distance it stays between two, and comes as near to one."""
+    observed = Observed(cert, "unit from until goal value last_place times attained")
     (value, half), (begin, end, unit) = decimal(cert), (interval(cert[key]) for key in ("from", "until", "unit"))
-    way = {"largest": 1, "smallest": -1}[cert["goal"]]
-    for a, b in cut(story, cert, begin, end, cert["times"]):
-        left = times(-way * unit, Place(story, a, b).observed(cert["observed"]))
-        until = length(story, a, b)
-        left = plus([way * value + half], left)
-        decided(sign(left[0]) == 1 and stays_positive(left, NIL, until), "a value is beyond the extremum, or may be")
+    bounds = {"largest": {1: value}, "smallest": {-1: -value}, "distance": {1: value, -1: value}}[cert["goal"]]
+    for a, b in observed.cut(begin, end, cert["times"]):
+        read, until = times(unit, observed.seen(a, b)), length(observed.story, a, b)
+        for way, most in bounds.items():
+            left = plus([most + half], times(-way, read))
+            decided(sign(left[0]) == 1 and stays_positive(left, NIL, until), "a value is beyond the extremum, or may be")
     time = rational(cert["attained"])
     need(sign(time - begin) in (0, 1) and sign(end - time) == 1, "the extremum is taken outside the window")
-    left = way * (value - read(story, cert, time))
-    need(sign(half - left) in (0, 1), "the extremum is not taken where it is said")
+    read = observed.read(time) * unit
+    near = [sign(way * read - (most - half)) in (0, 1) for way, most in bounds.items()]
+    need(any(near), "the extremum is not taken where it is said")
 
 
 def exact_or_ball(story, time):
@@ -225,7 +244,8 @@ def begins_in(story, a, b, claim):
 def check_zeros(cert):
     """What is read passes through zero once in each interval, does not leave it in a rest, and is not zero elsewhere in the widest
     window: nothing is said of the interval in which a rest begins."""
-    story = check_motion(cert, READ + "from until times zeros rests")
+    observed = Observed(cert, "from until times zeros rests")
+    story = observed.story
     (begin, after), (before, end) = (map(rational, cert[key]) for key in ("from", "until"))
     need(begin <= after and before <= end, "a time runs backwards")
     pairs = [[rational(low), rational(high)] for low, high in cert["zeros"]]
@@ -235,7 +255,7 @@ def check_zeros(cert):
     found, passed, rests = set(), None, []
     claims = [[list(map(rational, time)) for time in rest] for rest in cert["rests"]]
     hints = cert["times"] + [time for pair in cert["zeros"] for time in pair] + [low for (low, _), _ in cert["rests"]]
-    parts = [(a, b, Place(story, a, b).observed(cert["observed"])) for a, b in cut(story, cert, begin, end, hints)]
+    parts = [(a, b, observed.seen(a, b)) for a, b in observed.cut(begin, end, hints)]
     rested = [all(map(is_nil, read)) for _, _, read in parts]
     for (a, b, read), rests_now, rests_next in zip(parts, rested, rested[1:] + [False]):
         until = length(story, a, b)

@@ -379,6 +379,9 @@ fn remedy_of_network(error: &NetworkError) -> &'static str {
              as docs/scene-language.md shows"
         }
         NetworkError::NotLinear(_) => "compute values",
+        NetworkError::Massless(_) => {
+            "a spring passes a force on unchanged: put the load behind it, or put a mass or a damper at the joint"
+        }
         NetworkError::Recurrence(_) => {
             "a joint without mass cannot be forced or held against a spring or a moving bar: put a mass there"
         }

@@ -94,7 +94,7 @@ impl Ball {
     /// `e^m 2^{3r/2}`, since `log₂ e < 3/2`.
     pub fn exp(&self, precision: u64) -> Result<Ball, BallError> {
         if self.magnitude() > Magnitude::power_of_two(i64::from(ARGUMENT_BITS)) {
-            return Err(BallError::ArgumentTooLarge);
+            return self.exp_of_many().ok_or(BallError::ArgumentTooLarge);
         }
         let midpoint = self.midpoint();
         let reduction = Reduction::new(midpoint.top().unwrap_or(i64::MIN), precision);
@@ -109,5 +109,16 @@ impl Ball {
         };
         let spread = power.magnitude().multiply(&spread);
         Ok(Ball::new(power.midpoint().clone(), power.radius().add(&spread)))
+    }
+
+    /// `0 < e^x < 2^x` for negative numbers far apart: the radius is an eighth of the midpoint or more.
+    fn exp_of_many(&self) -> Option<Ball> {
+        let (_, upper) = self.endpoints();
+        if !upper.is_negative() || self.radius().top()? < self.midpoint().top()? - 3 {
+            return None;
+        }
+        // |x| ≥ 2^(top − 1).
+        let size = (upper.top()? - 1).clamp(0, i64::from(ARGUMENT_BITS));
+        Some(Ball::new(Binary::zero(), Magnitude::power_of_two(-(1 << size))))
     }
 }

@@ -28,6 +28,11 @@ pub(super) fn echo_index(recurrence: &Recurrence) -> Symbol {
     free_name(recurrence, &["k", "j", "m", "i", "l"])
 }
 
+/// The name of the Laguerre polynomials.
+pub(super) fn laguerre_name(recurrence: &Recurrence) -> Symbol {
+    free_name(recurrence, &["L", "Lambda"])
+}
+
 /// The formulas that give a wave in general n, each proved as its remark says.
 pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm) -> Vec<Formula> {
     general_form_from(recurrence, wave, form, &Fraction::zero())
@@ -55,18 +60,23 @@ pub fn general_form_from(
             Proof::Substitution => "substitution into the recurrence".to_owned(),
             Proof::CoefficientIdentity => format!("the step from {index} to {index} + 1"),
         };
-        let laguerre = match form {
-            GeneralForm::Echoes(template) if template.family != Family::Power => {
-                "; L are the Laguerre polynomials"
-            }
-            _ => "",
+        let has_laguerre = matches!(form, GeneralForm::Echoes(own) if own.family != Family::Power);
+        let [of_text, of_latex] = match has_laguerre.then(|| laguerre_name(recurrence)) {
+            None => Default::default(),
+            Some(name) => [
+                format!("; {name} are the Laguerre polynomials"),
+                format!("{}_{{{index}}}\\text{{: Laguerre}}", Notation::Latex.symbol(&name)),
+            ],
         };
-        let mut text = format!("for {index} >= {first}, proved by {proof}{laguerre}");
-        let mut latex = if first == 0 { String::new() } else { format!("{index} \\ge {first}") };
+        let mut text = format!("for {index} >= {first}, proved by {proof}{of_text}");
+        let first = (first > 0).then(|| format!("{index} \\ge {first}"));
+        let of_latex = Some(of_latex).filter(|own| !own.is_empty());
+        let mut latex: String =
+            [first, of_latex].into_iter().flatten().collect::<Vec<_>>().join(",\\ ");
         if !offset.is_zero() && matches!(form, GeneralForm::Geometric(_)) {
             let (of_text, of_latex) = both(|n| on_period_from(recurrence, offset, n));
             text = format!("{of_text}, {text}");
-            latex = if first == 0 { of_latex } else { format!("{of_latex},\\ {latex}") };
+            latex = if latex.is_empty() { of_latex } else { format!("{of_latex},\\ {latex}") };
         }
         last.remark = Some((text, latex));
     }
@@ -172,7 +182,8 @@ fn echoes(
         formulas.push(Formula::echo(wave, &[i], echo, x));
     }
     let head = Head::both(|n| n.echo(wave, k.name(), &n.symbol(x)));
-    formulas.push(Formula::of(head, Right::Terms(template_terms(template, x, &k))));
+    let terms = template_terms(template, x, &k, &laguerre_name(recurrence));
+    formulas.push(Formula::of(head, Right::Terms(terms)));
     formulas
 }
 
@@ -195,13 +206,15 @@ pub(super) fn sum_of_echoes(recurrence: &Recurrence, wave: &str, offset: &Fracti
 }
 
 /// `ρ^k e^{−bx} Σ_i c_i T_{k−i}(x)`.
-pub(super) fn template_terms(template: &EchoTemplate, x: &Symbol, k: &Symbol) -> Vec<Term> {
+fn template_terms(template: &EchoTemplate, x: &Symbol, k: &Symbol, name: &Symbol) -> Vec<Term> {
     let mut sum = Vec::new();
     for (lag, coefficient) in &template.terms {
         let index = &Polynomial::symbol(k) - &Polynomial::integer(*lag);
         let index = Tree::sum(arrange(&index.into(), Some(k))).1;
         let function = match &template.family {
-            Family::Laguerre(c) => laguerre(index, &Expression::from(c * &Fraction::symbol(x)), x),
+            Family::Laguerre(c) => {
+                laguerre(name, index, &Expression::from(c * &Fraction::symbol(x)), x)
+            }
             Family::Power => {
                 let power = Tree::Power(Box::new(Tree::Symbol(x.clone())), Box::new(index.clone()));
                 Tree::Quotient(Box::new(power), Box::new(Tree::Factorial(Box::new(index))))
@@ -239,13 +252,13 @@ pub(super) fn template_terms(template: &EchoTemplate, x: &Symbol, k: &Symbol) ->
     vec![(sign, Tree::product(front))]
 }
 
-fn laguerre(index: Tree, argument: &Expression, x: &Symbol) -> Tree {
+fn laguerre(name: &Symbol, index: Tree, argument: &Expression, x: &Symbol) -> Tree {
     let argument = match &arrange(argument, Some(x))[..] {
         [(Sign::Plus, tree)] => tree.clone(),
         [] => Tree::Number(Rational::zero()),
         terms => Tree::Sum(terms.to_vec()),
     };
-    Tree::Laguerre(Box::new(index), Box::new(argument))
+    Tree::Laguerre(name.clone(), Box::new(index), Box::new(argument))
 }
 
 /// Names for the derivative and for the delay by one period, in [`operator_of`].

@@ -4,8 +4,8 @@ use crate::export::arrangement::arrange;
 use crate::export::explain::{Derivation, RECURRENCE};
 use crate::export::forms::{Place, Told, Writer};
 use crate::export::formula::{Formula, Head, Right};
-use crate::export::general::{echo_index, free_name, general_form, ratio_tree};
-use crate::export::mathml::{self, element};
+use crate::export::general::{echo_index, free_name, general_form, laguerre_name, ratio_tree};
+use crate::export::mathml;
 use crate::export::names::{Name, Names};
 use crate::export::notation::Notation;
 use crate::export::tree::{Sign, Tree};
@@ -295,6 +295,7 @@ impl Derivation {
         alike: bool,
     ) {
         let (k, y) = (echo_index(recurrence), free_name(recurrence, &["y", "z"]));
+        let name = laguerre_name(recurrence);
         let (k, next, first) = (k.name(), format!("{k}+1"), template.first.len());
         let (x, (by_slope, by_value)) = (&recurrence.statement().local, template.step());
         let echo = |index: &str, end: &'static str| {
@@ -337,11 +338,7 @@ impl Derivation {
                     "The form satisfies this, since ${later}$ has the derivative ${now}$ and is 0 at ${local} = 0$."
                 );
             };
-            let laguerre = |index: &str, prime: &str| match n {
-                Notation::Text => format!("L{prime}[{index}]({y})"),
-                Notation::Latex => format!("L_{{{index}}}{prime}({y})"),
-                Notation::MathMl => format!("{}{prime}({y})", element("msub", &["L", index])),
-            };
+            let laguerre = |index: &str, prime: &str| n.laguerre(&name, prime, index, &y);
             let binomial = match n {
                 Notation::Text => format!("binomial({k}, p)*"),
                 Notation::Latex => format!("\\binom{{{k}}}{{p}} "),

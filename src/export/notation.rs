@@ -164,11 +164,15 @@ impl Notation {
         }
     }
 
-    pub fn laguerre(self, index: &str, argument: &str) -> String {
+    /// A Laguerre polynomial, or with a prime its derivative.
+    pub fn laguerre(self, name: &Symbol, prime: &str, index: &str, argument: &str) -> String {
+        let (name, argument) = (self.symbol(name), self.enclosed(argument));
         match self {
-            Text => format!("L[{index}]({argument})"),
-            Latex => format!("L_{{{index}}}({argument})"),
-            MathMl => format!("{}({argument})", mathml::element("msub", &["L", index])),
+            Text => format!("{name}{prime}[{index}]{argument}"),
+            Latex => format!("{name}_{{{index}}}{prime}{argument}"),
+            MathMl => {
+                format!("{}{prime}{argument}", mathml::element("msub", &[&name, index]))
+            }
         }
     }
 

@@ -63,8 +63,8 @@ pub(crate) enum Tree {
     Function(&'static str, Box<Tree>),
     /// The square root of a positive integer; times the imaginary unit if true.
     Root(Integer, bool),
-    /// `L_k(x)`, a Laguerre polynomial: index and argument.
-    Laguerre(Box<Tree>, Box<Tree>),
+    /// `L_k(x)`, a Laguerre polynomial: name, index and argument.
+    Laguerre(Symbol, Box<Tree>, Box<Tree>),
     /// `k!`
     Factorial(Box<Tree>),
 }
@@ -158,12 +158,10 @@ impl Tree {
             Tree::Sum(terms) | Tree::Bracket(terms) => terms.iter().any(|term| term.1.is_tall()),
             Tree::Product(factors) => factors.iter().any(Tree::is_tall),
             Tree::Power(base, _) => base.is_tall(),
-            Tree::Oscillation(_, argument) | Tree::Function(_, argument) => argument.is_tall(),
-            Tree::Symbol(_)
-            | Tree::Root(..)
-            | Tree::Exponential(..)
-            | Tree::Laguerre(..)
-            | Tree::Factorial(_) => false,
+            Tree::Oscillation(_, argument)
+            | Tree::Function(_, argument)
+            | Tree::Laguerre(_, _, argument) => argument.is_tall(),
+            Tree::Symbol(_) | Tree::Root(..) | Tree::Exponential(..) | Tree::Factorial(_) => false,
         }
     }
 

@@ -201,7 +201,9 @@ impl<'a> Writer<'a> {
                 let text = if brackets { n.enclosed(&text) } else { text };
                 n.exponential(&format!("{minus}{text}"))
             }
-            Tree::Laguerre(index, argument) => n.laguerre(&self.flat(index), &self.flat(argument)),
+            Tree::Laguerre(name, index, argument) => {
+                n.laguerre(name, "", &self.flat(index), &self.flat(argument))
+            }
             Tree::Factorial(of) => {
                 let text = self.flat(of);
                 match **of {

@@ -257,8 +257,8 @@ fn is_irreducible(p: &Polynomial) -> bool {
         })
 }
 
-/// Whether a primitive polynomial is a quadratic in some symbol, led by a number, whose discriminant is
-/// no square: its factors would be linear in the symbol, and their zeros hold the root.
+/// Whether a primitive polynomial is a quadratic in some symbol, led by a single term with which the others have no symbol in
+/// common, whose discriminant is no square: its factors would be linear in the symbol, and their zeros hold the root.
 fn is_irreducible_quadratic(p: &Polynomial) -> bool {
     p.symbols().iter().any(|x| {
         let powers = p.coefficients(x);
@@ -266,10 +266,17 @@ fn is_irreducible_quadratic(p: &Polynomial) -> bool {
             let found = powers.iter().find(|(own, _)| *own == power);
             found.map_or_else(Polynomial::zero, |(_, coefficient)| coefficient.clone())
         };
-        let leads = p.degree(x) == 2 && coefficient(2).as_constant().is_some();
+        let in_others = |y: &Symbol| {
+            powers[1..]
+                .iter()
+                .all(|(_, own)| own.coefficients(y).last().is_none_or(|(e, _)| *e > 0))
+        };
+        let lead = coefficient(2);
+        let leads =
+            p.degree(x) == 2 && lead.term_count() == 1 && !lead.symbols().iter().any(in_others);
         leads && {
             let four = Rational::from_integer(4.into());
-            let product = &(&coefficient(2) * &coefficient(0)) * &four;
+            let product = &(&lead * &coefficient(0)) * &four;
             let discriminant = &(&coefficient(1) * &coefficient(1)) - &product;
             match discriminant.square_root() {
                 None => !discriminant.is_zero(),

@@ -244,6 +244,12 @@ impl<V: Clone> Transform<V> {
 }
 
 impl Transform {
+    /// How many terms the numerators of its coefficients have.
+    pub fn term_count(&self) -> usize {
+        let values = self.poles().flat_map(|(_, row)| row);
+        values.flat_map(Expression::terms).map(|(_, value)| value.numerator().term_count()).sum()
+    }
+
     /// The transform of a function of `x`, from its terms `x^j e^{λx} ↔ j!/(p − λ)^{j+1}`.
     pub fn of(function: &Expression, x: &Symbol) -> Transform {
         let mut poles = BTreeMap::<Fraction, Vec<Expression>>::new();

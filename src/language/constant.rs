@@ -147,7 +147,9 @@ fn not_constant(expression: &Expression, source: &Source) -> Diagnostic {
                 expression.span,
                 "a rational number is needed here",
             )
-            .with_remedy("write it where the symbol stands, in the scene itself");
+            .with_remedy(
+                "write a decimal number near it, or write `pi` in a scene, where it is exact",
+            );
         }
         Node::Name(name) if is_like_infinity(name) => {
             (format!("`{name}` is not a finite number"), "a finite number is needed here")

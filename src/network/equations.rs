@@ -9,7 +9,7 @@ use crate::network::assumed::Assumed;
 use crate::network::clocks::Clocks;
 use crate::network::delay::Lattice;
 use crate::network::error::NetworkError;
-use crate::network::node::{ElementLaw, Node, Side};
+use crate::network::node::{ElementLaw, Lumped, Node, Side};
 use crate::network::observed::{FieldBar, Observed};
 use crate::network::scaled::ScaledScene;
 use crate::recurrence::{Fault, InvalidRecurrence, LinearForm, Recurrence, WaveIndex};
@@ -99,6 +99,11 @@ impl Network {
         ScaledScene::of(scene)?.network()
     }
 
+    /// The network of another scene without symbols, in the scales of this one; its constants keep their names.
+    pub fn beside(&self, scene: &Scene) -> Result<Network, NetworkError> {
+        ScaledScene::with(scene, self.model().beside(scene)?)?.network()
+    }
+
     /// The times at which waves arrive.
     pub fn lattice(&self) -> &Lattice {
         &self.clocks.lattice
@@ -107,10 +112,31 @@ impl Network {
     /// A fault of the recurrence, at its place in the scene.
     pub(crate) fn refused(&self, invalid: InvalidRecurrence) -> NetworkError {
         let Fault::Rates { waves, .. } = invalid.fault else {
-            return NetworkError::Recurrence(Box::new(invalid));
+            return match self.unresisted() {
+                Some(node) => NetworkError::Massless(self.place_in_words(node)),
+                None => NetworkError::Recurrence(Box::new(invalid)),
+            };
         };
         let place = self.place_of_waves(&waves);
         NetworkError::Rates { place, waves }
+    }
+
+    /// The first node with something between springs that has no mass, and no damper or bar beside it.
+    fn unresisted(&self) -> Option<usize> {
+        let damps = |own: &Lumped<Fraction>| match own.law.resistance() {
+            Some([_, damping]) => !damping.is_zero(),
+            None => matches!(own.law, ElementLaw::Mass { .. }),
+        };
+        let is_free = |node: &Node<Fraction>, run: usize| {
+            let mut links = (run.saturating_sub(1)..node.links.len().min(run + 1))
+                .map(|link| node.spanning(link));
+            !node.is_imposed(run)
+                && node.sides(run).all(|side| side == Side::Free)
+                && !node.attached(run).any(damps)
+                && links.all(|link| link.is_some_and(|own| !damps(own)))
+        };
+        let nodes = &self.scaled.layout.nodes;
+        nodes.iter().position(|node| (0..node.runs()).any(|run| is_free(node, run)))
     }
 
     /// Where waves meet that decay together, in words.

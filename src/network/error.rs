@@ -12,6 +12,9 @@ pub enum NetworkError {
     Division(#[from] NotAUnit),
     #[error("the travel times are incommensurable, or their common divisor is too small")]
     Incommensurate,
+    /// Where, in words.
+    #[error("{0}, a joint without mass moves against a spring, and nothing resists it")]
+    Massless(String),
     #[error("the equations of this scene cannot be solved for its waves: {0}")]
     Recurrence(#[source] Box<InvalidRecurrence>),
     #[error(

@@ -105,10 +105,24 @@ pub(crate) fn bar_roots(body: &Body) -> Outcome<(Root, Option<Root>, Root)> {
 impl Model {
     /// The scene in its own scales.
     pub fn of(scene: &Scene) -> Outcome<Model> {
-        let scale = Scale::of(scene)?;
+        Model::with(scene, Scale::of(scene)?, Vec::new(), scene.assumptions.clone())
+    }
+
+    /// Another scene without symbols in the scales of this one; its constants keep their names.
+    pub(crate) fn beside(&self, scene: &Scene) -> Outcome<Model> {
+        let scale = Scale { reference: None, moving: None, ..self.scale.clone() };
+        Model::with(scene, scale, self.constants.clone(), self.assumptions.clone())
+    }
+
+    fn with(
+        scene: &Scene,
+        scale: Scale,
+        constants: Vec<Constant>,
+        assumptions: Assumptions,
+    ) -> Outcome<Model> {
         let mut model = Model {
-            assumptions: scene.assumptions.clone(),
-            constants: Vec::new(),
+            assumptions,
+            constants,
             scale,
             slowness: Fraction::one(),
             bars: BTreeMap::new(),

@@ -27,7 +27,13 @@ pub struct ScaledScene {
 impl ScaledScene {
     /// The scene in its own scales.
     pub fn of(scene: &Scene) -> Result<ScaledScene, NetworkError> {
-        let mut model = Model::of(scene)?;
+        ScaledScene::with(scene, Model::of(scene)?)
+    }
+
+    pub(in crate::network) fn with(
+        scene: &Scene,
+        mut model: Model,
+    ) -> Result<ScaledScene, NetworkError> {
         let layout = Layout::of(scene, &model, Contacts::Closed);
         let measures = measures(scene, &layout, &mut model)?;
         Ok(ScaledScene { scene: scene.clone(), model, layout, measures })

@@ -1,7 +1,7 @@
 //! Work that would explode is refused before it starts.
 
 use super::ProblemError;
-use crate::expression::{Expression, Fraction, Transform};
+use crate::expression::Fraction;
 use crate::limits::{MAX_DERIVED_ECHOES, MAX_DERIVED_TERMS};
 use crate::network::Network;
 use crate::recurrence::{Recurrence, WaveIndex};
@@ -61,12 +61,6 @@ pub(super) fn refuse_pieces(recurrence: &Recurrence, through: usize) -> Result<(
 /// times as many as the one before.
 pub(super) const MAX_NAMED_TERMS: usize = 10_000;
 
-/// How many terms an echo has.
-pub(super) fn length(echo: &Transform) -> usize {
-    let values = echo.poles().flat_map(|(_, row)| row);
-    values.flat_map(Expression::terms).map(|(_, value)| value.numerator().term_count()).sum()
-}
-
 /// The first order, before the last that is wanted, of which the echoes of some waves have more than so many terms, and how
 /// many it has at least.
 pub(super) fn first_long_echo(
@@ -83,7 +77,7 @@ pub(super) fn first_long_echo(
     for n in 0..last {
         let mut terms = 0;
         let is_short = by_echo.advance_while(|echo| {
-            terms += length(echo);
+            terms += echo.term_count();
             terms <= most
         })?;
         if !is_short {

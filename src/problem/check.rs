@@ -1,10 +1,9 @@
 //! What can be said of a problem after it was read: it is ordered, and derived in two ways that must agree.
 
-use super::bounds::{MAX_NAMED_TERMS, length};
+use super::bounds::MAX_NAMED_TERMS;
 use super::constants::rates;
 use super::{Kind, Problem, ProblemError};
-use crate::expression::Condition;
-use crate::expression::PI;
+use crate::expression::{Condition, PI, Transform};
 use crate::history::HistoryError;
 use crate::limits::counted;
 use crate::network::{Network, NetworkError};
@@ -184,7 +183,7 @@ impl Problem {
             }
             let waves = 0..statement.waves.len();
             let last = waves.filter_map(|wave| by_echo.transforms(wave).last());
-            if last.map(length).sum::<usize>() > MAX_NAMED_TERMS {
+            if last.map(Transform::term_count).sum::<usize>() > MAX_NAMED_TERMS {
                 return Ok((ways, n));
             }
         }

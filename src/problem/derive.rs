@@ -177,7 +177,7 @@ impl Problem {
             return (Orders::Through(from, last.max(from)), None);
         }
         let last = from.saturating_add(FEW);
-        let named = self.recurrence().ok().filter(|of| of.has_named_rates() && !self.on_lattice());
+        let named = self.recurrence().ok().filter(|of| of.names_rates_of(1) && !self.on_lattice());
         let Some(recurrence) = named else { return (Orders::Through(from, last), None) };
         let waves = self.meant(recurrence, what).map_or_else(|_| Vec::new(), |own| own.waves());
         match self.long_echoes(recurrence, &waves, last + 1, FEW_TERMS) {

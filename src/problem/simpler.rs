@@ -185,6 +185,8 @@ impl Size {
 impl Problem {
     /// The same scene with something left out.
     pub fn changed(&self, changes: &[Change]) -> Result<Problem, ProblemError> {
+        // Equations have no elements.
+        self.scaled()?;
         let source = language::changed(&self.source, changes)?;
         Problem::of(source, self.values.clone())
     }

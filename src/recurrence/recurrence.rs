@@ -88,9 +88,14 @@ impl Recurrence {
     /// Whether more than two waves decay together at rates that have names: formulas then take the
     /// rates for independent, which hides what cancels between them.
     pub fn has_named_rates(&self) -> bool {
+        self.names_rates_of(3)
+    }
+
+    /// Whether so many waves or more decay together at rates that have names.
+    pub(crate) fn names_rates_of(&self, waves: usize) -> bool {
         let holds = |rate: &Fraction| self.constants().iter().any(|c| rate.contains(&c.symbol));
         let mut systems = self.coupled.iter();
-        systems.any(|system| system.rates.len() > 2 && system.rates.iter().any(holds))
+        systems.any(|system| system.rates.len() >= waves && system.rates.iter().any(holds))
     }
 
     /// For each wave, the periods at which something arrives: on all others the piece continues the one before it. `None` where

@@ -71,7 +71,7 @@ pub fn run(options: &Dispersion) -> Result<String, Failure> {
     let _progress = progress::spinner("enclosing velocities");
     let mut at = Vec::new();
     for text in &options.wavenumber {
-        let k = number("--at", text)?;
+        let k = number("--wavenumber", text)?;
         if k.is_negative() {
             let message = format!("the wavenumber {k} is negative");
             return Err(Failure::usage(message, "give wavenumbers from 0 on"));

@@ -6,7 +6,7 @@
 
 use crate::ball::{Ball, BallError, Binary, Magnitude};
 use crate::enclosure::{Numbers, real_part};
-use crate::expression::{Exact, Expression, Field, Fraction, Root};
+use crate::expression::{Expression, Field, Fraction, Root};
 use crate::network::Network;
 use crate::recurrence::{Observation, WaveIndex};
 use crate::signal::closed::echoes::{Arriving, Echoes, Unsolved, solve_in};
@@ -16,7 +16,7 @@ use crate::signal::closed::modular::{Modular, Residue};
 use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::signal::{EchoCount, Known, Limit, Point, has_begun};
 use crate::signal::transforms::value_at;
-use crate::solution::Demand;
+use crate::solution::{Demand, EchoByEcho};
 use num_traits::Zero;
 use std::cell::{Cell, RefCell};
 use std::cmp::Ordering;
@@ -46,6 +46,10 @@ const WIDE: i64 = 1 << 20;
 /// named constant. With more constants that limit is divided by their number.
 const MAX_EXACT_ECHOES: usize = 1_000;
 const MAX_EXACT_ECHOES_NAMED: usize = 100;
+
+/// The most terms of all these, and where formulas hold a named constant.
+const MAX_EXACT_TERMS: usize = 1_000_000;
+const MAX_NAMED_TERMS: usize = 10_000;
 
 /// Evaluates observables of a scene, up to a last time.
 pub struct SceneEchoes<'a> {
@@ -299,9 +303,7 @@ impl<'a> SceneEchoes<'a> {
                 };
                 let other_than_zero = || self.work().is_some_and(|work| work.expanded <= most);
                 let feasible = !recurrence.has_named_rates() && other_than_zero();
-                let memory = Memory::of(size_of::<Expression>() as u64);
-                let exact = || self.solve_in(Exact::new(&statement.assumptions), memory).ok();
-                let echoes = feasible.then(exact).flatten().map(Rc::new);
+                let echoes = feasible.then(|| self.exact_echoes()).flatten().map(Rc::new);
                 self.known.borrow_mut().exact = Some(echoes.clone());
                 echoes
             }
@@ -313,6 +315,26 @@ impl<'a> SceneEchoes<'a> {
             sum.add_scaled(&echo.substitute(&statement.local, &since).ok()?, coefficient);
         }
         Some(sum)
+    }
+
+    /// All echoes that are wanted, exactly; `None` where they are too long.
+    fn exact_echoes(&self) -> Option<Echoes<Expression>> {
+        let recurrence = self.arriving.unfolded.recurrence();
+        let most =
+            if recurrence.constants().is_empty() { MAX_EXACT_TERMS } else { MAX_NAMED_TERMS };
+        let demand = self.demand.borrow().clone();
+        let count = demand.last().map_or(0, |last| last + 1);
+        let (mut solver, mut terms) = (EchoByEcho::new(recurrence).wanting(demand), 0);
+        for _ in 0..count {
+            let is_short = solver.advance_while(|echo| {
+                terms += echo.term_count();
+                terms <= most
+            });
+            if !is_short.ok()? {
+                return None;
+            }
+        }
+        Some(solver.echoes)
     }
 
     /// The value where it is a rational number, for scenes in rational numbers. That it is not is

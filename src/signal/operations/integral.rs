@@ -30,9 +30,6 @@ const MAX_DEPTH: usize = 40;
 /// grows at the fastest rate of its scene.
 const SLACK: u64 = 1 << 48;
 
-/// Radius, as a power of two, returned where the time is too uncertain; callers retry with more bits.
-const WIDE: i64 = 1 << 20;
-
 /// `∫ f dt` over a sliding interval, or from the start, in the time of the scene.
 ///
 /// # Invariants
@@ -182,16 +179,30 @@ impl<'a> Integral<'a> {
         Ok(())
     }
 
-    /// The integral from the start of a stretch to a time, which may lie beyond its ends.
+    /// The integral from the start of a stretch to a time, which may lie beyond its ends. Where a time is not known to be in
+    /// one cell, that to its middle, and the radius times a bound of the function.
     fn until(&self, stretch: usize, time: &Ball, bits: u64) -> Outcome<Ball> {
         let primitive = self.primitive(stretch, bits)?;
         let Some(cell) = primitive.cell(time) else { return Ok(Ball::zero()) };
+        if cell.holds(time, bits) {
+            return Ok(cell.until(time, bits));
+        }
+        let middle = Rational::from(time.midpoint());
+        if !time.is_exact() {
+            let radius = Rational::from(time.radius());
+            let near = Near { order: 0, place: (&middle, &radius), terms: 2, bits };
+            let taylor = self.of.taylor(stretch, near)?;
+            let sizes = taylor.coefficients.iter().map(Ball::magnitude);
+            let most = sizes.fold(taylor.remainder, |sum, size| sum.add(&size));
+            let value =
+                self.until(stretch, &Ball::new(time.midpoint().clone(), Magnitude::ZERO), bits)?;
+            return Ok(value.widened(&most.multiply(time.radius())));
+        }
         let (first, last) = (&primitive.cells[0], &primitive.cells[primitive.cells.len() - 1]);
-        let middle = || Rational::from(time.midpoint());
-        let (edge, beyond) = match cell.holds(time, bits) {
-            false if middle() < first.from => (&first.from, (middle(), first.from.clone())),
-            false if middle() > last.to => (&last.to, (last.to.clone(), middle())),
-            _ => return Ok(cell.until(time, bits)),
+        let (edge, beyond) = match middle < first.from {
+            true => (&first.from, (middle, first.from.clone())),
+            false if middle > last.to => (&last.to, (last.to.clone(), middle)),
+            false => return Ok(cell.until(time, bits)),
         };
         let mut cells = Vec::new();
         self.add_cells(&mut cells, stretch, beyond, MAX_DEPTH, bits)?;
@@ -295,10 +306,6 @@ impl Cell {
 
     /// The integral from the start of the first cell to a time within this one.
     fn until(&self, time: &Ball, bits: u64) -> Ball {
-        if !self.holds(time, bits) {
-            // The time is not known well enough.
-            return Ball::zero().widened(&Magnitude::power_of_two(WIDE));
-        }
         let u = self.place(time, bits);
         let value = self.antiderivative.value(&u, bits).multiply(&self.half, bits);
         value.add(&self.offset, bits)

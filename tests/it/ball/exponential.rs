@@ -99,3 +99,18 @@ fn arguments_beyond_the_limit_are_an_error() {
     assert_eq!(wide.exp(64), Err(BallError::ArgumentTooLarge));
     assert!(Ball::new(Binary::zero(), Magnitude::power_of_two(39)).exp(64).is_ok());
 }
+
+/// Of negative numbers far apart, however large they are, the exponential is small.
+#[test]
+fn arguments_beyond_the_limit_may_be_negative_and_far_apart() {
+    let many = |low: i64, high: i64| {
+        let [low, high] = [low, high].map(|end| BigRational::from_integer(end.into()));
+        Ball::between(&low, &high, 64).exp(64)
+    };
+    let bound = many(-(1 << 50), -4).unwrap().magnitude();
+    assert!(bound > Magnitude::power_of_two(-6) && bound <= Magnitude::power_of_two(-2));
+    let least = many(-3 << 41, -1 << 41).unwrap();
+    assert!(least.contains_zero() && least.magnitude() <= Magnitude::power_of_two(-(1 << 40)));
+    assert_eq!(many(-(1 << 50), 1), Err(BallError::ArgumentTooLarge));
+    assert_eq!(many(-(1 << 41) - 1, -1 << 41), Err(BallError::ArgumentTooLarge));
+}

@@ -49,6 +49,10 @@ pub fn run(options: &Certify) -> Result<String, Failure> {
             let window = input::window(&problem, &options.from, options.to.as_deref())?;
             motion::events(&problem, &window, options.digits)?
         }
+        (Some(_), Some(at), _) if at.contains(',') => {
+            let remedy = "give one, or evenly spaced times by --points N";
+            return Err(Failure::usage("a certificate of a value is for one time", remedy));
+        }
         (Some(name), Some(at), _) => {
             let at = problem.time("--at", at.as_str())?;
             value(&problem, name.trim(), &at, options.digits)?
@@ -79,9 +83,11 @@ struct Quantity<'a> {
     name: &'a str,
 }
 
-/// The certificate of the first pieces.
+/// The certificate of the first pieces, as far as they are short.
 pub fn of_pieces(problem: &Problem) -> Result<String, Failure> {
-    Ok(written(pieces(problem, LAST)?))
+    let (Orders::Through(_, last) | Orders::Only(last), _) =
+        problem.first_orders(ToDerive::Waves, 0);
+    Ok(written(pieces(problem, last.min(LAST))?))
 }
 
 /// As text, the version first.
@@ -206,7 +212,8 @@ fn value(
         Ok(seen) => seen,
         // What is no sum of pieces may be read off a motion.
         Err(refusal) => {
-            let read = Read::of(problem, &wanted.name, [at, at], digits)?.ok_or(refusal)?;
+            let of = Quantity { problem, minus: None, name: &wanted.name };
+            let read = Read::of(&of, [at, at], digits)?.ok_or(refusal)?;
             return Ok(read.value(&found.values[0]));
         }
     };
@@ -236,7 +243,8 @@ fn doubles(problem: &Problem, name: &str, options: &Certify) -> Result<Map<Strin
     let [from, to] = input::window(problem, &options.from, options.to.as_deref())?;
     let times = evenly_spaced(&from, &to, count);
     let found = problem.doubles(name, &times, Limit::Right, accuracy)?;
-    let seen = Quantity { problem, minus: None, name }.seen(&to);
+    let of = Quantity { problem, minus: None, name };
+    let seen = of.seen(&to);
     let bound = found.bound.and_then(BigRational::from_float).ok_or_else(|| {
         let message = format!("the errors of {} have no proven bound", found.method);
         Failure::usage(message, "leave --method out, or give `certified` or `compiled`")
@@ -253,7 +261,7 @@ fn doubles(problem: &Problem, name: &str, options: &Certify) -> Result<Map<Strin
     let mut document = match seen {
         Ok((document, _)) => document,
         Err(refusal) => {
-            let read = Read::of(problem, name, [&from, &to], DOUBLE_DIGITS)?.ok_or(refusal)?;
+            let read = Read::of(&of, [&from, &to], DOUBLE_DIGITS)?.ok_or(refusal)?;
             return Ok(read.values(rows.collect()));
         }
     };
@@ -274,7 +282,7 @@ fn rounded(value: &Value, digits: usize) -> (Decimal, i64) {
 
 fn refused(reason: &str) -> Failure {
     let message = format!("there are no certificates of values {reason}");
-    Failure::usage(message, "certify its pieces, with --through")
+    Failure::usage(message, "see them with `wavestep eval`, or certify pieces, with --through")
 }
 
 fn refuse_symbols(problem: &Problem) -> Result<(), Failure> {

@@ -7,13 +7,14 @@ use crate::progress;
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
 use serde_json::{Map, Value as Json, json};
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use wavestep::ball::{Bound, Decimal, Number};
 use wavestep::enclosure::Numbers;
 use wavestep::expression::{Fraction, PI, Root};
 use wavestep::history::{Event, EventKind};
 use wavestep::network::{Contacts, ElementLaw, Layout, Network, Node};
-use wavestep::problem::Problem;
+use wavestep::problem::{Problem, ProblemError};
 use wavestep::scene::Drive;
 use wavestep::signal::EvaluateError;
 use wavestep_polynomial::Symbol;
@@ -42,7 +43,7 @@ pub fn events(
         let message = "events are certified from the start on";
         return Err(Failure::usage(message, "leave --from out"));
     }
-    let line = Line::of(problem, Contacts::Links)?;
+    let line = Line::of(problem, Contacts::Links, None)?;
     if line.layout.contacts.is_empty() {
         return Err(Failure::usage("the line has no contacts", "write | where bodies touch"));
     }
@@ -50,7 +51,9 @@ pub fn events(
     let [low, high] = line.in_units(to, precision.bits)?;
     let end =
         if low == high { low } else { Decimal::bound(&low, digits, Bound::Lower).to_rational() };
-    let mut document = line.document(&end, to, digits, &precision, &mut Writer::default())?;
+    let mut writer = Writer::default();
+    let mut document = line.document([&end, to], digits, precision.bits, &mut writer)?;
+    document.extend(line.followed(&end, &precision, &writer));
     document.insert("kind".into(), json!("events"));
     Ok(document)
 }
@@ -68,22 +71,43 @@ pub struct Precision {
     pub bits: u64,
 }
 
+impl Precision {
+    /// Enough for two lines.
+    pub fn for_both(self, other: Precision) -> Precision {
+        Precision {
+            step: self.step.min(other.step),
+            terms: self.terms.max(other.terms),
+            bits: self.bits.max(other.bits),
+        }
+    }
+}
+
 /// A line with numbers, as it moves.
 pub struct Line<'a> {
     problem: &'a Problem,
-    pub network: &'a Network,
+    pub network: Cow<'a, Network>,
     layout: Layout,
     numbers: Numbers,
 }
 
 impl<'a> Line<'a> {
-    /// The line of a scene; its contacts open and close, or are joints.
-    pub fn of(problem: &'a Problem, contacts: Contacts) -> Result<Line<'a>, Failure> {
+    /// The line of a scene, in its own units or in those of another line; its contacts open and close, or are joints.
+    pub fn of(
+        problem: &'a Problem,
+        contacts: Contacts,
+        beside: Option<&Line<'_>>,
+    ) -> Result<Line<'a>, Failure> {
         let network = problem.network()?;
         if network.local_contact().is_some() {
             return Err(refused("beside local contacts"));
         }
         super::refuse_symbols(problem)?;
+        let network = match beside {
+            None => Cow::Borrowed(network),
+            Some(other) => {
+                Cow::Owned(other.network.beside(network.scene()).map_err(ProblemError::from)?)
+            }
+        };
         let layout = Layout::of(network.scene(), network.model(), contacts);
         let numbers = Numbers::new(&network.model().constants);
         let line = Line { problem, network, layout, numbers };
@@ -91,14 +115,12 @@ impl<'a> Line<'a> {
         Ok(line)
     }
 
-    /// What is claimed of all motions, but for the kind: the line, and what its contacts do until an end, which is at most
-    /// `until` in the user's unit.
+    /// What is claimed of a motion: the line, and what its contacts do until an end, which is at most `until` in the user's unit.
     pub fn document(
         &self,
-        end: &BigRational,
-        until: &BigRational,
+        [end, until]: [&BigRational; 2],
         digits: usize,
-        precision: &Precision,
+        bits: u64,
         writer: &mut Writer,
     ) -> Result<Map<String, Json>, Failure> {
         let mut events = Vec::new();
@@ -110,7 +132,7 @@ impl<'a> Line<'a> {
                 return Err(Failure::usage(message, "ask for an earlier time"));
             }
             for event in &history.events {
-                events.extend(self.told(event, end, digits, precision.bits)?);
+                events.extend(self.told(event, end, digits, bits)?);
             }
         }
         let mut document = Map::new();
@@ -118,15 +140,28 @@ impl<'a> Line<'a> {
         insert("title", json!(self.problem.title()));
         insert("constants", json!(self.problem.constants(None)?));
         insert("time", json!(self.network.scene().time.name()));
-        insert("line", drawing::moving(self.network, &self.layout, writer));
-        insert("numbers", self.told_numbers(&writer.others, precision.bits));
-        insert("roots", writer.told_roots());
-        insert("to", json!(end.to_string()));
+        insert("line", drawing::moving(&self.network, &self.layout, writer));
         insert("events", json!(events));
-        insert("step", json!(precision.step.to_string()));
-        insert("terms", json!(precision.terms));
-        insert("bits", json!(precision.bits));
         Ok(document)
+    }
+
+    /// Until when and how a checker follows all that was written, and the numbers in it, which are those of this line.
+    pub fn followed(
+        &self,
+        end: &BigRational,
+        precision: &Precision,
+        writer: &Writer,
+    ) -> Map<String, Json> {
+        let claims = json!({
+            "numbers": self.told_numbers(&writer.others, precision.bits),
+            "roots": writer.told_roots(),
+            "to": end.to_string(),
+            "step": precision.step.to_string(),
+            "terms": precision.terms,
+            "bits": precision.bits,
+        });
+        let Json::Object(claims) = claims else { unreachable!("claims have names") };
+        claims
     }
 
     /// How a checker follows the line until a time in the user's unit.

@@ -2,9 +2,9 @@
 //! formula, and of displacements. A checker follows the line, and reads the value off its elements.
 
 use super::motion::{Line, Precision, written};
-use super::rounded;
 use super::window::{around, place, taken, undecided};
 use super::writer::Writer;
+use super::{Quantity, rounded};
 use crate::failure::Failure;
 use num_rational::BigRational;
 use serde_json::{Map, Value as Json, json};
@@ -24,7 +24,7 @@ const SPARE_DIGITS: usize = 3;
 /// A time is told by 10^(-ASIDE·digits) later or earlier, so that it is on one side of an arrival.
 const ASIDE: i32 = 2;
 
-/// What is read off a motion in a window, in the unit of an observable.
+/// What is read off a motion in a window, or off two, in the unit of an observable.
 pub struct Read<'a> {
     line: Line<'a>,
     precision: Precision,
@@ -40,57 +40,55 @@ pub struct Read<'a> {
 impl<'a> Read<'a> {
     /// An observable on a window; `None` where it is no sum of readings.
     pub fn of(
-        problem: &'a Problem,
-        name: &str,
+        of: &Quantity<'a>,
         [from, to]: [&BigRational; 2],
         digits: usize,
     ) -> Result<Option<Read<'a>>, Failure> {
-        let Ok(network) = problem.network() else { return Ok(None) };
-        let line = Line::of(problem, Contacts::of(network.scene()))?;
-        let measured = network.measures.iter().find(|measured| measured.name == name);
-        let Some(measured) = measured else { return Ok(None) };
-        let mut writer = Writer::default();
-        let rows: Vec<Json> = match &measured.value {
-            MeasuredValue::Linear(terms) => {
-                terms.iter().map(|term| read(&line, term, &mut writer)).collect()
-            }
-            MeasuredValue::Energy(parts) => {
-                let elements = &network.scene().elements;
-                // Loads hold none.
-                let held =
-                    parts.iter().filter(|own| !matches!(elements[own.1].kind, Kind::Load(_)));
-                let row = |(c, own): &(Fraction, usize)| {
-                    json!([writer.function(c), "energy", elements[*own].name])
-                };
-                held.map(row).collect()
-            }
+        let line_of = |problem: &'a Problem, beside| {
+            let Ok(network) = problem.network() else { return Ok(None) };
+            Line::of(problem, Contacts::of(network.scene()), beside).map(Some)
         };
+        let Some(line) = line_of(of.problem, None)? else { return Ok(None) };
+        let second = match of.minus {
+            None => None,
+            Some(other) => match line_of(other, Some(&line))? {
+                None => return Ok(None),
+                second => second,
+            },
+        };
+        let lines: Vec<&Line<'_>> = std::iter::once(&line).chain(&second).collect();
         // The motion is followed a little further, so that it is known from the last time on.
         let end = &line.in_units(to, SPARE_BITS)?[1] + BigRational::new(1.into(), 8.into());
         let end = Decimal::bound(&end, 6, Bound::Upper).to_rational();
         let unit = line.unit(&line.network.model().scale.time, SPARE_BITS)?;
         let until = &end * &Value::of(&unit, 1).bounds()[1];
-        let precision = line.precision(&until, digits)?;
-        let ends = [line.in_units(from, precision.bits)?, line.in_units(to, precision.bits)?];
-        let unit = Value::of(&line.unit(&measured.unit, precision.bits)?, 1).bounds();
-        let mut document = line.document(&end, &until, digits, &precision, &mut writer)?;
-        document.insert("quantity".into(), json!(name));
-        document.insert("observed".into(), json!(rows));
+        let mut precision = line.precision(&until, digits)?;
+        if let Some(second) = &second {
+            precision = precision.for_both(second.precision(&until, digits)?);
+        }
+        let (mut writer, mut is_beside_contact) = (Writer::default(), false);
+        let (mut unit, mut documents) = (None, Vec::new());
+        for own in &lines {
+            let measures = &own.network.measures;
+            let measured = measures.iter().find(|measured| measured.name == of.name);
+            let Some(measured) = measured else { return Ok(None) };
+            let observed = rows(own, &measured.value, &mut writer);
+            let mut document = own.document([&end, &until], digits, precision.bits, &mut writer)?;
+            document.insert("observed".into(), observed);
+            documents.push(document);
+            unit.get_or_insert(&measured.unit);
+            is_beside_contact |=
+                own.network.scene().contacts_open && is_force_at_end(own, &measured.value);
+        }
+        let unit = line.unit(unit.expect("there is a line"), precision.bits)?;
+        let unit = Value::of(&unit, 1).bounds();
+        let mut documents = documents.into_iter();
+        let mut document = documents.next().expect("there is a line");
+        document.extend(lines[lines.len() - 1].followed(&end, &precision, &writer));
+        document.insert("quantity".into(), json!(of.name));
         document.insert("unit".into(), json!(written(unit, precision.bits as usize / 3)));
-        let layout = &network.layout;
-        let is_at_end = |term: &Term| match &term.of {
-            Reading::InBar(Field::Force, section) => section.end(Fraction::is_zero).is_some(),
-            Reading::Force(Lump { node, place }) => {
-                let resistance = layout.nodes[*node].elements[*place].law.resistance();
-                resistance.is_some_and(|[_, damping]| !damping.is_zero())
-            }
-            _ => false,
-        };
-        let is_force = match &measured.value {
-            MeasuredValue::Linear(terms) => terms.iter().any(is_at_end),
-            MeasuredValue::Energy(_) => false,
-        };
-        let is_beside_contact = network.scene().contacts_open && is_force;
+        document.extend(documents.next().map(|second| ("minus".into(), Json::Object(second))));
+        let ends = [line.in_units(from, precision.bits)?, line.in_units(to, precision.bits)?];
         Ok(Some(Read { line, precision, ends, digits, is_beside_contact, document }))
     }
 
@@ -231,6 +229,36 @@ impl<'a> Read<'a> {
         };
         times.iter().map(near).collect()
     }
+}
+
+/// What is read of the elements of a line.
+fn rows(line: &Line<'_>, value: &MeasuredValue, writer: &mut Writer) -> Json {
+    match value {
+        MeasuredValue::Linear(terms) => terms.iter().map(|term| read(line, term, writer)).collect(),
+        MeasuredValue::Energy(parts) => {
+            let elements = &line.network.scene().elements;
+            // Loads hold none.
+            let held = parts.iter().filter(|own| !matches!(elements[own.1].kind, Kind::Load(_)));
+            let row = |(c, own): &(Fraction, usize)| {
+                json!([writer.function(c), "energy", elements[*own].name])
+            };
+            held.map(row).collect()
+        }
+    }
+}
+
+/// Whether a force at the end of a bar or in a damper is read.
+fn is_force_at_end(line: &Line<'_>, value: &MeasuredValue) -> bool {
+    let layout = &line.network.layout;
+    let is_at_end = |term: &Term| match &term.of {
+        Reading::InBar(Field::Force, section) => section.end(Fraction::is_zero).is_some(),
+        Reading::Force(Lump { node, place }) => {
+            let resistance = layout.nodes[*node].elements[*place].law.resistance();
+            resistance.is_some_and(|[_, damping]| !damping.is_zero())
+        }
+        _ => false,
+    };
+    matches!(value, MeasuredValue::Linear(terms) if terms.iter().any(is_at_end))
 }
 
 /// A shorter step, of which the times that people write are no multiples.

@@ -35,6 +35,17 @@ pub enum Asked {
     Distance,
 }
 
+impl Asked {
+    /// Of an extremum what it is of: the largest or the smallest value, or without a goal the largest size.
+    fn goal(self) -> Option<Option<Goal>> {
+        match self {
+            Asked::Roots => None,
+            Asked::Extremum(goal) => Some(Some(goal)),
+            Asked::Distance => Some(None),
+        }
+    }
+}
+
 pub fn certificate(
     of: &Quantity<'_>,
     asked: Asked,
@@ -51,17 +62,17 @@ pub fn certificate(
     let _progress = progress::spinner("searching");
     let search = Search::new(&*signal)?.half_open();
     let mut cover = Cover::of(&*signal, digits);
-    let (mut document, begins) = match (seen, asked, of.minus) {
-        (Ok(seen), ..) => seen,
+    let (mut document, begins) = match seen {
+        Ok(seen) => seen,
         // What is no sum of pieces may be read off a motion.
-        (Err(refusal), Asked::Extremum(goal), None) => {
-            let read = Read::of(of.problem, &wanted.name, ends, digits)?.ok_or(refusal)?;
-            let (claims, found) = extremum(&search, Some(goal), &mut cover, None, digits)?;
-            let times: Vec<BigRational> = cover.cells.into_iter().map(|cell| cell.to).collect();
-            return read.extreme(claims, &times, &found.places[0]);
-        }
-        (Err(refusal), Asked::Roots, None) => {
-            let read = Read::of(of.problem, &wanted.name, ends, digits)?.ok_or(refusal)?;
+        Err(refusal) => {
+            let own = Quantity { name: &wanted.name, ..*of };
+            let read = Read::of(&own, ends, digits)?.ok_or(refusal)?;
+            if let Some(goal) = asked.goal() {
+                let (claims, found) = extremum(&search, goal, &mut cover, None, digits)?;
+                let times: Vec<BigRational> = cover.cells.into_iter().map(|cell| cell.to).collect();
+                return read.extreme(claims, &times, &found.places[0]);
+            }
             let found = search.roots(&BigRational::default(), digits, SEARCH_BITS)?;
             cover.run_nearly()?;
             let mut arrivals = Vec::new();
@@ -71,13 +82,11 @@ pub fn certificate(
             let times: Vec<BigRational> = cover.cells.into_iter().map(|cell| cell.to).collect();
             return read.zeros(&found.all, &times, &arrivals);
         }
-        (Err(refusal), ..) => return Err(refusal),
     };
     let cuts = cuts(&*signal, begins)?;
-    let claims = match asked {
-        Asked::Roots => roots(&search, &mut cover, &cuts, digits)?,
-        Asked::Extremum(_) | Asked::Distance => {
-            let goal = if let Asked::Extremum(goal) = asked { Some(goal) } else { None };
+    let claims = match asked.goal() {
+        None => roots(&search, &mut cover, &cuts, digits)?,
+        Some(goal) => {
             let (mut claims, found) = extremum(&search, goal, &mut cover, Some(&cuts), digits)?;
             claims["kind"] = json!("extremum");
             claims["attained"] = cover.attained(&found, digits)?;

@@ -373,8 +373,15 @@ fn what_cannot_be_computed_is_explained() {
                  bar b { impedance = 2, travel = pi }\nline free - a | s - m - d - b - free\n\
                  contacts open\nobserve v = velocity(m)\n";
     fs::write(folder.join("rings.wave"), rings).unwrap();
+    let joint = "scene \"Pushed spring\"\nload push { force = sin(t) }\nspring cushion { stiffness = 2 }\n\
+                 bar pile { impedance = 1, travel = 1 }\nline free - push - cushion - pile - fixed\n\
+                 observe force = force(pile.left)\n";
+    fs::write(folder.join("joint.wave"), joint).unwrap();
     let eval = "eval rigid-mass --set mu=1 --quantity f";
     for (name, code, line) in [
+        ("joint-without-mass", 1, "derive joint.wave".into()),
+        ("model-of-equations", 2, "derive rigid-mass --model third".into()),
+        ("wavenumber-irrational", 2, "dispersion beam --wavenumber pi/2".into()),
         ("time-late", 1, format!("{eval} --at 100000")),
         ("time-far-off", 1, format!("{eval} --at 1e999")),
         ("piece-late", 1, format!("{eval} --piece 1000000000 --local 0")),

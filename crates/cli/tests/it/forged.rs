@@ -1,8 +1,8 @@
 //! Certificates with wrong claims: each is refused, and it is said what is wrong.
 
 use super::certificates::{
-    CONTENTS, DISTANCES, DOUBLES, EVENTS, EXTREMES, MORE_CONTENTS, READINGS, VALUES, WINDOWS,
-    ZEROS, certify, checked, with_flint,
+    APART, CONTENTS, DISTANCES, DOUBLES, EVENTS, EXTREMES, MORE_CONTENTS, READINGS, VALUES,
+    WINDOWS, ZEROS, certify, checked, with_flint,
 };
 use super::folder;
 use serde_json::json;
@@ -73,7 +73,21 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     std::fs::write(folder.join("root.wave"), ROOTED).unwrap();
     let rooted = ask("root.wave --quantity v --at 3/2");
     let [held, moved] = [MORE_CONTENTS[0], MORE_CONTENTS[3]].map(ask);
-    let cases: [(&serde_json::Value, Change, &str); 134] = [
+    let [apart, more, without] = APART.map(ask);
+    let cases: [(&serde_json::Value, Change, &str); 147] = [
+        (&apart, |own| own["minus"]["line"][1]["mass"] = number("9/4"), "may be an extremum"),
+        (&apart, |own| own["minus"]["line"][1]["velocity"] = number("9/10"), "not taken where it"),
+        (&apart, |own| own["minus"]["observed"] = json!([]), "may be an extremum"),
+        (&apart, |own| drop(own.as_object_mut().unwrap().remove("minus")), "may be an extremum"),
+        (&apart, |own| own["goal"] = "largest".into(), "not taken where it is said"),
+        (&apart, |own| own["goal"] = "smallest".into(), "a value is beyond"),
+        (&apart, |own| own["value"] = "-1".into(), "a value is beyond"),
+        (&apart, |own| own["minus"]["numbers"] = json!({}), "a second scene lacks something"),
+        (&apart, |own| own["minus"]["minus"] = own["minus"].clone(), "a second scene lacks"),
+        (&apart, |own| own["kind"] = "events".into(), "a claim lacks something"),
+        (&more, |own| own["minus"]["line"][1]["mass"] = of("2", "m_other"), "m_other has no value"),
+        (&without, |own| own["events"] = json!([]), "no event is claimed"),
+        (&without, |own| own["minus"]["events"] = own["events"].clone(), "without a contact"),
         (&held, |own| own["line"][1]["velocity"] = number("2"), "the value is between"),
         (&held, |own| own["line"][1]["force"] = number("1"), "the value is between"),
         (&held, |own| own["line"][7]["force"] = number("1"), "an endless bar is infinite"),

@@ -376,7 +376,8 @@ fn cut_offs_of_durations() {
     let expected = 2.0 * (std::f64::consts::PI / 4.0).asin();
     assert!((k.to_decimal(17).midpoint().to_rational().to_f64().unwrap() - expected).abs() < 1e-14);
     // Beyond the maximum of ω there is none, and the message says how far was looked.
-    for (relation, tau) in [(lattice, 3), (Builtin::Cubic.relation(), 4)] {
+    let peaked = read("k^2*exp(-k)");
+    for (relation, tau) in [(lattice, 3), (Builtin::Cubic.relation(), 4), (peaked, 4)] {
         let error = pulse(tau, 1).cut_off(&relation, 60).unwrap_err();
         assert!(matches!(error, DispersionError::NoCutOff { .. }), "{error}");
     }
