@@ -77,6 +77,7 @@ class Parts:
                 link = {"is": own["is"], **{key: self.number(own[key]) for key in keys}}
                 if own["is"] == "bar":
                     link["travel"] = None if own["travel"] is None else self.length(own["travel"])
+                    link["rows"] = own["travel"]
                     need(sign(link["impedance"]) == 1, "an impedance is not positive")
                 self.links.append(link)
                 for values, new in ((self.mass, NIL), (self.momentum, NIL), (self.fixed, False), (self.endless, False)):
@@ -138,6 +139,37 @@ class Parts:
             decided(sign(below) in (1, -1), "a divisor may be zero")
             total = short(total + self.polynomial(top) / below)
         return total
+
+    def is_sum(self, parts, whole):
+        """Whether numbers add up to another one for all values of what they hold: over one denominator all terms cancel."""
+        rows, total = [(1, *row) for part in parts for row in part] + [(-1, *row) for row in whole], {}
+        for i, (way, top, _) in enumerate(rows):
+            lifted = self.expanded(top)
+            for factor, power in (own for j, (_, _, factors) in enumerate(rows) if j != i for own in factors):
+                need(type(power) is int and 0 < power <= 100, "a power of a factor is too large")
+                for _ in range(power):
+                    lifted = self.multiplied(lifted, self.expanded(factor))
+            for names, c in lifted.items():
+                total[names] = total.get(names, NIL) + way * c
+        return all(c == 0 for c in total.values())
+
+    def expanded(self, terms):
+        return self.multiplied({tuple(sorted(names.items())): rational(c) for c, names in distinct(terms)}, {(): fmpq(1)})
+
+    def multiplied(self, a, b):
+        """Two polynomials, where squares of roots are numbers."""
+        found = {}
+        for left, x in a.items():
+            for right, y in b.items():
+                powers, value = dict(left), x * y
+                for name, power in right:
+                    powers[name] = powers.get(name, 0) + power
+                for name in powers.keys() & self.roots.keys():
+                    value *= self.roots[name] ** (powers[name] // 2)
+                    powers[name] %= 2
+                key = tuple(sorted((name, power) for name, power in powers.items() if power))
+                found[key] = found.get(key, NIL) + value
+        return found
 
     def length(self, rows):
         """A length of time: those that are multiples of each other count in one unit."""

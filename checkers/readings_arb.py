@@ -58,11 +58,9 @@ class Place:
         """Whether the delays are those of a section: none from an endless side, else as long together as the way through the bar."""
         parts, delays = self.story.parts, [own for own in (right, left) if own is not None]
         need([right is None, left is None] == parts.endless[n : n + 2], "a wave is missing, or comes from an endless side")
-        lengths = [parts.length(own).value() for own in delays]
-        decided(all(sign(own) in (0, 1) for own in lengths), "a wave may be read before it enters")
-        if len(lengths) == 2:
-            rest = sum(lengths) - parts.links[n]["travel"].value()
-            need(rest == 0 if isinstance(rest, fmpq) else rest.contains(0), "the delays are not those of one section")
+        decided(all(sign(parts.length(own).value()) in (0, 1) for own in delays), "a wave may be read before it enters")
+        if len(delays) == 2:
+            need(parts.is_sum(delays, parts.links[n]["rows"]), "the delays are not those of one section")
 
     def gathered(self, n, way, over):
         """The integral over a bar of a wave, or of its square: what has entered and not left yet."""

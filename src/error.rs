@@ -255,12 +255,13 @@ fn remedy(error: &ProblemError) -> Option<String> {
             did_you_mean(name, names)
                 .unwrap_or_else(|| format!("the built-in scenes are {}", names.join(", ")))
         }
-        ProblemError::Unknown { names, .. }
-        | ProblemError::UnknownThere { names, .. }
-        | ProblemError::LeftOut { names, .. }
+        ProblemError::Unknown { names, .. } | ProblemError::LeftOut { names, .. }
             if names.is_empty() =>
         {
             "nothing is observed here: add a line such as `observe v = velocity(NAME)`".to_owned()
+        }
+        ProblemError::UnknownThere { names, .. } if names.is_empty() => {
+            "observe the same by the same name in both".to_owned()
         }
         ProblemError::Unknown { name, names }
         | ProblemError::UnknownThere { name, names, .. }

@@ -153,19 +153,18 @@ pub fn of_scene<'a>(
     chosen(network, observed, window, purpose).map(|(_, signal)| signal)
 }
 
-/// How far a signal of one scene is from one of another, both on this window and in one unit; of the second only the
-/// first arrivals count where their number is given.
+/// How far a signal of one scene or recurrence is from one of another, both on this window and in one unit; of the second only
+/// the first arrivals count where their number is given.
 pub(crate) fn difference<'a>(
-    networks: [&'a Network; 2],
+    scales: [Rc<Scale<'a>>; 2],
     operands: [Rc<dyn Signal + 'a>; 2],
     arrivals: Option<usize>,
     window: [&Rational; 2],
 ) -> Box<dyn Signal + 'a> {
-    let scales = networks.map(Scale::of);
     let (scale, unit) = (Rc::clone(&scales[0]), Root::from(Fraction::one()));
     Box::new(Operation::new(
         &scale,
-        Difference { networks, scales, operands, arrivals, from: window[0].clone() },
+        Difference { scales, operands, arrivals, from: window[0].clone() },
         unit,
         window,
     ))

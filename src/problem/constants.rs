@@ -6,6 +6,7 @@ use crate::enclosure::{Numbers, enclose_expression};
 use crate::export::definition_text;
 use crate::expression::{Constant, Definition, Fraction, Root};
 use crate::language;
+use crate::network::Network;
 use crate::recurrence::{Coupled, Recurrence};
 use std::collections::BTreeSet;
 use wavestep_polynomial::Symbol;
@@ -19,36 +20,7 @@ impl Problem {
     /// In which units the formulas of a scene are, and what the constants in them are, a line each; all
     /// constants where no text is given to look for them.
     pub fn constants(&self, text: Option<&str>) -> Result<Vec<String>, ProblemError> {
-        let Ok(network) = self.network() else { return Ok(Vec::new()) };
-        let (model, scene) = (network.model(), network.scene());
-        let unfolded = match network.local_contact() {
-            Some(_) => None,
-            None => Some(network.unfold(&vec![0; network.lattice().periods().len()])?),
-        };
-        let constants =
-            unfolded.as_ref().map_or(&*model.constants, |own| own.recurrence().constants());
-        let mut lines = Vec::new();
-        if scene.dimensional {
-            let unit = |value: &Root, unit: &str| {
-                decimal(constants, &value.clone().into())
-                    .map_or(unit.to_owned(), |number| format!("{number} {unit}"))
-            };
-            let (time, velocity) =
-                (unit(&model.scale.time, "s"), unit(&model.scale.velocity, "m/s"));
-            let force = unit(&model.scale.force(), "N");
-            lines.push(format!("times in {time}, velocities in {velocity}, forces in {force}"));
-        }
-        let part_of_name = |c: char| c.is_alphanumeric() || c == '_';
-        let words = text.map(|text| text.split(|c| !part_of_name(c)).collect::<BTreeSet<&str>>());
-        let occurs = |constant: &&Constant| {
-            words.as_ref().is_none_or(|words| words.contains(constant.symbol.name()))
-        };
-        for constant in constants.iter().filter(occurs) {
-            let number = decimal(constants, &constant.value);
-            let value = number.unwrap_or_else(|| definition_text(&constant.value));
-            lines.push(format!("{} = {value}", constant.symbol));
-        }
-        Ok(lines)
+        self.network().map_or_else(|_| Ok(Vec::new()), |network| constants_of(network, text))
     }
 
     /// In which unit the formulas of an observable are, in scenes with units.
@@ -84,6 +56,38 @@ impl Problem {
         let waves: Vec<String> = system.waves.iter().map(|w| recurrence.wave_name(*w)).collect();
         Some((network.place_of_waves(&waves), waves, rates(recurrence, system)))
     }
+}
+
+/// The same of a network, in whatever scales it is.
+#[doc(hidden)]
+pub fn constants_of(network: &Network, text: Option<&str>) -> Result<Vec<String>, ProblemError> {
+    let (model, scene) = (network.model(), network.scene());
+    let unfolded = match network.local_contact() {
+        Some(_) => None,
+        None => Some(network.unfold(&vec![0; network.lattice().periods().len()])?),
+    };
+    let constants = unfolded.as_ref().map_or(&*model.constants, |own| own.recurrence().constants());
+    let mut lines = Vec::new();
+    if scene.dimensional {
+        let unit = |value: &Root, unit: &str| {
+            decimal(constants, &value.clone().into())
+                .map_or(unit.to_owned(), |number| format!("{number} {unit}"))
+        };
+        let (time, velocity) = (unit(&model.scale.time, "s"), unit(&model.scale.velocity, "m/s"));
+        let force = unit(&model.scale.force(), "N");
+        lines.push(format!("times in {time}, velocities in {velocity}, forces in {force}"));
+    }
+    let part_of_name = |c: char| c.is_alphanumeric() || c == '_';
+    let words = text.map(|text| text.split(|c| !part_of_name(c)).collect::<BTreeSet<&str>>());
+    let occurs = |constant: &&Constant| {
+        words.as_ref().is_none_or(|words| words.contains(constant.symbol.name()))
+    };
+    for constant in constants.iter().filter(occurs) {
+        let number = decimal(constants, &constant.value);
+        let value = number.unwrap_or_else(|| definition_text(&constant.value));
+        lines.push(format!("{} = {value}", constant.symbol));
+    }
+    Ok(lines)
 }
 
 /// A definition as a decimal number, where all in it is known.

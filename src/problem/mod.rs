@@ -39,6 +39,7 @@ use wavestep_polynomial::{Rational, Symbol};
 pub use advise::{Advice, Need, Tried, Verdict};
 pub use between::{Claimed, Unproven};
 pub use check::{Checked, Derivations, General, Periods, Solved};
+pub use constants::constants_of;
 pub use derive::{Derived, Form, Functions, GeneralFormulas, Orders, Symbols, ToDerive};
 pub use enough_map::{Column, EnoughMap, MapRequest, Run, SymbolRange, geometrically_spaced, runs};
 pub use equal::{Crossing, EqualExtrema};

@@ -1,12 +1,12 @@
 //! Simpler answers than the exact one, and how far they are from it, with proof.
 
-use super::{Problem, ProblemError, Wanted};
+use super::{Kind, Problem, ProblemError, Wanted};
 use crate::export::expression_text;
 use crate::language::{self, Change, ChangeError, Source, closest};
 use crate::model::Modes;
-use crate::network::{Network, NetworkError};
+use crate::network::NetworkError;
 use crate::planner::{self, Origin, Purpose};
-use crate::signal::{EvaluateError, Goal, Place, Search, Signal};
+use crate::signal::{EvaluateError, Goal, Place, Scale, Search, Signal};
 use std::fmt;
 use std::rc::Rc;
 use std::str::FromStr;
@@ -114,7 +114,7 @@ impl<'p> From<&'p Other> for Against<'p> {
 }
 
 /// A scene, and what it says of a quantity.
-type Counterpart<'p> = (&'p Network, Box<dyn Signal + 'p>);
+type Counterpart<'p> = (Rc<Scale<'p>>, Box<dyn Signal + 'p>);
 
 /// The largest absolute value of a signal on its window, with proof.
 #[derive(Clone, PartialEq, Debug)]
@@ -269,9 +269,8 @@ impl Problem {
         window: [&Rational; 2],
         purpose: Purpose,
     ) -> Result<Box<dyn Signal + 'p>, ProblemError> {
-        let (network, others) = self.counterpart(other, wanted, window, purpose)?;
-        let networks = [self.network()?, network];
-        Ok(planner::difference(networks, [own, Rc::from(others)], None, window))
+        let (scale, others) = self.counterpart(other, wanted, window, purpose)?;
+        Ok(planner::difference([self.scale(), scale], [own, Rc::from(others)], None, window))
     }
 
     /// A quantity as its arrivals tell it, from the start on.
@@ -303,15 +302,22 @@ impl Problem {
         count: usize,
         window: [&Rational; 2],
     ) -> Result<Box<dyn Signal + 'p>, ProblemError> {
-        let network = self.network()?;
-        Ok(planner::difference([network; 2], [own.clone(), own], Some(count), window))
+        let scales = [self.scale(), self.scale()];
+        Ok(planner::difference(scales, [own.clone(), own], Some(count), window))
+    }
+
+    fn scale(&self) -> Rc<Scale<'_>> {
+        match &self.kind {
+            Kind::Line { network, .. } => Scale::of(network),
+            Kind::Equations(solution) => Scale::of_recurrence(solution.recurrence()),
+        }
     }
 
     /// What another answer says of a quantity on a window, and its scene; arrivals are no answer of their own.
     ///
     /// # Errors
     /// [`ProblemError::UnknownThere`]; [`ProblemError::LeftOut`]; [`ProblemError::Apart`] for quantities or times in
-    /// other units; equations without bars; arrivals.
+    /// other units; arrivals.
     pub(super) fn counterpart<'p>(
         &'p self,
         other: Against<'p>,
@@ -322,14 +328,14 @@ impl Problem {
         Ok(match other {
             Against::Problem(other) => {
                 let others = self.same(other, wanted)?;
-                (other.network()?, other.signal_on(&others, window, purpose)?)
+                (other.scale(), other.signal_on(&others, window, purpose)?)
             }
             Against::Modes(modes) => {
                 let place = wanted.place.ok_or_else(|| self.unknown(&wanted.name))?;
                 let (own, vibration) = (self.network()?, modes.vibration(place)?);
                 let sum = (vibration.drift, &vibration.modes[..]);
                 let signal = planner::vibration(own, sum, window);
-                (own, signal.ok_or_else(|| self.unknown(&wanted.name))?)
+                (self.scale(), signal.ok_or_else(|| self.unknown(&wanted.name))?)
             }
             Against::Arrivals(_) => return Err(ProblemError::NoArrivals(wanted.name.clone())),
         })
@@ -344,7 +350,9 @@ impl Problem {
         let others = others.filter(|_| is_observed(self) == is_observed(other));
         let Some(others) = others else {
             let waves = if is_observed(self) { Vec::new() } else { other.waves() };
-            let names = waves.into_iter().chain(other.observables()).map(str::to_owned);
+            let names = waves.into_iter().chain(other.observables());
+            let is_here = |name: &&str| self.wanted(name).is_ok();
+            let names = names.filter(is_here).map(str::to_owned);
             let (name, names) = (wanted.name.clone(), names.collect());
             let is_changed = other.title() == self.title();
             return Err(match is_changed && is_observed(self) {

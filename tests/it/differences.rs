@@ -175,3 +175,26 @@ fn a_difference_that_touches_zero_is_decided() {
         assert_eq!((least.value, least.places.len()), (Value::Exact(whole(0)), 1));
     });
 }
+
+/// A line and its equations, as a text states them, are one; delay equations with other rates are not.
+#[test]
+fn stated_equations_are_compared() {
+    let [line, stated] = ["mass-on-fixed-bar", "rigid-mass"]
+        .map(|scene| Problem::builtin(scene).unwrap().with("mu", "1").unwrap());
+    let eight = Rational::from_integer(8.into());
+    for pair in [[&line, &stated], [&stated, &line], [&stated, &stated]] {
+        let found = extremes(pair, "velocity", eight.clone());
+        assert_eq!(found.map(|value| value.to_string()), ["0", "0"]);
+    }
+    let delayed = |rate: u32| {
+        let text = format!(
+            "recurrence \"Delayed\"\nperiod 1, local s, time t\nwave x\n\
+             equation x[n]' = -{rate}*x[n-1]\ncontinuous x[n] starts at 1\n"
+        );
+        Problem::read("delayed.wave", text).unwrap()
+    };
+    // Until 1 both are 1, then 1 - 2 s and 1 - 3 s, then -1 - 2 s + 2 s² and -2 - 3 s + 9/2 s².
+    let [_, largest] = extremes([&delayed(2), &delayed(3)], "x", Rational::from_integer(3.into()));
+    // s = 1/5 is where 1 + s - 5/2 s² is largest.
+    assert_eq!(largest.to_string(), "11/10");
+}

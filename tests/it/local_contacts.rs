@@ -457,3 +457,24 @@ fn rough_series_bound_values_and_derivatives() {
     assert_eq!((shifted.rest, shifted.roughness), (derivative.rest, derivative.roughness));
     assert!(derivative.rest.to_double().to_f64().unwrap() > 0.0);
 }
+
+/// When a contact has opened, what both bars hold is what they had; the force came to zero at an irrational time, near which its
+/// power is enclosed on ever shorter cells.
+#[test]
+fn energies_are_told_after_a_contact_has_opened() {
+    let local = problem(
+        "bar a { impedance = 1, travel = 1, velocity = 1 }\nhertz tip { stiffness = 4 }\n\
+         bar b { impedance = 1, travel = 2 }\nline free - a - tip - b - free\n\
+         observe all = energy(line)\nobserve left = energy(a)\nobserve right = energy(b)",
+    );
+    let times = ["9/2", "7"];
+    let at = |name: &str| -> Vec<f64> {
+        values(&local, name, &times, 9).iter().map(|value| value.parse().unwrap()).collect()
+    };
+    let [all, left, right] = ["all", "left", "right"].map(at);
+    for ((all, left), right) in all.into_iter().zip(left).zip(right) {
+        close(all, 1.0 / 2.0, 1e-9);
+        close(left + right, 1.0 / 2.0, 1e-8);
+        assert!(left > 1e-3 && left < 1e-1, "{left}");
+    }
+}

@@ -160,3 +160,15 @@ fn resonance_with_a_rate_of_pi_is_followed() {
         assert!(off.abs() < 1e-12, "{time}: {off:e}");
     }
 }
+
+/// A haversine on a rod whose mass is held by a spring: pieces divide by a quadratic in π and in named constants.
+#[test]
+fn haversines_with_units_have_pieces() {
+    let text = "scene \"Haversine\"\nmaterial ti { modulus = 114 GPa, density = 4430 kg/m^3 }\n\
+                bar rod { material = ti, diameter = 16 mm, length = 900 mm }\nmass tip { mass = 150 g }\n\
+                support ground { stiffness = 8 kN/mm }\n\
+                load push { force = 10 - 10*cos(10000*pi*t) kN, until = 200 us }\n\
+                line free - push - rod - tip - ground - free\nobserve x = displacement(tip)\n";
+    let problem = Problem::read("text", text).unwrap();
+    assert!(problem.check().is_ok());
+}

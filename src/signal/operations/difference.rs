@@ -6,7 +6,6 @@
 use super::{Mark, Outcome, Rule, Scale, flatness_of, value_at};
 use crate::ball::{Arithmetic as _, Ball};
 use crate::expression::{Expression, Fraction, is_number};
-use crate::network::Network;
 use crate::signal::{
     At, Effort, Enclosure, Instant, Known, Limit, Near, Signal, Taylor, later, zeros_of,
 };
@@ -19,7 +18,6 @@ use wavestep_polynomial::{Rational, Symbol};
 ///   the start.
 /// - where arrivals are left out, the function of each stretch of the second operand is known for all times after it.
 pub(crate) struct Difference<'a> {
-    pub networks: [&'a Network; 2],
     pub scales: [Rc<Scale<'a>>; 2],
     pub operands: [Rc<dyn Signal + 'a>; 2],
     /// How many arrivals of the second operand count, from the start on: after them it goes on as if no more came.
@@ -32,7 +30,7 @@ impl<'a> Difference<'a> {
     /// Whether a number means the same in both scenes: it holds the time, square roots, `pi`, and constants with one name and one
     /// definition, as all those that they may rest on have.
     fn is_common(&self, number: &Fraction) -> bool {
-        let [own, other] = self.networks.map(|network| &network.model().constants);
+        let [own, other] = self.scales.each_ref().map(|scale| scale.constants);
         let shared = own.iter().zip(other).take_while(|(own, other)| own == other);
         let shared: Vec<_> = shared.map(|(own, _)| &own.symbol).collect();
         let symbols = Expression::from(number.clone()).symbols();
@@ -45,7 +43,7 @@ impl<'a> Difference<'a> {
 
     /// A time in the scale of one scene, in that of the other, where the units of time have an exact ratio.
     fn rescaled(&self, time: &Fraction, [from, to]: [usize; 2]) -> Option<Fraction> {
-        let unit = |scene: usize| &self.networks[scene].model().scale.time;
+        let unit = |scene: usize| &self.scales[scene].unit;
         let ratio = unit(from).over(unit(to)).ok()?.exact()?;
         self.is_common(time).then(|| time * &ratio)
     }

@@ -23,7 +23,7 @@ pub(crate) use vibration::Vibrating;
 
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
 use crate::enclosure::Numbers;
-use crate::expression::{Assumptions, Expression, Fraction, Root};
+use crate::expression::{Assumptions, Constant as Named, Expression, Fraction, Root};
 use crate::network::Network;
 use crate::recurrence::Recurrence;
 use crate::signal::error::Outcome;
@@ -59,8 +59,11 @@ pub(crate) struct Scale<'a> {
     /// As that of an [`Instant`].
     scene: usize,
     slowness: Fraction,
+    /// The unit of time.
+    unit: Root,
     clock: &'a Symbol,
     assumptions: &'a Assumptions,
+    constants: &'a [Named],
     numbers: Numbers,
     /// Lengths of time in the user's, by bits: breaks are asked for again and again.
     times: RefCell<HashMap<u64, HashMap<Fraction, Ball>>>,
@@ -72,8 +75,10 @@ impl<'a> Scale<'a> {
         Rc::new(Scale {
             scene: std::ptr::from_ref(network).addr(),
             slowness: model.slowness.clone(),
+            unit: model.scale.time.clone(),
             clock: &network.scene().time,
             assumptions: &model.assumptions,
+            constants: &model.constants,
             numbers: Numbers::new(&model.constants),
             times: RefCell::default(),
         })
@@ -84,8 +89,10 @@ impl<'a> Scale<'a> {
         Rc::new(Scale {
             scene: std::ptr::from_ref(recurrence).addr(),
             slowness: Fraction::one(),
+            unit: Root::from(Fraction::one()),
             clock: &recurrence.statement().time,
             assumptions: &recurrence.statement().assumptions,
+            constants: recurrence.constants(),
             numbers: Numbers::new(recurrence.constants()),
             times: RefCell::default(),
         })

@@ -14,7 +14,7 @@ use wavestep::enclosure::Numbers;
 use wavestep::expression::{Fraction, PI, Root};
 use wavestep::history::{Event, EventKind};
 use wavestep::network::{Contacts, ElementLaw, Layout, Network, Node};
-use wavestep::problem::{Problem, ProblemError};
+use wavestep::problem::{Problem, ProblemError, constants_of};
 use wavestep::scene::Drive;
 use wavestep::signal::EvaluateError;
 use wavestep_polynomial::Symbol;
@@ -138,7 +138,7 @@ impl<'a> Line<'a> {
         let mut document = Map::new();
         let mut insert = |key: &str, value: Json| document.insert(key.into(), value);
         insert("title", json!(self.problem.title()));
-        insert("constants", json!(self.problem.constants(None)?));
+        insert("constants", json!(constants_of(&self.network, None)?));
         insert("time", json!(self.network.scene().time.name()));
         insert("line", drawing::moving(&self.network, &self.layout, writer));
         insert("events", json!(events));

@@ -11,7 +11,7 @@ use serde_json::{Map, Value as Json, json};
 use wavestep::ball::{Bound, Decimal};
 use wavestep::expression::Fraction;
 use wavestep::network::{Contacts, Face, Field, Lump, MeasuredValue, Reading, Term};
-use wavestep::problem::Problem;
+use wavestep::problem::{Problem, number};
 use wavestep::scene::Kind;
 use wavestep::signal::{Place, Root, Value};
 
@@ -82,6 +82,12 @@ impl<'a> Read<'a> {
         }
         let unit = line.unit(unit.expect("there is a line"), precision.bits)?;
         let unit = Value::of(&unit, 1).bounds();
+        if let [own, other] = &documents[..]
+            && shares_event(own, other)
+        {
+            let message = "there are no certificates of differences where contacts of both scenes change at one time that is not rational";
+            return Err(Failure::usage(message, "ask for an earlier end"));
+        }
         let mut documents = documents.into_iter();
         let mut document = documents.next().expect("there is a line");
         document.extend(lines[lines.len() - 1].followed(&end, &precision, &writer));
@@ -229,6 +235,20 @@ impl<'a> Read<'a> {
         };
         times.iter().map(near).collect()
     }
+}
+
+/// Whether events of two motions cannot be told apart.
+fn shares_event(own: &Map<String, Json>, other: &Map<String, Json>) -> bool {
+    let times = |document: &Map<String, Json>| -> Vec<[BigRational; 2]> {
+        let end = |end: &Json| number("an event", end.as_str().unwrap_or("0")).expect("a number");
+        let events = document["events"].as_array().into_iter().flatten();
+        events.map(|event| [end(&event[2]), end(&event[3])]).collect()
+    };
+    let others = times(other);
+    let meets = |[low, high]: &[BigRational; 2]| {
+        others.iter().any(|[from, to]| low < high && from <= high && low <= to)
+    };
+    times(own).iter().any(meets)
 }
 
 /// What is read of the elements of a line.

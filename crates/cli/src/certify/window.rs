@@ -74,6 +74,12 @@ pub fn certificate(
                 return read.extreme(claims, &times, &found.places[0]);
             }
             let found = search.roots(&BigRational::default(), digits, SEARCH_BITS)?;
+            if of.minus.is_some() {
+                let alone = of.problem.signal_on(&wanted, ends, Purpose::Search)?;
+                let alone = Search::new(&*alone)?.half_open();
+                let alone = alone.roots(&BigRational::default(), digits, SEARCH_BITS)?;
+                refuse_equal(&found.all, &alone.all)?;
+            }
             cover.run_nearly()?;
             let mut arrivals = Vec::new();
             for stretch in 1..signal.count()? {
@@ -100,6 +106,23 @@ pub fn certificate(
     let told = |cell: &Cell| json!([cell.from.to_string(), cell.to.to_string(), cell.order]);
     document.insert("cells".into(), cover.cells.iter().map(told).collect());
     Ok(document)
+}
+
+/// What both scenes have in common for a while, and is not zero, is zero for no checker once it is taken away.
+fn refuse_equal(differences: &[Root], alone: &[Root]) -> Result<(), Failure> {
+    let rest = |root: &Root| match root {
+        Root::Interval { from, to, .. } => Some([from.bounds(), to.bounds()]),
+        _ => None,
+    };
+    let rests: Vec<_> = alone.iter().filter_map(rest).collect();
+    let is_silent = |[from, to]: &[Window; 2]| {
+        rests.iter().any(|[begin, end]| begin[0] <= from[1] && to[0] <= end[1])
+    };
+    if differences.iter().filter_map(rest).all(|own| is_silent(&own)) {
+        return Ok(());
+    }
+    let message = "there are no certificates of zeros where both quantities are equal for a while, and not zero";
+    Err(Failure::usage(message, "certify how far they are apart, with --distance"))
 }
 
 fn roots(

@@ -41,12 +41,13 @@ pub(super) const WINDOWS: [&str; 11] = [
     "mass-on-fixed-bar --set mu=1/10 --zero velocity --minus third --to 1",
 ];
 
-/// How far quantities are from those of simpler scenes: without waves, endless, with other numbers.
-pub(super) const DISTANCES: [&str; 4] = [
+/// How far quantities are from those of simpler scenes: without waves, endless, with other numbers; a line and its equations.
+pub(super) const DISTANCES: [&str; 5] = [
     "mass-on-fixed-bar --set mu=1/10 --distance velocity --minus third --to 1",
     "mass-on-fixed-bar --set mu=1 --distance strain_impact --minus endless:rod.right --to 4 --digits 6",
     "pile --distance ram_velocity --minus without:toe --to 4 --digits 6",
     "struck-free-bar --set mu=1 --max velocity --minus endless:rod.right --to 4 --digits 9",
+    "mass-on-fixed-bar --set mu=1 --max velocity --minus rigid-mass --to 3",
 ];
 
 /// The same where a checker follows two motions: with units, waves in one of them only, contacts that open in both or in one.
@@ -563,6 +564,14 @@ fn what_has_no_certificate_is_told() {
         ("certify mass-on-free-bar --set m=3/2 --zero force --to 29/4", "beside an open contact"),
         ("certify rigid-mass --quantity f --at 1", "mu"),
         ("certify pile --general", "no closed form in n"),
+        (
+            "certify saint-venant --set mu=1 --distance velocity --minus saint-venant --to 5 --digits 6",
+            "change at one time that is not rational",
+        ),
+        (
+            "certify stepped-striker --zero momentum --minus rigid:nose --to 5",
+            "equal for a while, and not zero",
+        ),
         ("certify rigid-mass --at 1", "--quantity"),
         ("certify rigid-mass --set mu=1 --quantity f --at 1,2", "for one time"),
         ("certify rigid-mass --zero velocity", "mu has no value"),

@@ -7,6 +7,10 @@ use super::certificates::{
 use super::folder;
 use serde_json::json;
 
+/// A section of a bar is read, behind a load.
+const BETWEEN: &str = "scene \"Between\"\nload push { force = 1 }\nbar rod { impedance = 1, travel = 1 }\n\
+    line free - push - rod - free\nobserve v = velocity(rod.at(4/5))\n";
+
 /// The function c x of a symbol x.
 fn of(coefficient: &str, symbol: &str) -> serde_json::Value {
     json!([[[[coefficient, { symbol: 1 }]], []]])
@@ -74,7 +78,19 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let rooted = ask("root.wave --quantity v --at 3/2");
     let [held, moved] = [MORE_CONTENTS[0], MORE_CONTENTS[3]].map(ask);
     let [apart, more, without] = APART.map(ask);
-    let cases: [(&serde_json::Value, Change, &str); 147] = [
+    std::fs::write(folder.join("between.wave"), BETWEEN).unwrap();
+    let between = ask("between.wave --quantity v --at 32/25");
+    let cases: [(&serde_json::Value, Change, &str); 148] = [
+        (
+            &between,
+            |own| {
+                own["numbers"]["n"] = json!(["7/10", "81/100"]);
+                own["observed"][0][3] = of("1", "n");
+                own["observed"][0][4] = json!([[[["11/10", {}], ["-1", { "n": 1 }]], []]]);
+                own["step"] = "2".into();
+            },
+            "do not add up to the travel time",
+        ),
         (&apart, |own| own["minus"]["line"][1]["mass"] = number("9/4"), "may be an extremum"),
         (&apart, |own| own["minus"]["line"][1]["velocity"] = number("9/10"), "not taken where it"),
         (&apart, |own| own["minus"]["observed"] = json!([]), "may be an extremum"),
