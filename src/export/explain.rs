@@ -290,9 +290,11 @@ impl Derivation {
         let recurrence = writer.recurrence;
         let told = |wave| Told::of(recurrence, wave, shown);
         let together: Vec<usize> = (0..shown).filter(|wave| told(*wave) == Told::Result).collect();
-        self.sentence("Solved for one wave after another:");
         let (equations, mut starts) = writer.solved(|wave| told(wave) == Told::Steps);
-        self.parts.push(Block::Equations(equations, Some(RECURRENCE)));
+        if !equations.is_empty() {
+            self.sentence("Solved for one wave after another:");
+            self.parts.push(Block::Equations(equations, Some(RECURRENCE)));
+        }
         if !recurrence.coupled().is_empty() && together.is_empty() {
             self.sentence(
                 "Modes are combinations of waves in which derivatives are no longer coupled.",

@@ -407,3 +407,46 @@ impl Prime {
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{BigInt, is_soon_irreducible};
+
+    /// By the coefficients, the lowest power first.
+    fn is_known(coefficients: &[i64]) -> bool {
+        is_soon_irreducible(&coefficients.iter().map(|c| BigInt::from(*c)).collect::<Vec<_>>())
+    }
+
+    fn product(one: &[i64], other: &[i64]) -> Vec<i64> {
+        let mut product = vec![0; one.len() + other.len() - 1];
+        for (i, a) in one.iter().enumerate() {
+            other.iter().enumerate().for_each(|(j, b)| product[i + j] += a * b);
+        }
+        product
+    }
+
+    #[test]
+    fn degrees_modulo_primes_tell_what_is_irreducible() {
+        // A number, x + 3, x² - 2, 5 x² + 5 x + 1, x³ - 2, x⁵ - x - 1, x⁷ + 2 x + 2, x¹⁷ - x - 1.
+        assert!(!is_known(&[5]));
+        let mut trinomial = [0; 18];
+        (trinomial[0], trinomial[1], trinomial[17]) = (-1, -1, 1);
+        let irreducible: [&[i64]; 7] = [
+            &[3, 1],
+            &[-2, 0, 1],
+            &[1, 5, 5],
+            &[-2, 0, 0, 1],
+            &[-1, -1, 0, 0, 0, 1],
+            &[2, 2, 0, 0, 0, 0, 0, 1],
+            &trinomial,
+        ];
+        for (i, one) in irreducible.iter().enumerate() {
+            assert!(is_known(one), "{one:?}");
+            for other in &irreducible[i..] {
+                assert!(!is_known(&product(one, other)), "{one:?} times {other:?}");
+            }
+        }
+        // Irreducible, but a product modulo every prime: x⁴ + 1.
+        assert!(!is_known(&[1, 0, 0, 0, 1]));
+    }
+}

@@ -49,7 +49,7 @@ const MAX_EXACT_ECHOES_NAMED: usize = 100;
 
 /// The most terms of all these, and where formulas hold a named constant.
 const MAX_EXACT_TERMS: usize = 1_000_000;
-const MAX_NAMED_TERMS: usize = 10_000;
+const MAX_EXACT_TERMS_NAMED: usize = 10_000;
 
 /// Evaluates observables of a scene, up to a last time.
 pub struct SceneEchoes<'a> {
@@ -321,7 +321,7 @@ impl<'a> SceneEchoes<'a> {
     fn exact_echoes(&self) -> Option<Echoes<Expression>> {
         let recurrence = self.arriving.unfolded.recurrence();
         let most =
-            if recurrence.constants().is_empty() { MAX_EXACT_TERMS } else { MAX_NAMED_TERMS };
+            if recurrence.constants().is_empty() { MAX_EXACT_TERMS } else { MAX_EXACT_TERMS_NAMED };
         let demand = self.demand.borrow().clone();
         let count = demand.last().map_or(0, |last| last + 1);
         let (mut solver, mut terms) = (EchoByEcho::new(recurrence).wanting(demand), 0);

@@ -53,7 +53,7 @@ pub(super) const DISTANCES: [&str; 5] = [
 /// The same where a checker follows two motions: with units, waves in one of them only, contacts that open in both or in one.
 pub(super) const APART: [&str; 3] = [
     "pile --distance toe_force --minus rigid:pile --to 4 --digits 9",
-    "hopkinson --max force --minus spring:striker --to 200us",
+    "hopkinson --max force --minus spring:striker --to 400us",
     "saint-venant --set mu=1 --distance velocity --minus mass-on-fixed-bar --to 4 --digits 9",
 ];
 

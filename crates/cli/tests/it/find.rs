@@ -55,13 +55,13 @@ fn differences_of_two_scenes_are_told() {
     let (code, text, errors) = run(anywhere(), &words(line));
     assert_eq!((code, errors.as_str()), (0, ""), "{text}{errors}");
     assert!(text.starts_with("largest velocity - velocity of mass-on-free-bar = "), "{text}");
+    // Equations of the same motion.
+    let line = "find mass-on-fixed-bar --minus rigid-mass --max velocity --to 3 --set mu=1/4";
+    let (code, text, errors) = run(anywhere(), &words(line));
+    assert_eq!((code, errors.as_str()), (0, ""), "{text}{errors}");
+    assert!(text.starts_with("largest velocity - velocity of rigid-mass = 0 in"), "{text}");
     for (line, reason, remedy) in [
-        ("--minus hopkinson --max velocity", "neither a wave nor an observable of", "gauge"),
-        (
-            "--minus rigid-mass --max velocity",
-            "states equations; it has no bars",
-            "describe the scene",
-        ),
+        ("--minus hopkinson --max velocity", "neither a wave nor an observable of", "energy"),
         ("--minus nowhere --max velocity", "the scene `nowhere` cannot be read", "name a file"),
         ("--minus saint-venant --max velocity --set nu=1", "nu", "mu"),
     ] {

@@ -9,7 +9,7 @@ use serde_json::json;
 
 /// A section of a bar is read, behind a load.
 const BETWEEN: &str = "scene \"Between\"\nload push { force = 1 }\nbar rod { impedance = 1, travel = 1 }\n\
-    line free - push - rod - free\nobserve v = velocity(rod.at(4/5))\n";
+    line free - push - rod - free\nobserve x = displacement(rod.at(4/5))\n";
 
 /// The function c x of a symbol x.
 fn of(coefficient: &str, symbol: &str) -> serde_json::Value {
@@ -79,7 +79,7 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let [held, moved] = [MORE_CONTENTS[0], MORE_CONTENTS[3]].map(ask);
     let [apart, more, without] = APART.map(ask);
     std::fs::write(folder.join("between.wave"), BETWEEN).unwrap();
-    let between = ask("between.wave --quantity v --at 32/25");
+    let between = ask("between.wave --quantity x --at 32/25");
     let cases: [(&serde_json::Value, Change, &str); 148] = [
         (
             &between,

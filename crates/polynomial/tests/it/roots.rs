@@ -160,6 +160,7 @@ fn only_primes_and_minus_one_have_symbols() {
 #[test]
 fn norms_are_free_of_roots() {
     let p = read("1 + sqrt(2) + sqrt(3)");
+    assert!(p.is_algebraic_number() && !read("1 + sqrt(2)*x").is_algebraic_number());
     let (multiplier, norm) = p.norm();
     assert_eq!(norm, Polynomial::integer(-8));
     assert_eq!(&p * &multiplier, norm);
