@@ -11,8 +11,10 @@ use crate::support::{by_echoes, by_periods, violation};
 use num_traits::ToPrimitive;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
+use wavestep::enclosure::Numbers;
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{self, Source, Stated, read_recurrence};
+use wavestep::problem::{Derived, Form, Orders, ToDerive};
 use wavestep::recurrence::Recurrence;
 use wavestep::scenes::{self, SCENES};
 use wavestep::solution::Solution;
@@ -532,4 +534,38 @@ fn rigid_mass_agrees_with_runge_kutta() {
     }
     eprintln!("Runge-Kutta differs by {worst:e}");
     assert!(worst < 1e-8, "{worst:e}");
+}
+
+/// Travel times without a common measure: echoes in order of arrival, none of them zero, each after whole periods of both, and
+/// none left out before the first that may be missing.
+#[test]
+fn echoes_on_a_lattice_are_in_order() {
+    let problem = wavestep::Problem::builtin("incommensurate").unwrap();
+    let network = problem.network().unwrap();
+    let numbers = Numbers::new(&network.model().constants);
+    let periods = network.lattice().periods();
+    let asked = |last| {
+        let orders = Orders::Through(0, last);
+        match problem.functions(ToDerive::Waves, orders, Form::Echo).unwrap() {
+            Derived::Arrivals(found) => found,
+            other => panic!("{other:?}"),
+        }
+    };
+    let (few, more) = (asked(3), asked(5));
+    assert!(few.len() > 8 && more.len() > few.len(), "{} {}", few.len(), more.len());
+    for arrival in &more {
+        let delays = arrival.counts.iter().zip(periods);
+        let delay = delays.fold(Fraction::zero(), |sum, (count, period)| {
+            &sum + &period.scale(&Rational::from_integer((*count).into()))
+        });
+        assert!(!arrival.echo.is_zero() && arrival.delay == delay, "{arrival:?}");
+    }
+    for pair in more.windows(2).filter(|pair| pair[0].wave == pair[1].wave) {
+        assert!(numbers.compare(&pair[0].delay, &pair[1].delay).unwrap().is_lt());
+    }
+    // Those of fewer orders are the first of each wave.
+    for wave in 0..problem.waves().len() {
+        let [few, more] = [&few, &more].map(|all| all.iter().filter(|own| own.wave == wave));
+        assert!(few.zip(more).all(|(one, other)| one == other));
+    }
 }

@@ -36,19 +36,21 @@ const SUBJECTS: [(&str, Values<'static>, &str, &str); 20] = [
 ];
 
 /// Complex and repeated poles, loads that turn and grow, lags of several periods, and slopes, one of them
-/// of a wave that has no equation of its own to integrate.
+/// of a wave that has no equation of its own to integrate, at whose jumps another one jumps.
 const RECURRENCE: &str = r#"
 recurrence "Many poles"
 period 3/2, local s, time t
-wave u, v, w, y, z
+wave u, v, w, x, y, z
 equation u[n]' + u[n]/4 + 2*v[n] = u[n-2]/3 + exp(-t/5)*t
 equation v[n]' - 2*u[n] + v[n]/4 = w[n-1]' - w[n-3]/5
 equation w[n]' + w[n] = y[n] - w[n-1]/2
+equation x[n]' + 2*x[n] = u[n]
 equation y[n]' + y[n] = u[n-1]/3 + 1
 equation z[n] = w[n-1]'/2 - y[n]' + u[n-2]
 continuous u[n] starts at 1
 continuous v[n] - w[n-1] starts at 0
 continuous w[n] starts at 1/2
+continuous x[n] + z[n] starts at 0
 continuous y[n] - u[n-1]/4 starts at 0
 observe mixed = u[n] - 3*v(t - 1/3) + w[n-2] + t/10
 observe slope = w[n]' + y[n-1]
@@ -101,7 +103,7 @@ fn scenes_are_as_enclosed() {
 fn many_poles_and_loads_are_as_enclosed() {
     let mut random = random(52);
     let mut tally = Tally::new("marched, many poles, of 1e-13 of the largest value");
-    for quantity in ["u", "v", "w", "y", "z", "mixed", "slope", "follows"] {
+    for quantity in ["u", "v", "w", "x", "y", "z", "mixed", "slope", "follows"] {
         with(RECURRENCE, &[], quantity, ("0", "24"), |subject| {
             compare(subject, &mut random, crate::methods::BITS, &mut tally)
         });

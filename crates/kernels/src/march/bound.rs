@@ -473,6 +473,23 @@ mod tests {
         assert!(found.slope_energy > 4.0 * SIZE && found.slope_energy < 4.2 * SIZE);
     }
 
+    /// `√(E² + 2EF)`, where the mass tells nothing.
+    #[test]
+    fn energies_bound_the_error() {
+        let mut found = perturbed(3);
+        (found.energy, found.slope_energy, found.mass) = (1.0, 10.0, 1.0);
+        let (bound, exact) = (found.bound().expect("a bound"), 21f64.sqrt());
+        assert!(bound >= exact && bound < exact * 1.001, "{bound}");
+    }
+
+    /// What sums of pairs may be off by counts, however near their values are.
+    #[test]
+    fn a_distance_covers_the_roundings_of_sums() {
+        let zero = DoubleDouble::from(0.0);
+        let end = Ends { left: zero, right: zero, absolute: 1.0, radius: 0.0 };
+        assert!(distance(end, zero, 0.0) >= 8.0 * UNIT * UNIT);
+    }
+
     #[test]
     fn weights_are_those_of_the_lemma() {
         // A rigid mass: κ = 1/(2B), Γ = √(1 + 1/4).

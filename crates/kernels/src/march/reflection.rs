@@ -103,3 +103,15 @@ impl Reflection {
         ratio <= 1.0 && product <= self.rate.lower()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Parameter;
+
+    #[test]
+    fn ones_alone_that_are_known_exactly_are_units() {
+        let is_unit = |value, radius| Parameter::within(value, radius).unwrap().is_exact_unit();
+        assert!(is_unit(1.0, 0.0) && is_unit(-1.0, 0.0));
+        assert!(!is_unit(1.0, 1e-20) && !is_unit(0.5, 0.0));
+    }
+}
