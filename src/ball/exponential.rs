@@ -117,8 +117,9 @@ impl Ball {
         if !upper.is_negative() || self.radius().top()? < self.midpoint().top()? - 3 {
             return None;
         }
-        // |x| ≥ 2^(top − 1).
-        let size = (upper.top()? - 1).clamp(0, i64::from(ARGUMENT_BITS));
-        Some(Ball::new(Binary::zero(), Magnitude::power_of_two(-(1 << size))))
+        // |x| ≥ 2^(top − 1); near zero the bound is 1.
+        let size = upper.top()? - 1;
+        let least = if size < 0 { 0 } else { 1 << size.min(i64::from(ARGUMENT_BITS)) };
+        Some(Ball::new(Binary::zero(), Magnitude::power_of_two(-least)))
     }
 }

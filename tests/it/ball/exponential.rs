@@ -103,10 +103,13 @@ fn arguments_beyond_the_limit_are_an_error() {
 /// Of negative numbers far apart, however large they are, the exponential is small.
 #[test]
 fn arguments_beyond_the_limit_may_be_negative_and_far_apart() {
-    let many = |low: i64, high: i64| {
-        let [low, high] = [low, high].map(|end| BigRational::from_integer(end.into()));
-        Ball::between(&low, &high, 64).exp(64)
+    let between = |low: i64, high: BigRational| {
+        Ball::between(&BigRational::from_integer(low.into()), &high, 64).exp(64)
     };
+    let many = |low: i64, high: i64| between(low, BigRational::from_integer(high.into()));
+    // e^(−1/8) is near 1.
+    let bound = between(-(1 << 50), BigRational::new((-1).into(), 8.into())).unwrap().magnitude();
+    assert!(bound >= Magnitude::power_of_two(0));
     let bound = many(-(1 << 50), -4).unwrap().magnitude();
     assert!(bound > Magnitude::power_of_two(-6) && bound <= Magnitude::power_of_two(-2));
     let least = many(-3 << 41, -1 << 41).unwrap();
