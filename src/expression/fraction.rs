@@ -249,12 +249,16 @@ fn is_irreducible(p: &Polynomial) -> bool {
     is_irreducible_quadratic(p)
         || p.symbols().iter().any(|x| match &p.coefficients(x)[..] {
             [(1, slope), (0, rest)] => {
-                let divides = |y: &Symbol| rest.coefficients(y).last().is_none_or(|(e, _)| *e > 0);
-                slope.term_count() == 1 && !slope.symbols().iter().any(divides)
+                slope.term_count() == 1 && !slope.symbols().iter().any(|y| divides(y, rest))
             }
             [(1, slope)] => slope.as_constant().is_some(),
             _ => false,
         })
+}
+
+/// Whether a symbol is in every term of a polynomial.
+fn divides(y: &Symbol, p: &Polynomial) -> bool {
+    p.coefficients(y).last().is_none_or(|(power, _)| *power > 0)
 }
 
 /// Whether a primitive polynomial is a quadratic in some symbol, led by a single term with which the others have no symbol in
@@ -266,11 +270,7 @@ fn is_irreducible_quadratic(p: &Polynomial) -> bool {
             let found = powers.iter().find(|(own, _)| *own == power);
             found.map_or_else(Polynomial::zero, |(_, coefficient)| coefficient.clone())
         };
-        let in_others = |y: &Symbol| {
-            powers[1..]
-                .iter()
-                .all(|(_, own)| own.coefficients(y).last().is_none_or(|(e, _)| *e > 0))
-        };
+        let in_others = |y: &Symbol| powers[1..].iter().all(|(_, own)| divides(y, own));
         let lead = coefficient(2);
         let leads =
             p.degree(x) == 2 && lead.term_count() == 1 && !lead.symbols().iter().any(in_others);
