@@ -63,7 +63,7 @@ impl ComplexBall {
     }
 
     /// Whether the imaginary part is exactly zero.
-    fn is_real(&self) -> bool {
+    pub(super) fn is_real(&self) -> bool {
         self.im.is_exact() && self.im.midpoint().is_zero()
     }
 

@@ -5,6 +5,7 @@
 
 use super::ball::Ball;
 use super::binary::{Binary, LEAST_PRECISION};
+use super::complex::ComplexBall;
 use super::magnitude::{Magnitude, shifted};
 use super::number::Number;
 use wavestep_polynomial::limbs::{self, in_buffer};
@@ -59,6 +60,28 @@ impl Ball {
             Ball::new(midpoint, radius)
         };
         (0..count).map(coefficient).collect()
+    }
+}
+
+impl ComplexBall {
+    /// `Σ z w`, where the real and the imaginary parts of all products are rounded once.
+    pub fn sum_of_products<'a>(
+        terms: impl Iterator<Item = (&'a ComplexBall, &'a ComplexBall)> + Clone,
+        precision: u64,
+    ) -> ComplexBall {
+        type Part = fn(&ComplexBall) -> &Ball;
+        let sum = |left: Part, right: Part| {
+            let products = terms.clone().map(|(z, w)| (1, left(z), right(w)));
+            Ball::sum_of_products(products, precision)
+        };
+        let (re, im): (Part, Part) = (ComplexBall::real, ComplexBall::imaginary);
+        if terms.clone().all(|(z, w)| z.is_real() && w.is_real()) {
+            return sum(re, re).into();
+        }
+        ComplexBall::new(
+            sum(re, re).subtract(&sum(im, im), precision),
+            sum(re, im).add(&sum(im, re), precision),
+        )
     }
 }
 

@@ -14,7 +14,7 @@
 //! errors are bounded in a weaker norm, that of a [`Roughness`].
 
 use crate::ball::{Ball, Magnitude, Number};
-use crate::signal::{Signed, divide};
+use crate::signal::{Signed, divide, divide_often};
 use std::cmp::Ordering;
 
 /// How near to its cell a function may cease to be analytic. Sums, integrals, shifts and the equations of a node keep
@@ -548,12 +548,8 @@ impl Series {
         cut: &Truncation,
     ) -> (Vec<Number>, Magnitude) {
         let mut shifted = self.coefficients.clone();
-        let length = shifted.len();
-        for first in 0..terms.min(length) {
-            for k in (first..length - 1).rev() {
-                shifted[k] = shifted[k].add(&shifted[k + 1].multiply(a, cut.bits), cut.bits);
-            }
-        }
+        let step = |c: &Number, next: &Number| c.add(&next.multiply(a, cut.bits), cut.bits);
+        divide_often(&mut shifted, terms, step);
         let reach = a.magnitude().add(h);
         let mut rest = Magnitude::ZERO;
         for q in shifted.iter().skip(terms).rev() {

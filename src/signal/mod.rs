@@ -45,5 +45,5 @@ pub(crate) use signal::{Enclosure, Known, MAX_FLATNESS, has_begun, last_begun, l
 pub(crate) use silence::Silence;
 pub use taps::{NoTaps, Taps};
 pub use taylor::{Expansion, Near, Taylor};
-pub(crate) use taylor::{divide, of_exponential};
+pub(crate) use taylor::{divide, divide_often, of_exponential};
 pub use varying::{Varying, complex_product};

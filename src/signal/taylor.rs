@@ -33,7 +33,13 @@ const WIDE: i64 = 1 << 20;
 /// Divides a polynomial by `x − a` again and again, where `step(c, d) = c + a d`: what is left are its
 /// coefficients at `a`.
 pub(crate) fn divide<V>(coefficients: &mut [V], step: impl Fn(&V, &V) -> V) {
-    for first in 0..coefficients.len() {
+    divide_often(coefficients, coefficients.len(), step);
+}
+
+/// The same so many times, where `p = Σ_{j<m} c_j (x − a)^j + (x − a)^m Q`: after `c_j`, the coefficients of `Q` in `x`
+/// are left.
+pub(crate) fn divide_often<V>(coefficients: &mut [V], times: usize, step: impl Fn(&V, &V) -> V) {
+    for first in 0..times.min(coefficients.len()) {
         for k in (first..coefficients.len().saturating_sub(1)).rev() {
             coefficients[k] = step(&coefficients[k], &coefficients[k + 1]);
         }
@@ -127,11 +133,8 @@ impl Taylor<ComplexBall> {
             .fold(Magnitude::power_of_two(1), |rest, m| rest.multiply(&eta).divide(m));
         let mut coefficients = Vec::with_capacity(terms);
         for k in 0..terms {
-            let mut sum = ComplexBall::zero();
-            for i in 0..=k {
-                sum = sum.add(&self.coefficients[i].multiply(&series[k - i], bits), bits);
-            }
-            coefficients.push(sum);
+            let pairs = self.coefficients[..=k].iter().zip(series[..=k].iter().rev());
+            coefficients.push(ComplexBall::sum_of_products(pairs, bits));
         }
         // above[i]: the sum of |e_j| from j = terms − i on, the rest included.
         let mut above = vec![rest];
@@ -360,15 +363,28 @@ impl Taylor {
     /// `p(a + bu)` for numbers `|a| + |b| ≤ 1`, exactly those points: the function on a part of where
     /// it is known. O(terms²) operations.
     pub(crate) fn part(&self, a: &Rational, b: &Rational, bits: u64) -> Taylor {
+        self.first_terms_of_part(a, b, self.coefficients.len(), bits)
+    }
+
+    /// The same with so many terms at most, the others in the remainder: `|b|^m Σ |q_k|` for a quotient `Q`.
+    pub(crate) fn first_terms_of_part(
+        &self,
+        a: &Rational,
+        b: &Rational,
+        terms: usize,
+        bits: u64,
+    ) -> Taylor {
         let mut coefficients = self.coefficients.clone();
-        let a = Ball::from_rational(a, bits);
-        divide(&mut coefficients, |c, next| c.add(&next.multiply(&a, bits), bits));
-        let scale = Ball::from_rational(b, bits);
+        let [a, scale] = [a, b].map(|number| Ball::from_rational(number, bits));
+        divide_often(&mut coefficients, terms, |c, next| c.add(&next.multiply(&a, bits), bits));
+        let quotient = coefficients.split_off(terms.min(coefficients.len()));
         let mut power = Ball::from_integer(&1.into());
         for coefficient in &mut coefficients {
             *coefficient = coefficient.multiply(&power, bits);
             power = power.multiply(&scale, bits);
         }
-        Taylor { coefficients, remainder: self.remainder }
+        let size = quotient.iter().fold(Magnitude::ZERO, |sum, q| sum.add(&q.magnitude()));
+        let remainder = self.remainder.add(&size.multiply(&power.magnitude()));
+        Taylor { coefficients, remainder }
     }
 }

@@ -34,8 +34,7 @@ pub(crate) fn divided_powers(x: &ComplexBall, count: usize, bits: u64) -> Vec<Co
 
 /// `Σ_j c_j p_j`, over as many as there are of both.
 pub(crate) fn dot(coefficients: &[ComplexBall], powers: &[ComplexBall], bits: u64) -> ComplexBall {
-    let products = coefficients.iter().zip(powers).map(|(c, p)| c.multiply(p, bits));
-    products.fold(ComplexBall::zero(), |sum, product| sum.add(&product, bits))
+    ComplexBall::sum_of_products(coefficients.iter().zip(powers), bits)
 }
 
 /// `e^{λx}`.

@@ -23,7 +23,7 @@ use crate::limits::{MAX_EXPANSIONS, MAX_POLYNOMIALS, pause};
 use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::find::goal::Record;
 use crate::signal::find::search::{Search, Target};
-use crate::signal::signal::Limit;
+use crate::signal::signal::{At, Limit};
 use crate::signal::taylor::{Near, Taylor};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -82,6 +82,7 @@ pub(crate) struct Cell {
 struct Expansion {
     middle: Rational,
     half: Rational,
+    /// How often the stretch was halved where they were worked out.
     depth: usize,
     /// The function and its derivative, each perhaps times a positive function, and for extrema the observable.
     polynomials: Vec<Taylor>,
@@ -242,15 +243,14 @@ impl Cover<'_, '_, '_> {
         }
         let (middle, half) = middle_and_half(&from, &to);
         if let Some(known) = known {
-            let polynomials = known.on(&middle, &half);
-            if let Some(finding) = self.decided(&polynomials) {
+            let part = known.on(&middle, &half);
+            if let Some(finding) = self.decided(&part.polynomials) {
                 self.push(from, to, finding);
                 return Ok(());
             }
-            if depth < known.depth + HALVINGS && polynomials.iter().all(is_sharp) {
-                let middle = middle.clone();
-                self.descend(from, middle.clone(), depth + 1, Some(known))?;
-                return self.descend(middle, to, depth + 1, Some(known));
+            if depth < known.depth + HALVINGS && part.polynomials.iter().all(is_sharp) {
+                self.descend(from, middle.clone(), depth + 1, Some(&part))?;
+                return self.descend(middle, to, depth + 1, Some(&part));
             }
         }
         self.expansions += 1;
@@ -292,7 +292,16 @@ impl Cover<'_, '_, '_> {
             if *[from, to][side] != self.bounds[side] {
                 continue;
             }
-            let flatness = || search.function.flatness(self.stretch, end, target.order);
+            // Enclosures are cheaper than the exact values that tell how many derivatives vanish.
+            let may_vanish = |order| {
+                let bits = search.bits.get();
+                let value = search.function.enclose(self.stretch, order, At::End(end), bits)?;
+                Ok::<_, EvaluateError>(value.contains_zero())
+            };
+            let flatness = || match may_vanish(target.order)? && may_vanish(target.order + 1)? {
+                true => search.function.flatness(self.stretch, end, target.order),
+                false => Ok(0),
+            };
             let count = *self.flatness[side].get_or_init(|| flatness().unwrap_or(0));
             // A simple zero is found without this.
             if count < 2 {
@@ -317,23 +326,34 @@ impl Cover<'_, '_, '_> {
         let attempt = |bits| {
             search.bits.set(bits);
             let place = (middle, half);
-            let of = |order: usize| {
+            let of = |order: usize, terms: usize| {
                 let target = Target { order, ..self.target };
                 match order == 0 && *target.level != Rational::default() {
-                    true => search.expand(self.stretch, target, place, TERMS, bits),
+                    true => search.expand(self.stretch, target, place, terms, bits),
                     false => {
-                        let near = Near { order, place, terms: TERMS, bits };
+                        let near = Near { order, place, terms, bits };
                         search.function.taylor_of_sign(self.stretch, near)
                     }
                 }
             };
-            let order = self.target.order;
-            let mut polynomials = vec![of(order)?, of(order + 1)?];
-            if let Some(record) = &self.record {
-                let observable = Target { order: 0, ..self.target };
-                let observable = search.expand(self.stretch, observable, place, TERMS, bits)?;
-                let one = record.goal.raised(Ball::from_integer(&1.into()));
-                polynomials.push(observable.scaled(&one, bits));
+            let with = |terms: usize| {
+                let order = self.target.order;
+                let mut polynomials = vec![of(order, terms)?, of(order + 1, terms)?];
+                if let Some(record) = &self.record {
+                    let observable = Target { order: 0, ..self.target };
+                    let observable = search.expand(self.stretch, observable, place, terms, bits)?;
+                    let one = record.goal.raised(Ball::from_integer(&1.into()));
+                    polynomials.push(observable.scaled(&one, bits));
+                }
+                Ok::<_, EvaluateError>(polynomials)
+            };
+            let mut polynomials = with(TERMS)?;
+            // More terms at once cost less than many short cells.
+            if !polynomials.iter().all(is_sharp) {
+                let longer = with(LONG_TERMS[0])?;
+                if longer.iter().all(is_sharp) {
+                    polynomials = longer;
+                }
             }
             let own = &polynomials[0];
             for coefficient in &own.coefficients {
@@ -373,10 +393,16 @@ impl Cover<'_, '_, '_> {
 }
 
 impl Expansion {
-    /// The same functions on a part of the cell.
-    fn on(&self, middle: &Rational, half: &Rational) -> Vec<Taylor> {
+    /// The same functions on a part of the cell, with no more terms than it takes.
+    fn on(&self, middle: &Rational, half: &Rational) -> Expansion {
         let (a, b) = ((middle - &self.middle) / &self.half, half / &self.half);
-        self.polynomials.iter().map(|polynomial| polynomial.part(&a, &b, self.bits)).collect()
+        let part = |polynomial: &Taylor| {
+            let few = polynomial.first_terms_of_part(&a, &b, TERMS, self.bits);
+            if is_sharp(&few) { few } else { polynomial.part(&a, &b, self.bits) }
+        };
+        let polynomials = self.polynomials.iter().map(part).collect();
+        let (middle, half) = (middle.clone(), half.clone());
+        Expansion { middle, half, polynomials, ..*self }
     }
 }
 
