@@ -27,6 +27,10 @@ fn comparisons() -> Precisions {
     Precisions::doubling(64, 512)
 }
 
+/// More places than so many are told apart with so many bits at most: where a motion returns again and again, they are equal.
+const MANY_PLACES: usize = 8;
+const MANY_BITS: u64 = 128;
+
 /// Bits of balls beyond those of a value.
 const SPARE_BITS: u64 = 64;
 
@@ -195,6 +199,9 @@ impl<'s> Search<'s> {
         let ready =
             self.function.ready_bits().saturating_sub(SPARE_BITS).max(comparisons().first());
         for bits in comparisons().iter().take_while(|bits| *bits <= ready) {
+            if bits > MANY_BITS && contenders.left.borrow().len() > MANY_PLACES {
+                break;
+            }
             contenders.compare(bits)?;
         }
         if contenders.left.borrow().is_empty() {

@@ -137,6 +137,12 @@ const UNDECIDED_BITS: u64 = 80;
 /// The relative width in bits of an interval that may be about a root of even order.
 const TOUCH_BITS: u64 = 40;
 
+/// Bits with which a slope is told from zero before exact values are asked for.
+const STILL_BITS: u64 = 256;
+
+/// How often a stretch is halved for that.
+const STILL_HALVINGS: u64 = 16;
+
 /// A search on its way.
 struct Finder<'s, 'a> {
     search: &'s Search<'a>,
@@ -200,14 +206,18 @@ impl Search<'_> {
         }
         let bounds = self.bounds(stretch)?;
         let (middle, half) = middle_and_half(&bounds[0], &bounds[1]);
+        // A short cell takes few terms, and more bits cost less than the exact value.
+        let half = half * power_of_half(STILL_HALVINGS);
         let bits = self.bits.get();
-        let near = Near { order: 1, place: (&middle, &half), terms: 4, bits };
-        let slope = self.function.taylor(stretch, near)?;
-        if slope.tail(0).is_zero() {
-            return Ok(true);
-        }
-        if !slope.coefficients.iter().all(Ball::contains_zero) {
-            return Ok(false);
+        for bits in [bits, STILL_BITS.max(2 * bits).min(self.function.most_bits())] {
+            let near = Near { order: 1, place: (&middle, &half), terms: 4, bits };
+            let slope = self.function.taylor(stretch, near)?;
+            if slope.tail(0).is_zero() {
+                return Ok(true);
+            }
+            if !slope.coefficients.iter().all(Ball::contains_zero) {
+                return Ok(false);
+            }
         }
         match self.function.exact(stretch, At::End(Limit::Right))? {
             Some(value) => self.function.equals(stretch, &value, &bounds, bits),
