@@ -6,7 +6,7 @@ use crate::ball::Value;
 use crate::error::Error;
 use crate::limits::{SEARCH_BITS, VALUE_BITS};
 use crate::planner::Purpose;
-use crate::problem::{Digits, Given, Problem, Wanted};
+use crate::problem::{Digits, Given, Problem, Undecided, Wanted};
 use crate::signal::{
     Certified, Compiled, Evaluator as _, Extremum, Goal, Limit, Roots, Search, Signal as Analytic,
     reaching_a_double,
@@ -90,7 +90,13 @@ impl Signal<'_> {
     fn limit(&self, time: Given, limit: Limit, digits: usize) -> Result<Value, Error> {
         let times = [self.problem.time("time", time)?];
         let value = |count| {
-            let digits = Digits { count, max_bits: VALUE_BITS, limit, count_echoes: false };
+            let digits = Digits {
+                count,
+                max_bits: VALUE_BITS,
+                limit,
+                count_echoes: false,
+                undecided: Undecided::Refused,
+            };
             let found = self.problem.proven(&self.wanted, &times, digits, &|| ());
             found.map(|mut found| found.values.remove(0))
         };

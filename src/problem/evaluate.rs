@@ -24,6 +24,17 @@ pub struct Digits {
     pub limit: Limit,
     /// Whether echoes are counted, which are worked out one by one then.
     pub count_echoes: bool,
+    /// What becomes of a value whose digits are not proven.
+    pub undecided: Undecided,
+}
+
+/// What becomes of a value whose digits are not proven.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Undecided {
+    /// It is an error.
+    Refused,
+    /// It is enclosed, and the others are told as well.
+    Enclosed,
 }
 
 impl Digits {
@@ -71,7 +82,7 @@ impl Problem {
         digits: Digits,
         tick: &dyn Fn(),
     ) -> Result<Proven, ProblemError> {
-        let Digits { count, max_bits, limit, count_echoes } = digits;
+        let Digits { count, max_bits, limit, count_echoes, undecided } = digits;
         let (Some(from), Some(to)) = (times.iter().min(), times.iter().max()) else {
             let (echoes, origin) = (None, Origin::Closed);
             return Ok(Proven { values: Vec::new(), echoes, origin });
@@ -83,6 +94,11 @@ impl Problem {
             let mut values = Vec::with_capacity(times.len());
             for time in times {
                 match signal::digits(signal, time, limit, count, max_bits) {
+                    Err(EvaluateError::AccuracyNotReached { best, .. })
+                        if undecided == Undecided::Enclosed =>
+                    {
+                        values.push(Value::Enclosed(*best));
+                    }
                     // More bits than those tried do not help.
                     Err(EvaluateError::AccuracyNotReached { best, .. })
                         if signal.most_bits() < u64::MAX =>

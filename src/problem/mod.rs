@@ -44,7 +44,7 @@ pub use derive::{Derived, Form, Functions, GeneralFormulas, Orders, Symbols, ToD
 pub use enough_map::{Column, EnoughMap, MapRequest, Run, SymbolRange, geometrically_spaced, runs};
 pub use equal::{Crossing, EqualExtrema};
 pub use error::{EqualError, LockRefusal, Missing, ProblemError};
-pub use evaluate::{Digits, Proven};
+pub use evaluate::{Digits, Proven, Undecided};
 pub use given::{Given, number};
 pub use largest::{LargestBetween, QuantityWindow};
 pub use lock::ToLock;

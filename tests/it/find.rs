@@ -355,6 +355,42 @@ fn no_change_of_sign_is_missed() {
     assert!(changes > 40 && compared > 600, "{changes} {compared}");
 }
 
+/// A light mass turns many times in each period, so that a stretch takes many terms and is halved often: there is a root
+/// wherever samples change their sign, the extremum is no less than any of them, and some come near.
+#[test]
+fn long_stretches_of_fast_motion_are_searched() -> Result<(), wavestep::Error> {
+    let text = "scene \"A light mass\"\nmass hammer { mass = 1/20, velocity = 1 }\n\
+        bar rod { impedance = 1, travel = 1 }\nline free - hammer - rod - fixed\n\
+        observe v = velocity(hammer)\nobserve f = force(rod.right)\n";
+    let problem = wavestep::Problem::read("scene", text)?;
+    for quantity in ["v", "f"] {
+        let signal = problem.signal(quantity)?;
+        let roots = signal.roots(40..=48, 12)?;
+        let times: Vec<BigRational> =
+            (0..=800).map(|i| number("40") + BigRational::new(i.into(), 100.into())).collect();
+        let values = signal.values(&times, wavestep::Tolerance::Absolute(1e-9))?.values;
+        let at = |root: &Root| match root {
+            Root::Simple { time, .. } | Root::Jump { time, .. } => rational(time),
+            other => panic!("{other:?}"),
+        };
+        let at: Vec<BigRational> = roots.all.iter().map(at).collect();
+        let mut changes = 0;
+        for (window, pair) in times.windows(2).zip(values.windows(2)) {
+            if pair.iter().any(|value| value.abs() < 1e-6) {
+                continue;
+            }
+            let inside = at.iter().filter(|at| window[0] < **at && **at <= window[1]).count();
+            assert_eq!(inside % 2 == 1, pair[0] * pair[1] < 0.0, "{quantity} between {window:?}");
+            changes += inside;
+        }
+        assert!(changes > 20, "{quantity}: {changes}");
+        let largest = signal.extremum(Goal::Largest, 40..=48, 12)?.value.to_f64();
+        let sampled = values.iter().copied().fold(f64::MIN, f64::max);
+        assert!(sampled <= largest + 1e-9 && largest < sampled * 1.02, "{sampled} {largest}");
+    }
+    Ok(())
+}
+
 /// No sample exceeds the extremum, and it is taken, or approached, where it is said to be.
 #[test]
 fn no_sample_exceeds_an_extremum() {

@@ -2,7 +2,7 @@
 
 use super::arguments::Eval;
 use super::doubles;
-use super::failure::Failure;
+use super::failure::{Failure, settled};
 use super::input;
 use super::output::plural;
 use super::progress;
@@ -11,7 +11,8 @@ use super::validity::note_pulling;
 use num_rational::BigRational;
 use std::time::Instant;
 use wavestep::answer::Accuracy;
-use wavestep::problem::{Digits, Problem};
+use wavestep::problem::{Digits, Problem, Undecided};
+use wavestep::signal::Value;
 
 /// Says where a contact that stays closed would pull before the last of some times.
 pub fn run(options: &Eval) -> Result<String, Failure> {
@@ -33,24 +34,28 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
         (named, _) => named.iter().map(|name| name.trim().to_owned()).collect(),
     };
     let mut told = Told::new(options.format, names.len());
-    let mut last = None;
+    let (mut last, mut undecided) = (None, 0);
     for name in &names {
         let times = times(&problem, name, options)?;
         last = last.max(times.iter().max().cloned());
-        told.add(name, answered(&problem, name, &times, accuracy, options)?);
+        let is_one = names.len() == 1 && times.len() == 1;
+        let (text, open) = answered(&problem, (name, &times), accuracy, is_one, options)?;
+        undecided += open;
+        told.add(name, text);
     }
     last.iter().for_each(|last| note_pulling(&problem, last));
-    Ok(told.all())
+    let remedy = "ask for one digit more or fewer, or allow more bits with --max-bits";
+    settled(told.all(), (undecided, "value"), remedy)
 }
 
-/// The values of one quantity, as they are told.
+/// The values of one quantity, as they are told, and how many stay undecided; a single one is refused then.
 fn answered(
     problem: &Problem,
-    name: &str,
-    times: &[BigRational],
+    (name, times): (&str, &[BigRational]),
     accuracy: Accuracy,
+    is_one: bool,
     options: &Eval,
-) -> Result<String, Failure> {
+) -> Result<(String, usize), Failure> {
     let limit = options.side;
     let tolerance = match accuracy {
         Accuracy::Within(tolerance) => Some(tolerance),
@@ -67,11 +72,12 @@ fn answered(
             doubles::count(found.echoes);
         }
         let wanted = problem.wanted(name)?;
-        return Ok(doubles::written(&found, problem, &wanted, times, options));
+        return Ok((doubles::written(&found, problem, &wanted, times, options), 0));
     }
     let wanted = problem.wanted(name)?;
     let (count, max_bits) = (options.digits, options.max_bits);
-    let digits = Digits { count, max_bits, limit, count_echoes: options.stats };
+    let undecided = if is_one { Undecided::Refused } else { Undecided::Enclosed };
+    let digits = Digits { count, max_bits, limit, count_echoes: options.stats, undecided };
     let (progress, begin) = (progress::counted(times.len()), Instant::now());
     let found = problem.proven(&wanted, times, digits, &|| progress.inc(1))?;
     drop(progress);
@@ -86,5 +92,6 @@ fn answered(
     if options.stats {
         doubles::count(found.echoes);
     }
-    Ok(written(problem, &wanted, (times, &found.values), options))
+    let open = found.values.iter().filter(|value| matches!(value, Value::Enclosed(_))).count();
+    Ok((written(problem, &wanted, (times, &found.values), options), open))
 }

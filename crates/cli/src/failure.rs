@@ -1,6 +1,7 @@
 //! Failures with their exit codes, as they are shown.
 
 use super::diagnostic::{Style, render};
+use super::output::plural;
 use std::fmt;
 use std::io::{self, IsTerminal as _, Write as _};
 use wavestep::Error;
@@ -103,6 +104,20 @@ impl Failure {
             Failure::Told { message, remedy, .. } => told(message, remedy),
         }
     }
+}
+
+/// What was found, as a failure where some of it stays undecided.
+pub fn settled(
+    report: String,
+    (undecided, what): (usize, &str),
+    remedy: &str,
+) -> Result<String, Failure> {
+    if undecided == 0 {
+        return Ok(report);
+    }
+    let stay = if undecided == 1 { "stays" } else { "stay" };
+    let message = format!("{} {stay} undecided", plural(undecided, what));
+    Err(Failure::new(ACCURACY, message, remedy).with_report(report))
 }
 
 impl fmt::Display for Failure {

@@ -35,7 +35,7 @@ pub fn run(options: &Field) -> Result<String, Failure> {
     note_pulling(&problem, &time);
     let text = match options.format {
         Format::Json => json_document(&fields, &problem, options),
-        _ => csv(&fields),
+        _ => csv(&fields, problem.has_units()),
     };
     written(text, options.output.output.as_deref())
 }
@@ -45,15 +45,22 @@ fn places(bar: &BarFields, sampling: Sampling) -> impl Iterator<Item = &[f64]> {
     bar.x.windows(if sampling == Sampling::Nodes { 1 } else { 2 })
 }
 
-fn csv(fields: &Fields) -> String {
-    let place = match fields.sampling {
-        Sampling::Nodes => "x",
-        Sampling::Averages => "x_left,x_right",
+/// A row for each place, with the units of columns in their names where the scene has units.
+fn csv(fields: &Fields, has_units: bool) -> String {
+    let column = |name: &str, unit: &str| match has_units && !unit.is_empty() {
+        true => format!(",{name} [{unit}]"),
+        false => format!(",{name}"),
     };
-    let mut text = format!("bar,{place}");
+    let ends: &[&str] = match fields.sampling {
+        Sampling::Nodes => &["x"],
+        Sampling::Averages => &["x_left", "x_right"],
+    };
+    let mut text = "bar".to_owned();
+    ends.iter().for_each(|place| text += &column(place, "m"));
     for quantity in Quantity::ALL {
-        let name = quantity.name();
-        let _ = write!(text, ",{name},{name}_bound");
+        let (name, unit) = (quantity.name(), quantity.dimension().unit());
+        text += &column(name, &unit);
+        text += &column(&format!("{name}_bound"), &unit);
     }
     text.push('\n');
     for bar in &fields.bars {

@@ -2,17 +2,20 @@
 
 use super::arguments::Find;
 use super::compared::{self, Compared};
-use super::failure::{ACCURACY, Failure};
+use super::failure::{Failure, settled};
 use super::find_equal;
 use super::found::{self, Told};
 use super::input;
-use super::output::plural;
 use super::progress;
 use super::validity;
 use num_rational::BigRational;
 use wavestep::planner::Purpose;
 use wavestep::problem::Size;
 use wavestep::signal::{Extremum, Goal, Place, Search, Value};
+
+const FEWER_DIGITS: &str = "ask for fewer digits, or a shorter window";
+const MORE_BITS: &str =
+    "raise --max-bits; a root without a change of sign is proven only at a simple fraction";
 
 pub fn run(options: &Find) -> Result<String, Failure> {
     input::digits(options.digits)?;
@@ -51,12 +54,12 @@ pub fn run(options: &Find) -> Result<String, Failure> {
             drop(progress);
             let undecided = usize::from(matches!(extremum.value, Value::Enclosed(_)));
             note_default_end(options, &extremum, goal, &window[1]);
-            settled(found::extremum(&extremum, goal, &told), undecided, "value")
+            settled(found::extremum(&extremum, goal, &told), (undecided, "value"), FEWER_DIGITS)
         }
         None => {
             let roots = search.roots(&level, digits, limit_bits)?;
             drop(progress);
-            settled(found::roots(&roots, &told), roots.undecided(), "interval")
+            settled(found::roots(&roots, &told), (roots.undecided(), "interval"), MORE_BITS)
         }
     };
     if found.is_ok() {
@@ -111,23 +114,7 @@ fn distances(
         rows.push((wanted, Size::of(&*difference, asked, &negligible)?, size));
     }
     let (report, undecided) = found::distances(&rows, problem, &window, options);
-    settled(report, undecided, "distance")
-}
-
-/// What was found, as a failure where some of it stays undecided.
-fn settled(report: String, undecided: usize, what: &str) -> Result<String, Failure> {
-    if undecided == 0 {
-        return Ok(report);
-    }
-    let stay = if undecided == 1 { "stays" } else { "stay" };
-    let message = format!("{} {stay} undecided", plural(undecided, what));
-    let remedy = match what {
-        "distance" | "value" => "ask for fewer digits, or a shorter window",
-        _ => {
-            "raise --max-bits; a root without a change of sign is proven only at a simple fraction"
-        }
-    };
-    Err(Failure::new(ACCURACY, message, remedy).with_report(report))
+    settled(report, (undecided, "distance"), FEWER_DIGITS)
 }
 
 /// The name of the quantity asked for, and the level as it is written.

@@ -115,9 +115,12 @@ pub fn written(
 ) -> String {
     match options.format {
         Format::Csv => {
-            let line = |value: &Value| {
-                let (decimal, exactness) = value.decimal(options.digits);
-                format!("{decimal},{}", exactness == Exactness::Exact)
+            let line = |value: &Value| match value {
+                Value::Enclosed(_) => ",undecided".to_owned(),
+                _ => {
+                    let (decimal, exactness) = value.decimal(options.digits);
+                    format!("{decimal},{}", exactness == Exactness::Exact)
+                }
             };
             let rows = rows.0.iter().zip(rows.1.iter().map(line));
             csv(problem, wanted, (rows, "value,exact"), options)
@@ -207,7 +210,8 @@ pub fn with_units(mut document: Json, problem: &Problem, wanted: &Wanted) -> Jso
 }
 
 /// `value` has the digits asked for, correctly rounded. `midpoint` and `radius` enclose the number
-/// with every digit that is proven; an exact value is given as a fraction instead.
+/// with every digit that is proven; an exact value is given as a fraction instead, and one that stays undecided has no
+/// `value`.
 fn json_value(time: &BigRational, value: &Value, digits: usize) -> Json {
     let (decimal, _) = value.decimal(digits);
     let (time, decimal) = (time.to_string(), decimal.to_string());
@@ -217,9 +221,10 @@ fn json_value(time: &BigRational, value: &Value, digits: usize) -> Json {
         }
         Value::Certified { ball, .. } | Value::Enclosed(ball) => {
             let enclosure = ball.to_decimal(ALL_DIGITS);
+            let is_decided = !matches!(value, Value::Enclosed(_));
             json!({
                 "time": time,
-                "value": decimal,
+                "value": is_decided.then_some(decimal),
                 "midpoint": enclosure.midpoint().to_string(),
                 "radius": format!("{:e}", enclosure.radius()),
             })

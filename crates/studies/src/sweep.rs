@@ -17,7 +17,7 @@ use wavestep::language;
 use wavestep::limits::{SEARCH_BITS, VALUE_BITS, count_nothing_here};
 use wavestep::planner::Purpose;
 use wavestep::problem::{
-    Digits, Given, Problem, Values, evenly_spaced, geometrically_spaced, number,
+    Digits, Given, Problem, Undecided, Values, evenly_spaced, geometrically_spaced, number,
 };
 use wavestep::signal::{Extremum, Goal, Limit, Place, Search, Value};
 use wavestep_polynomial::Rational;
@@ -335,6 +335,7 @@ impl Sweep<'_> {
             max_bits: VALUE_BITS,
             limit: Limit::Right,
             count_echoes: false,
+            undecided: Undecided::Refused,
         };
         for name in self.names(&problem).into_iter().filter(|_| !times.is_empty()) {
             let found = problem.proven(&problem.wanted(name)?, &times, digits, &|| ())?;

@@ -35,6 +35,28 @@ proptest! {
     }
 
     #[test]
+    fn sums_of_products_include_the_exact_sum(
+        pairs in prop::collection::vec((ball_and_point(), ball_and_point()), 0..8),
+        precision in 2_u64..200,
+    ) {
+        let sum =
+            ComplexBall::sum_of_products(pairs.iter().map(|((a, _), (b, _))| (a, b)), precision);
+        let (mut re, mut im) = (BigRational::zero(), BigRational::zero());
+        for ((_, (ax, ay)), (_, (bx, by))) in &pairs {
+            re += ax * bx - ay * by;
+            im += ax * by + ay * bx;
+        }
+        prop_assert!(contains(&sum, &(re, im)));
+        // Real numbers have a real sum.
+        let real = |ball: &ComplexBall| ComplexBall::from(ball.real().clone());
+        let reals: Vec<_> = pairs.iter().map(|((a, _), (b, _))| (real(a), real(b))).collect();
+        let sum = ComplexBall::sum_of_products(reals.iter().map(|(a, b)| (a, b)), precision);
+        let exact = pairs.iter().map(|((_, (ax, _)), (_, (bx, _)))| ax * bx).sum();
+        prop_assert!(contains(&sum, &(exact, BigRational::zero())));
+        prop_assert!(sum.imaginary().is_exact());
+    }
+
+    #[test]
     fn sums_of_exponents_give_products(
         a in prop::array::uniform2(samples::rational(2)),
         b in prop::array::uniform2(samples::rational(2)),

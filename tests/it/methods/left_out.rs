@@ -7,7 +7,7 @@ use proptest::prelude::RngExt as _;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use wavestep::answer::{Accuracy, Doubles, Method, Tolerance, Way};
-use wavestep::problem::{Digits, Problem};
+use wavestep::problem::{Digits, Problem, Undecided};
 use wavestep::signal::{At, EchoCount, Limit};
 
 /// Travel times without a common measure, a step of impedance, and dampers at both ends that throw back a fifth: what
@@ -49,7 +49,13 @@ fn within(problem: &Problem, name: &str, times: &[BigRational], tolerance: Toler
 
 /// The same values to twenty digits, with all echoes.
 fn digits(problem: &Problem, name: &str, times: &[BigRational]) -> (Vec<BigRational>, EchoCount) {
-    let digits = Digits { count: 20, max_bits: 1 << 14, limit: Limit::Right, count_echoes: true };
+    let digits = Digits {
+        count: 20,
+        max_bits: 1 << 14,
+        limit: Limit::Right,
+        count_echoes: true,
+        undecided: Undecided::Refused,
+    };
     let wanted = problem.wanted(name).expect(name);
     let found = problem.proven(&wanted, times, digits, &|| ()).expect("digits");
     let values = found.values.iter().map(|value| value.decimal(20).0.to_rational()).collect();
@@ -129,6 +135,50 @@ fn with_a_mass_nothing_is_left_out() {
     assert!(needed <= arriving);
 }
 
+/// The formula as it is printed keeps most digits of the first echoes, where these are seen at a delay and of several waves.
+#[test]
+fn printed_formulas_hold_the_first_echoes() {
+    for (text, name) in [(DAMPED, "force"), (MASS, "force"), (MASS, "velocity")] {
+        let (problem, times) = (problem(text), times(9, 40));
+        let (truth, _) = digits(&problem, name, &times);
+        let printed = Accuracy::Method(Method::Expanded, None);
+        let found = problem.doubles(name, &times, Limit::Right, printed).expect("values");
+        for ((value, truth), time) in found.values.iter().zip(&truth).zip(&times) {
+            let error = (exact(*value) - truth).abs();
+            assert!(error < exact(1e-10), "{name} at {}: {}", near(time), near(&error));
+        }
+    }
+}
+
+/// An echo of a load that decays is largest where it arrives: a sum of a constant and an exponential that is twice as large there
+/// as it is later.
+#[test]
+fn loads_that_decay_are_bounded_where_they_arrive() {
+    let text = "scene \"Decaying load\"\n\
+         bar a { impedance = 1, travel = 1 }\n\
+         bar b { impedance = 2, travel = pi/3 }\n\
+         support d { damping = 3/2 }\n\
+         support e { damping = 3 }\n\
+         load push { force = 1 + exp(-8*t) }\n\
+         line free - push - d - a | b - e - free\n\
+         observe force = force(b.left)\n";
+    let problem = problem(text);
+    let mut times = Vec::new();
+    for (i, j) in (0..8).flat_map(|i| (0..8).map(move |j| (i, j))) {
+        let arrival = 1.0 + 2.0 * f64::from(i) + f64::from(j) * std::f64::consts::TAU / 3.0;
+        times.push(exact(arrival + 1e-6));
+    }
+    let (truth, _) = digits(&problem, "force", &times);
+    for step in 4..36 {
+        let most = 10.0_f64.powf(-f64::from(step) / 4.0);
+        let found = within(&problem, "force", &times, Tolerance::Absolute(most));
+        for ((value, truth), time) in found.values.iter().zip(&truth).zip(&times) {
+            let error = (exact(*value) - truth).abs();
+            assert!(error <= exact(most), "{most:e} at {}: {}", near(time), near(&error));
+        }
+    }
+}
+
 /// On a grid the first pieces are worked out; after the last of them no more comes that matters. So a window of fifteen
 /// thousand periods costs no more than one of fifty.
 #[test]
@@ -137,8 +187,13 @@ fn pieces_that_cannot_matter_are_not_worked_out() {
     for (name, last) in [("force", 200), ("velocity", 200), ("force", 15_000)] {
         let mut times = times(20, 40);
         times.push(ratio(last, 1));
-        let count =
-            Digits { count: 20, max_bits: 1 << 14, limit: Limit::Right, count_echoes: false };
+        let count = Digits {
+            count: 20,
+            max_bits: 1 << 14,
+            limit: Limit::Right,
+            count_echoes: false,
+            undecided: Undecided::Refused,
+        };
         let wanted = problem.wanted(name).expect(name);
         let truth = problem.proven(&wanted, &times[..40], count, &|| ()).expect("digits");
         let truth: Vec<_> =

@@ -21,7 +21,7 @@ use wavestep::expression::{Constant, Definition};
 use wavestep::limits::VALUE_BITS;
 use wavestep::planner::has_periods;
 use wavestep::problem::{
-    Derived, Digits, Form, Orders, Problem, Symbols, ToDerive, Wanted, evenly_spaced,
+    Derived, Digits, Form, Orders, Problem, Symbols, ToDerive, Undecided, Wanted, evenly_spaced,
 };
 use wavestep::recurrence::Observation;
 use wavestep::signal::{Goal, Limit, Value};
@@ -203,8 +203,13 @@ fn value(
     at: &BigRational,
     digits: usize,
 ) -> Result<Map<String, Json>, Failure> {
-    let asked =
-        Digits { count: digits, max_bits: VALUE_BITS, limit: Limit::Right, count_echoes: false };
+    let asked = Digits {
+        count: digits,
+        max_bits: VALUE_BITS,
+        limit: Limit::Right,
+        count_echoes: false,
+        undecided: Undecided::Refused,
+    };
     let wanted = problem.wanted(name)?;
     let found = problem.proven(&wanted, std::slice::from_ref(at), asked, &|| ())?;
     let (decimal, last_place) = rounded(&found.values[0], digits);
