@@ -66,7 +66,8 @@ impl Lock {
         }
         if let (Derivable::Scene(network, None), Some(through)) = (from, through) {
             let waves: Vec<WaveIndex> = (0..network.waves().len()).collect();
-            for Arrival { wave, counts, echo, .. } in arrivals(network, &waves, through)? {
+            let found = arrivals(network, &waves, through, usize::MAX)?;
+            for Arrival { wave, counts, echo, .. } in found.expect("of any length") {
                 let piece = Piece { variable: network.local(), expression: echo };
                 all.insert((network.waves()[wave].name.clone(), counts), piece);
             }

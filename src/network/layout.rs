@@ -3,7 +3,7 @@
 use crate::expression::Fraction;
 use crate::network::model::Model;
 use crate::network::node::{ElementLaw, Link, Lumped, Node, Side};
-use crate::scene::{ElementIndex, End, Joint, Kind, Scene};
+use crate::scene::{Element, ElementIndex, End, Joint, Kind, Scene};
 
 /// How a line treats contacts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -106,11 +106,10 @@ impl Layout {
 
     /// The number of one more contact, at the right of a run.
     fn number(&mut self, scene: &Scene, run: usize, joint: usize) -> usize {
-        let name = |place: Option<usize>| {
-            let element = place.and_then(|place| scene.line.elements.get(place));
-            element.map_or("wall".to_owned(), |element| scene.elements[*element].name.clone())
+        let name = |element: Option<&Element>| {
+            element.map_or("wall".to_owned(), |element| element.name.clone())
         };
-        let names = [name(joint.checked_sub(1)), name(Some(joint))];
+        let names = scene.beside_joint(joint).map(name);
         self.contacts.push(Contact { names, node: self.nodes.len(), run, joint });
         self.contacts.len() - 1
     }

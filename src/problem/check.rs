@@ -2,13 +2,13 @@
 
 use super::bounds::MAX_NAMED_TERMS;
 use super::constants::rates;
+use super::derive::FEW_TERMS;
 use super::{Kind, Problem, ProblemError};
 use crate::expression::{Condition, PI, Transform};
 use crate::history::HistoryError;
 use crate::limits::counted;
 use crate::network::{Network, NetworkError};
 use crate::recurrence::Statement;
-use crate::signal::arrivals;
 use crate::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution};
 use wavestep_polynomial::{Rational, Symbol};
 
@@ -95,7 +95,7 @@ impl Problem {
             return Ok(Checked::LocalContact(contact));
         }
         match &self.kind {
-            Kind::Line { network, .. } if self.on_lattice() => on_lattice(network),
+            Kind::Line { network, .. } if self.on_lattice() => on_lattice(self, network),
             _ => match self.check_periods() {
                 Ok(periods) => Ok(Checked::Periods(Box::new(periods))),
                 Err(reason) => self.needs_values(reason),
@@ -218,7 +218,13 @@ fn general(solution: &Solution, wave: usize) -> General {
 }
 
 /// Solves the laws, and derives the first echoes.
-fn on_lattice(network: &Network) -> Result<Checked, ProblemError> {
+fn on_lattice(problem: &Problem, network: &Network) -> Result<Checked, ProblemError> {
     let waves: Vec<usize> = (0..network.waves().len()).collect();
-    Ok(Checked::Lattice { echoes: arrivals(network, &waves, FIRST_ECHOES)?.len() })
+    let (_, found, _) = problem.few_arrivals(network, &waves, FIRST_ECHOES, FEW_TERMS);
+    let echoes = match found {
+        // What is asked for later may be no formula.
+        Err(ProblemError::LongEchoes { .. }) => 0,
+        found => found?.len(),
+    };
+    Ok(Checked::Lattice { echoes })
 }

@@ -49,13 +49,20 @@ impl Problem {
         let (Kind::Line { network, .. }, Ok(recurrence)) = (&self.kind, self.recurrence()) else {
             return None;
         };
-        let named =
-            |rate: &Fraction| recurrence.constants().iter().any(|c| rate.contains(&c.symbol));
-        let mut systems = recurrence.coupled().iter();
-        let system = systems.find(|system| system.rates.iter().any(named))?;
-        let waves: Vec<String> = system.waves.iter().map(|w| recurrence.wave_name(*w)).collect();
-        Some((network.place_of_waves(&waves), waves, rates(recurrence, system)))
+        named_rates_of(network, recurrence)
     }
+}
+
+/// Where rates have names in a recurrence of a scene, waves that decay together, and their rates.
+pub(super) fn named_rates_of(
+    network: &Network,
+    recurrence: &Recurrence,
+) -> Option<(String, Vec<String>, Vec<String>)> {
+    let named = |rate: &Fraction| recurrence.constants().iter().any(|c| rate.contains(&c.symbol));
+    let mut systems = recurrence.coupled().iter();
+    let system = systems.find(|system| system.rates.iter().any(named))?;
+    let waves: Vec<String> = system.waves.iter().map(|w| recurrence.wave_name(*w)).collect();
+    Some((network.place_of_waves(&waves), waves, rates(recurrence, system)))
 }
 
 /// The same of a network, in whatever scales it is.

@@ -3,6 +3,7 @@
 use super::bounds::{
     MAX_NAMED_TERMS, first_long_echo, refuse_echoes, refuse_terms, terms_of_piece, terms_through,
 };
+use super::constants::named_rates_of;
 use super::error::Missing;
 use super::{Kind, Problem, ProblemError};
 use crate::export::{self, Derivation, Formula, Notation, SourceForm};
@@ -10,7 +11,7 @@ use crate::expression::{Expression, Fraction};
 use crate::language;
 use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::{Observable, Recurrence, WaveIndex};
-use crate::signal::{Arrival, arrivals};
+use crate::signal::{Arrival, LongEcho, arrivals};
 use crate::solution::{ObserveError, ObservedStretch, Solution, Unknown};
 use std::borrow::Cow;
 
@@ -27,7 +28,7 @@ const FEW: usize = 3;
 const MOST_WITHOUT_RETURN: usize = 16;
 
 /// The most terms of all waves that an echo with names for rates has of these.
-const FEW_TERMS: usize = 5_000;
+pub(super) const FEW_TERMS: usize = 5_000;
 
 /// What is to be derived.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -177,6 +178,11 @@ impl Problem {
             return (Orders::Through(from, last.max(from)), None);
         }
         let last = from.saturating_add(FEW);
+        if let Some(network) = self.lattice() {
+            let all = (0..network.waves().len()).collect::<Vec<_>>();
+            let (through, _, long) = self.few_arrivals(network, &all, last, FEW_TERMS);
+            return (Orders::Through(from, through.max(from)), long);
+        }
         let named = self.recurrence().ok().filter(|of| of.names_rates_of(1) && !self.on_lattice());
         let Some(recurrence) = named else { return (Orders::Through(from, last), None) };
         let waves = self.meant(recurrence, what).map_or_else(|_| Vec::new(), |own| own.waves());
@@ -368,6 +374,46 @@ impl Problem {
         self.network().ok().filter(|_| self.on_lattice())
     }
 
+    /// The echoes of a lattice through this order, or through the last one before echoes get long: through which one, and what
+    /// says so.
+    pub(super) fn few_arrivals(
+        &self,
+        network: &Network,
+        waves: &[WaveIndex],
+        mut through: usize,
+        most: usize,
+    ) -> (usize, Result<Vec<Arrival>, ProblemError>, Option<ProblemError>) {
+        let mut stopped = None;
+        loop {
+            let most = if through == 0 { most.max(MAX_NAMED_TERMS) } else { most };
+            match self.short_arrivals(network, waves, through, most) {
+                Err(long @ ProblemError::LongEchoes { n, .. }) if through > 0 => {
+                    through = n.min(through).saturating_sub(1);
+                    stopped = Some(long);
+                }
+                found => return (through, found, stopped),
+            }
+        }
+    }
+
+    /// The echoes of a lattice, refused where rates have names and one has more than so many terms.
+    fn short_arrivals(
+        &self,
+        network: &Network,
+        waves: &[WaveIndex],
+        through: usize,
+        most: usize,
+    ) -> Result<Vec<Arrival>, ProblemError> {
+        let LongEcho { passed: n, terms } = match arrivals(network, waves, through, most)? {
+            Ok(found) => return Ok(found),
+            Err(long) => long,
+        };
+        let unfolded = network.unfold(&vec![1; network.lattice().periods().len()])?;
+        let (place, waves, rates) =
+            named_rates_of(network, unfolded.recurrence()).unwrap_or_default();
+        Err(ProblemError::LongEchoes { place, waves, rates, n, terms })
+    }
+
     fn refuse_lattice(&self, what: Missing) -> Result<(), ProblemError> {
         if self.on_lattice() { Err(ProblemError::NoCommonMeasure(what)) } else { Ok(()) }
     }
@@ -433,7 +479,7 @@ impl Problem {
             return Err(ProblemError::NoCommonMeasure(Missing::Pieces));
         }
         refuse_echoes(network, waves.len(), through)?;
-        let found = arrivals(network, &waves, through)?;
+        let found = self.short_arrivals(network, &waves, through, MAX_NAMED_TERMS)?;
         match found.is_empty() {
             true => Err(ProblemError::NothingArrives(through)),
             false => Ok(Derived::Arrivals(found)),

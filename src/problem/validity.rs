@@ -128,7 +128,7 @@ fn pressed(scene: &Scene) -> Vec<Pressed> {
         let name = |element: Option<&Element>| {
             element.map_or("wall", |element| element.name.as_str()).to_owned()
         };
-        Pressed { force, between: [name(left), name(right)] }
+        Pressed { force, between: scene.beside_joint(joint).map(name) }
     };
     contacts.map(pressed).collect()
 }

@@ -57,6 +57,25 @@ pub struct Line {
     pub right: End,
 }
 
+impl Scene {
+    /// The elements at the left and at the right of a joint of the line that it is named after: what a load acts on
+    /// rather than the load.
+    pub(crate) fn beside_joint(&self, joint: usize) -> [Option<&Element>; 2] {
+        let Line { elements, joints, .. } = &self.line;
+        let bonded = |end: &Joint| *end == Joint::Bonded;
+        let before = joints[..joint].iter().rev().take_while(|own| bonded(own)).count();
+        let after = joints[joint + 1..].iter().take_while(|own| bonded(own)).count();
+        let left = elements[joint.saturating_sub(before + 1)..joint].iter().rev();
+        let right = elements[joint..(joint + after + 1).min(elements.len())].iter();
+        let named = |own: &mut dyn Iterator<Item = &ElementIndex>| {
+            let own: Vec<&Element> = own.map(|index| &self.elements[*index]).collect();
+            let body = own.iter().find(|element| !matches!(element.kind, Kind::Load(_)));
+            body.or(own.first()).copied()
+        };
+        [named(&mut { left }), named(&mut { right })]
+    }
+}
+
 /// An end of a line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum End {

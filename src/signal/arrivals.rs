@@ -22,10 +22,23 @@ pub struct Arrival {
     pub echo: Expression,
 }
 
+/// An echo with more terms than are asked for: how many periods of the lattice it has passed, and its terms at least.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct LongEcho {
+    pub passed: usize,
+    pub terms: usize,
+}
+
 /// The echoes of some waves that are not zero, of at most `through` periods of the lattice together:
 /// where the periods are numbers those are left out that others may come before, and the rest is in
-/// order of arrival; else they are in order of their counts.
-pub fn arrivals(network: &Network, waves: &[WaveIndex], through: usize) -> Outcome<Vec<Arrival>> {
+/// order of arrival; else they are in order of their counts. Where rates have names, the first echo with more than `most`
+/// terms ends the work.
+pub fn arrivals(
+    network: &Network,
+    waves: &[WaveIndex],
+    through: usize,
+    most: usize,
+) -> Outcome<Result<Vec<Arrival>, LongEcho>> {
     let numbers = Numbers::new(&network.model().constants);
     let periods = network.lattice().periods();
     let bounds = vec![through; periods.len()];
@@ -39,9 +52,18 @@ pub fn arrivals(network: &Network, waves: &[WaveIndex], through: usize) -> Outco
         }
     }
     let last = demand.last();
-    let mut solver = EchoByEcho::new(recurrence).wanting(demand);
-    for _ in 0..last.map_or(0, |last| last + 1) {
-        solver.advance()?;
+    let mut solver = EchoByEcho::new(recurrence).wanting(demand).returning(through);
+    let most = if recurrence.names_rates_of(1) { most } else { usize::MAX };
+    for k in 0..last.map_or(0, |last| last + 1) {
+        let mut terms = 0;
+        let is_short = solver.advance_while(|echo| {
+            terms += echo.term_count();
+            terms <= most
+        })?;
+        if !is_short {
+            let passed = counts(k).map_or(through, |counts| counts.iter().sum());
+            return Ok(Err(LongEcho { passed, terms }));
+        }
     }
     let local: &Symbol = &recurrence.statement().local;
     let mut found = Vec::new();
@@ -54,7 +76,7 @@ pub fn arrivals(network: &Network, waves: &[WaveIndex], through: usize) -> Outco
             }
         }
     }
-    in_order(found, &numbers, periods, through)
+    in_order(found, &numbers, periods, through).map(Ok)
 }
 
 /// Sorts wave by wave, by time where that can be told.

@@ -23,7 +23,7 @@ pub mod transforms;
 mod varying;
 
 pub use crate::ball::Value;
-pub use arrivals::{Arrival, arrivals};
+pub use arrivals::{Arrival, LongEcho, arrivals};
 pub(crate) use cells::scale;
 pub use cells::{first_doubles, reaching_a_double};
 pub use closed::{ClosedForm, ClosedSignal};

@@ -26,6 +26,8 @@ pub struct EchoByEcho<'a, F: Field = Exact<'a>> {
     pub(crate) echoes: Vec<Vec<Transform<F::Value>>>,
     /// How many echoes other than zero have been worked out.
     pub(crate) expanded: usize,
+    /// How many returns each wanted echo is the result of at most, where that is less than its number.
+    returns: usize,
 }
 
 /// An echo that could not be worked out, and why.
@@ -64,7 +66,7 @@ impl<'a> EchoByEcho<'a> {
     ) -> Result<bool, SolveError> {
         let next = self.echoes.first().map_or(0, Vec::len);
         for step in self.recurrence.steps() {
-            check_degree(self.recurrence, step.wave, next)?;
+            check_degree(self.recurrence, step.wave, next.min(self.returns))?;
         }
         self.expand_while(go_on).map_err(|Failed { wave, order, reason }| {
             SolveError::new(self.recurrence, wave, order, reason.into())
@@ -77,12 +79,19 @@ impl<'a, F: Field> EchoByEcho<'a, F> {
     pub(crate) fn in_field(recurrence: &'a Recurrence, field: F) -> Result<Self, F::Error> {
         let steps = FieldStep::all(recurrence, &field)?;
         let echoes = (0..recurrence.wave_count()).map(|_| Vec::new()).collect();
-        Ok(EchoByEcho { recurrence, field, steps, demand: None, echoes, expanded: 0 })
+        let (demand, expanded, returns) = (None, 0, usize::MAX);
+        Ok(EchoByEcho { recurrence, field, steps, demand, echoes, expanded, returns })
     }
 
     /// Only echoes that are wanted will be worked out.
     pub(crate) fn wanting(mut self, demand: Demand) -> Self {
         self.demand = Some(demand);
+        self
+    }
+
+    /// Those that are wanted have returned no more often than this: a lattice has many numbers for as few returns.
+    pub(crate) fn returning(mut self, most: usize) -> Self {
+        self.returns = most;
         self
     }
 

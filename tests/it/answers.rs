@@ -1,6 +1,6 @@
 //! Questions that have an answer, each of which was once refused, or not answered in time.
 
-use wavestep::problem::{Checked, Derivations};
+use wavestep::problem::{Checked, Derivations, Form, Orders, ProblemError, ToDerive};
 use wavestep::{Error, Method, Problem};
 
 /// A ram, a cushion and a helmet on a pile with dashpots along it: two dashpots and a bar between two
@@ -111,6 +111,36 @@ fn a_check_ends_before_formulas_are_too_long() -> Result<(), Error> {
     let problem = Problem::read("pile.wave", PILE.replace("damping = 60 kN*s/m }", soil)).unwrap();
     let Checked::Periods(found) = problem.check()? else { panic!("on a grid") };
     assert_eq!(found.derived, (Derivations::ByEchoes, 2));
+    Ok(())
+}
+
+/// Echoes of travel times without a common measure: of many bars, numbered far beyond what any of them has returned; and
+/// behind a place with four rates, where the second ones would have millions of terms.
+#[test]
+fn checks_of_lattices_end() -> Result<(), Error> {
+    let bars = "scene \"Three materials and a specimen\"\n\
+        bar a { impedance = 1, travel = 1, velocity = 1 }\nbar b { impedance = 2, travel = sqrt(2) }\n\
+        bar c { impedance = 3, travel = sqrt(3) }\nbar d { impedance = 1/2, travel = sqrt(5) }\n\
+        bar e { impedance = 5, travel = sqrt(7) }\n\
+        line free - a | b | c - d - e - free\nobserve f = force(b.left)\n";
+    let problem = Problem::read("scene", bars)?;
+    let Checked::Lattice { echoes } = problem.check()? else { panic!("without a common measure") };
+    assert!(echoes > 20, "{echoes}");
+    let rates = "scene \"Ram, cushions, helmet\"\nmass ram { mass = 3, velocity = 1 }\n\
+        spring cap { stiffness = 2, damping = 1/3 }\nmass helmet { mass = 1/2 }\n\
+        spring cushion { stiffness = 5/7, damping = 1/5 }\n\
+        bar follower { impedance = 1, travel = 1 }\nbar pile { impedance = 3/2, travel = sqrt(7) }\n\
+        support toe { stiffness = 1/4, damping = 1/3 }\n\
+        line free - ram - cap - helmet - cushion - follower - pile - toe - free\n\
+        observe f = force(pile.left)\n";
+    let problem = Problem::read("scene", rates)?;
+    let Checked::Lattice { echoes } = problem.check()? else { panic!("without a common measure") };
+    let (orders, long) = problem.first_orders(ToDerive::Waves, 0);
+    assert!(echoes < 20 && long.is_some(), "{echoes} {orders:?}");
+    let Orders::Through(0, through) = orders else { panic!("{orders:?}") };
+    assert!(problem.functions(ToDerive::Waves, orders, Form::Echo).is_ok());
+    let more = problem.functions(ToDerive::Waves, Orders::Through(0, through + 2), Form::Echo);
+    assert!(matches!(more, Err(ProblemError::LongEchoes { .. })), "{more:?}");
     Ok(())
 }
 

@@ -27,9 +27,10 @@ fn comparisons() -> Precisions {
     Precisions::doubling(64, 512)
 }
 
-/// More places than so many are told apart with so many bits at most: where a motion returns again and again, they are equal.
+/// Where more places than so many are left, of which so many bits told none from the others, more bits are not tried: where a
+/// motion returns again and again, they are equal.
 const MANY_PLACES: usize = 8;
-const MANY_BITS: u64 = 128;
+const MANY_BITS: u64 = 256;
 
 /// Bits of balls beyond those of a value.
 const SPARE_BITS: u64 = 64;
@@ -199,10 +200,12 @@ impl<'s> Search<'s> {
         let ready =
             self.function.ready_bits().saturating_sub(SPARE_BITS).max(comparisons().first());
         for bits in comparisons().iter().take_while(|bits| *bits <= ready) {
-            if bits > MANY_BITS && contenders.left.borrow().len() > MANY_PLACES {
+            let before = contenders.left.borrow().len();
+            contenders.compare(bits)?;
+            let left = contenders.left.borrow().len();
+            if bits >= MANY_BITS && left > MANY_PLACES && left == before {
                 break;
             }
-            contenders.compare(bits)?;
         }
         if contenders.left.borrow().is_empty() {
             return Ok(None);

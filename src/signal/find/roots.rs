@@ -209,7 +209,8 @@ impl Search<'_> {
         // A short cell takes few terms, and more bits cost less than the exact value.
         let half = half * power_of_half(STILL_HALVINGS);
         let bits = self.bits.get();
-        for bits in [bits, STILL_BITS.max(2 * bits).min(self.function.most_bits())] {
+        let more = STILL_BITS.max(2 * bits).min(self.function.ready_bits());
+        for bits in std::iter::once(bits).chain(Some(more).filter(|more| *more > bits)) {
             let near = Near { order: 1, place: (&middle, &half), terms: 4, bits };
             let slope = self.function.taylor(stretch, near)?;
             if slope.tail(0).is_zero() {

@@ -235,7 +235,7 @@ impl Rule for Balanced<'_> {
         Ok((point.known, point.enclose, point.most_bits))
     }
 
-    fn most_bits(&self) -> u64 {
-        self.of.most_bits().min(self.flow.most_bits())
+    fn operands(&self) -> Vec<&dyn Signal> {
+        vec![&*self.of, &*self.flow]
     }
 }

@@ -201,8 +201,8 @@ impl Rule for Combination<'_> {
         Ok((known, Box::new(enclose), most_bits))
     }
 
-    fn most_bits(&self) -> u64 {
-        self.operands.iter().map(|operand| operand.most_bits()).min().unwrap_or(u64::MAX)
+    fn operands(&self) -> Vec<&dyn Signal> {
+        self.operands.iter().map(|operand| &**operand as &dyn Signal).collect()
     }
 
     fn echoes(&self) -> Option<EchoCount> {

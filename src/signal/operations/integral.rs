@@ -434,8 +434,8 @@ impl Rule for Integral<'_> {
         Ok((known, Box::new(enclose), self.of.most_bits()))
     }
 
-    fn most_bits(&self) -> u64 {
-        self.of.most_bits()
+    fn operands(&self) -> Vec<&dyn Signal> {
+        vec![&*self.of]
     }
 
     fn echoes(&self) -> Option<EchoCount> {

@@ -332,8 +332,9 @@ pub(crate) trait Rule {
     /// One limit at a time, what exact arithmetic tells of it at once, and the most bits that are of use.
     fn point(&self, at: &Rational, side: Limit) -> Outcome<(Known, Enclosure<'_>, u64)>;
 
-    fn most_bits(&self) -> u64 {
-        u64::MAX
+    /// What it is made of.
+    fn operands(&self) -> Vec<&dyn Signal> {
+        Vec::new()
     }
 
     fn echoes(&self) -> Option<EchoCount> {
@@ -537,7 +538,11 @@ impl<R: Rule> Signal for Operation<'_, R> {
     }
 
     fn most_bits(&self) -> u64 {
-        self.rule.most_bits()
+        self.rule.operands().iter().map(|own| own.most_bits()).min().unwrap_or(u64::MAX)
+    }
+
+    fn ready_bits(&self) -> u64 {
+        self.rule.operands().iter().map(|own| own.ready_bits()).min().unwrap_or(u64::MAX)
     }
 
     fn echoes(&self) -> Option<EchoCount> {

@@ -153,7 +153,12 @@ fn column(folder: &Path, arguments: &[&str], name: &str) -> Vec<f64> {
     let (code, stdout, stderr) = run(folder, &[arguments, &["--format", "csv"]].concat());
     assert_eq!(code, 0, "{arguments:?}: {stderr}");
     let mut lines = stdout.lines();
-    let at = lines.next().unwrap().split(',').position(|head| head == name).unwrap();
+    let at = lines
+        .next()
+        .unwrap()
+        .split(',')
+        .position(|head| head.split(" [").next() == Some(name))
+        .unwrap();
     lines.map(|line| line.split(',').nth(at).unwrap().parse().unwrap()).collect()
 }
 
