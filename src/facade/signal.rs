@@ -249,7 +249,7 @@ impl Signal<'_> {
     /// As [`at`](Signal::at); an empty window; more than [`MAX_ROOTS`](crate::limits::MAX_ROOTS).
     ///
     /// # Cost
-    /// A few tens of polynomials with 20 terms for each stretch between breaks and for each root.
+    /// A few tens of polynomials with 20 to 64 terms for each stretch between breaks and for each root.
     pub fn roots<T: Into<Given>>(
         &self,
         window: RangeInclusive<T>,

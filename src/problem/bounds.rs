@@ -1,7 +1,6 @@
 //! Work that would explode is refused before it starts.
 
 use super::ProblemError;
-use crate::expression::Fraction;
 use crate::limits::{MAX_DERIVED_ECHOES, MAX_DERIVED_TERMS};
 use crate::network::Network;
 use crate::recurrence::{Recurrence, WaveIndex};
@@ -87,16 +86,25 @@ pub(super) fn first_long_echo(
     Ok(None)
 }
 
-/// Refuses the echoes of so many waves on a lattice where there may be too many.
+/// How many numbers of a lattice cost no more than an echo: most are of echoes beyond those that are wanted.
+const NUMBERS_OF_ECHO: usize = 40;
+
+/// Refuses the echoes of so many waves on a lattice, `C(n + p, p)` of each through order `n` with `p` periods, where there are too
+/// many, or too many numbers among which they stand.
 pub(super) fn refuse_echoes(
     network: &Network,
     waves: usize,
     through: usize,
 ) -> Result<(), ProblemError> {
-    let each = |echoes: usize, _: &Fraction| echoes.saturating_mul(through.saturating_add(1));
-    let echoes = network.lattice().periods().iter().fold(waves, each);
-    match echoes > MAX_DERIVED_ECHOES {
-        true => Err(ProblemError::TooManyEchoes { echoes, limit: MAX_DERIVED_ECHOES }),
-        false => Ok(()),
+    let (mut echoes, mut numbers) = (waves, waves);
+    for count in 1..=network.lattice().periods().len() {
+        echoes = echoes.saturating_mul(through.saturating_add(count)) / count;
+        numbers = numbers.saturating_mul(through.saturating_add(1));
+    }
+    let limit = MAX_DERIVED_ECHOES;
+    match (echoes > limit, numbers > NUMBERS_OF_ECHO * limit) {
+        (true, _) => Err(ProblemError::TooManyEchoes { echoes, limit }),
+        (_, true) => Err(ProblemError::TooManyEchoes { echoes: numbers, limit }),
+        _ => Ok(()),
     }
 }

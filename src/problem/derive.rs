@@ -183,7 +183,7 @@ impl Problem {
             let (through, _, long) = self.few_arrivals(network, &all, last, FEW_TERMS);
             return (Orders::Through(from, through.max(from)), long);
         }
-        let named = self.recurrence().ok().filter(|of| of.names_rates_of(1) && !self.on_lattice());
+        let named = self.recurrence().ok().filter(|of| of.names_rates_of(1));
         let Some(recurrence) = named else { return (Orders::Through(from, last), None) };
         let waves = self.meant(recurrence, what).map_or_else(|_| Vec::new(), |own| own.waves());
         match self.long_echoes(recurrence, &waves, last + 1, FEW_TERMS) {
@@ -374,8 +374,8 @@ impl Problem {
         self.network().ok().filter(|_| self.on_lattice())
     }
 
-    /// The echoes of a lattice through this order, or through the last one before echoes get long: through which one, and what
-    /// says so.
+    /// The echoes of a lattice through this order, or through the last one before echoes are too many or get long: through which
+    /// one, and what tells that they get long.
     pub(super) fn few_arrivals(
         &self,
         network: &Network,
@@ -391,12 +391,13 @@ impl Problem {
                     through = n.min(through).saturating_sub(1);
                     stopped = Some(long);
                 }
+                Err(ProblemError::TooManyEchoes { .. }) if through > 0 => through -= 1,
                 found => return (through, found, stopped),
             }
         }
     }
 
-    /// The echoes of a lattice, refused where rates have names and one has more than so many terms.
+    /// The echoes of a lattice, refused where they are too many, or where rates have names and one has more than so many terms.
     fn short_arrivals(
         &self,
         network: &Network,
@@ -404,6 +405,7 @@ impl Problem {
         through: usize,
         most: usize,
     ) -> Result<Vec<Arrival>, ProblemError> {
+        refuse_echoes(network, waves.len(), through)?;
         let LongEcho { passed: n, terms } = match arrivals(network, waves, through, most)? {
             Ok(found) => return Ok(found),
             Err(long) => long,
@@ -478,7 +480,6 @@ impl Problem {
         if form == Form::Piecewise {
             return Err(ProblemError::NoCommonMeasure(Missing::Pieces));
         }
-        refuse_echoes(network, waves.len(), through)?;
         let found = self.short_arrivals(network, &waves, through, MAX_NAMED_TERMS)?;
         match found.is_empty() {
             true => Err(ProblemError::NothingArrives(through)),
