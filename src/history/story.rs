@@ -12,7 +12,7 @@ use crate::history::closed_form;
 use crate::history::contacts::Happening;
 use crate::history::energy::Integrand;
 use crate::history::engine::Engine;
-use crate::history::error::Outcome;
+use crate::history::error::{HistoryError, Outcome};
 use crate::history::history::{
     Body, ContactSummary, Ending, Event, EventKind, History, precisions,
 };
@@ -157,7 +157,8 @@ impl Story<'_> {
         })
     }
 
-    /// Follows the scene until an instant or until nothing can meet again; without an instant for a while.
+    /// Follows the scene until an instant or until nothing can meet again; without an instant for a while, or as far as it can be
+    /// followed in the longest travel times.
     ///
     /// # Errors
     /// As [`Engine::follow_until`].
@@ -182,7 +183,15 @@ impl Story<'_> {
             if let Some(until) = until.filter(|_| count > patience) {
                 self.engine.foresee_cells(until)?;
             }
-            self.engine.follow_until(&next)?;
+            match self.engine.follow_until(&next) {
+                // What is known until then is told.
+                Err(HistoryError::TooManyCells { .. } | HistoryError::TooMuchMemory { .. })
+                    if until.is_none() && count > 1 =>
+                {
+                    return Ok(());
+                }
+                followed => followed?,
+            }
             self.end = next;
             self.parted = (count <= patience || is_last)
                 && has_parted(self.network, &self.engine, &self.end)?;

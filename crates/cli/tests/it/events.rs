@@ -56,6 +56,30 @@ fn events_take_little_memory() {
     }
 }
 
+/// Where no end is asked for, what is known before memory is short is told; with an end that is not reached it is refused.
+#[test]
+fn events_are_told_as_far_as_memory_goes() {
+    let text = "scene \"A thin pulse shaper\"\nbar striker { impedance = 1, travel = 1, velocity = 1 }\n\
+        bar shaper { impedance = 1/5, travel = sqrt(2)/40 }\nbar input { impedance = 1, travel = sqrt(7) }\n\
+        line free - striker | shaper | input - free\ncontacts open\n";
+    std::fs::write(anywhere().join("shaper.wave"), text).unwrap();
+    let line = ["events", "shaper.wave", "--digits", "6", "--memory", "2MB"];
+    let told = output(&line);
+    assert!(told.contains("Followed until t = 5.29150; later events are not known."), "{told}");
+    let all = output(&["events", "shaper.wave", "--digits", "6"]);
+    let events = |text: &str| {
+        let (events, _) = text.split_once("Between").unwrap();
+        events
+            .lines()
+            .filter(|line| line.starts_with("t = "))
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
+    };
+    assert!(events(&all).starts_with(&events(&told)) && events(&told).len() > 1, "{told}");
+    let (code, refused) = refusal(&[&line[..], &["--to", "20"]].concat());
+    assert!(code == 1 && refused.contains("more than 2 MB of memory"), "{refused}");
+}
+
 /// In the closed form the right bar pulls the left one after t = 2; across phases the left one is at rest.
 #[test]
 fn eval_goes_on_across_phases() {
