@@ -14,7 +14,7 @@ use wavestep::expression::{
     Assumptions, Condition, Exact, ExponentialSum, Expression, Fraction, NotAUnit, NotInvertible,
     Relation, Transform,
 };
-use wavestep_polynomial::{Polynomial, Rational, Symbol};
+use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol};
 
 const CASES: u32 = 96;
 
@@ -512,4 +512,32 @@ fn polynomials_of_one_sign_are_inverted() {
     assert!(known.is_positive(&root.scale(&rational(1, 10))));
     assert!(known.is_positive(&(&root - &Fraction::constant(&rational(7, 5)))));
     assert!(!known.is_positive(&(&root - &Fraction::constant(&rational(3, 2)))));
+}
+
+/// A root is known within 2⁻⁶⁴, π within 2⁻⁶¹: what is nearer is not told, what is farther is, on both sides.
+#[test]
+fn roots_and_pi_are_told_from_numbers_that_are_near() {
+    let known = Assumptions::default();
+    let scale = Integer::from(1) << 64_u32;
+    for square in [2_u32, 3, 7] {
+        let root = Fraction::symbol(&Symbol::square_root(square.into()).expect("a prime"));
+        let below = (Integer::from(square) << 128_u32).sqrt();
+        for (off, is_below, is_above) in
+            [(-1, true, false), (0, false, false), (1, false, false), (2, false, true)]
+        {
+            let near = Fraction::constant(&Rational::new(&below + off, scale.clone()));
+            assert_eq!(known.is_positive(&(&root - &near)), is_below, "{square} {off}");
+            assert_eq!(known.is_positive(&(&near - &root)), is_above, "{square} {off}");
+        }
+    }
+    let pi = Fraction::symbol(&symbol("pi"));
+    // 3.14159265358979323846…
+    for (digits, is_below, is_above) in
+        [("3.141592653589793238", true, false), ("3.141592653589793239", false, true)]
+    {
+        let digits: Integer = digits.replace('.', "").parse().expect("digits");
+        let near = Fraction::constant(&Rational::new(digits, Integer::from(10).pow(18)));
+        assert_eq!(known.is_positive(&(&pi - &near)), is_below);
+        assert_eq!(known.is_positive(&(&near - &pi)), is_above);
+    }
 }
