@@ -460,6 +460,24 @@ fn bounds_and_squares_tell_what_is_inverted() {
     assert_eq!(known.reduced(&fraction("w^3").into()), fraction("k*w - k^2*w").into());
 }
 
+/// The inverse of what holds symbols with known squares, of neither sign: by the conjugate of one symbol, or of both in turn.
+#[test]
+fn known_squares_invert_what_has_no_sign() {
+    let positive = Some(Condition { relation: Relation::Greater, bound: rational(0, 1) });
+    let mut known = Assumptions::default();
+    for name in ["k", "w", "z"] {
+        known.declare_symbol(symbol(name), positive.clone());
+    }
+    known.declare_square(symbol("w"), fraction("k^2 + 1"));
+    known.declare_square(symbol("z"), fraction("k^2 + 3"));
+    assert_eq!(known.invert(&fraction("w - k").into()), Ok(fraction("w + k").into()));
+    for text in ["w - z", "w*z - 1", "w + z - 1", "3*w - z", "z - 2*w + w*z"] {
+        let value = Expression::from(fraction(text));
+        let Ok(inverse) = known.invert(&value) else { panic!("{text}") };
+        assert!(known.reduced(&(&value * &inverse)).is_one(), "{text}");
+    }
+}
+
 /// What is said to be positive is positive where the conditions hold, and its inverse is one.
 #[test]
 fn signs_of_polynomials_agree_with_exact_values() {
