@@ -3,7 +3,7 @@
 use crate::expression::Fraction;
 use crate::network::model::Model;
 use crate::network::node::{ElementLaw, Link, Lumped, Node, Side};
-use crate::scene::{Element, ElementIndex, End, Joint, Kind, Scene};
+use crate::scene::{ElementIndex, End, Joint, Kind, Scene};
 
 /// How a line treats contacts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -106,10 +106,7 @@ impl Layout {
 
     /// The number of one more contact, at the right of a run.
     fn number(&mut self, scene: &Scene, run: usize, joint: usize) -> usize {
-        let name = |element: Option<&Element>| {
-            element.map_or("wall".to_owned(), |element| element.name.clone())
-        };
-        let names = scene.beside_joint(joint).map(name);
+        let names = scene.names_beside(joint);
         self.contacts.push(Contact { names, node: self.nodes.len(), run, joint });
         self.contacts.len() - 1
     }

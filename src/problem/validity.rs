@@ -3,7 +3,7 @@
 use super::{Kind, Problem, ProblemError};
 use crate::history::{History, Validity};
 use crate::network::Network;
-use crate::scene::{Element, Joint, Kind as ElementKind, Scene};
+use crate::scene::{Joint, Kind as ElementKind, Scene};
 use crate::signal::Value;
 use wavestep_polynomial::Rational;
 
@@ -125,10 +125,7 @@ fn pressed(scene: &Scene) -> Vec<Pressed> {
                 _ => None,
             }
         });
-        let name = |element: Option<&Element>| {
-            element.map_or("wall", |element| element.name.as_str()).to_owned()
-        };
-        Pressed { force, between: scene.beside_joint(joint).map(name) }
+        Pressed { force, between: scene.names_beside(joint) }
     };
     contacts.map(pressed).collect()
 }

@@ -58,9 +58,8 @@ pub struct Line {
 }
 
 impl Scene {
-    /// The elements at the left and at the right of a joint of the line that it is named after: what a load acts on
-    /// rather than the load.
-    pub(crate) fn beside_joint(&self, joint: usize) -> [Option<&Element>; 2] {
+    /// What is at the left and at the right of a joint of the line, by name: what a load acts on rather than the load.
+    pub(crate) fn names_beside(&self, joint: usize) -> [String; 2] {
         let Line { elements, joints, .. } = &self.line;
         let bonded = |end: &Joint| *end == Joint::Bonded;
         let before = joints[..joint].iter().rev().take_while(|own| bonded(own)).count();
@@ -70,7 +69,8 @@ impl Scene {
         let named = |own: &mut dyn Iterator<Item = &ElementIndex>| {
             let own: Vec<&Element> = own.map(|index| &self.elements[*index]).collect();
             let body = own.iter().find(|element| !matches!(element.kind, Kind::Load(_)));
-            body.or(own.first()).copied()
+            let named = body.or(own.first());
+            named.map_or("wall".to_owned(), |element| element.name.clone())
         };
         [named(&mut { left }), named(&mut { right })]
     }

@@ -38,8 +38,11 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
     for name in &names {
         let times = times(&problem, name, options)?;
         last = last.max(times.iter().max().cloned());
-        let is_one = names.len() == 1 && times.len() == 1;
-        let (text, open) = answered(&problem, (name, &times), accuracy, is_one, options)?;
+        let if_undecided = match (names.len(), times.len()) {
+            (1, 1) => Undecided::Refused,
+            _ => Undecided::Enclosed,
+        };
+        let (text, open) = answered(&problem, (name, &times), accuracy, if_undecided, options)?;
         undecided += open;
         told.add(name, text);
     }
@@ -48,12 +51,12 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
     settled(told.all(), (undecided, "value"), remedy)
 }
 
-/// The values of one quantity, as they are told, and how many stay undecided; a single one is refused then.
+/// The values of one quantity, as they are told, and how many stay undecided.
 fn answered(
     problem: &Problem,
     (name, times): (&str, &[BigRational]),
     accuracy: Accuracy,
-    is_one: bool,
+    undecided: Undecided,
     options: &Eval,
 ) -> Result<(String, usize), Failure> {
     let limit = options.side;
@@ -76,7 +79,6 @@ fn answered(
     }
     let wanted = problem.wanted(name)?;
     let (count, max_bits) = (options.digits, options.max_bits);
-    let undecided = if is_one { Undecided::Refused } else { Undecided::Enclosed };
     let digits = Digits { count, max_bits, limit, count_echoes: options.stats, undecided };
     let (progress, begin) = (progress::counted(times.len()), Instant::now());
     let found = problem.proven(&wanted, times, digits, &|| progress.inc(1))?;

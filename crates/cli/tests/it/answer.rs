@@ -422,3 +422,23 @@ fn times_beyond_all_doubles_are_refused() {
         assert!(code == 1 && err.contains("far more"), "{how}: {code} {err}");
     }
 }
+
+/// Beside a value that stays undecided the others are told, as text, CSV and JSON; one alone is refused.
+#[test]
+fn decided_values_are_told_beside_undecided_ones() {
+    let line = "eval rigid-mass --set mu=1/4 --quantity f --digits 40 --max-bits 64 --at";
+    let told = |rest: &str| run(anywhere(), &words(&format!("{line} {rest}")));
+    let (code, out, error) = told("0,1/2");
+    assert!(code == 3 && error.contains("1 value stays undecided"), "{error}");
+    assert!(
+        out.starts_with("f(0) = 1\nf(1/2) = 1.60653065971263342") && out.contains(" ± "),
+        "{out}"
+    );
+    let (_, out, _) = told("0,1/2 --format csv");
+    assert!(out.ends_with("0,0,1,true\n1/2,0.5,,undecided\n"), "{out}");
+    let (_, out, _) = told("0,1/2 --format json");
+    let json: Value = serde_json::from_str(&out).unwrap();
+    assert!(json["values"][0]["value"] == "1" && json["values"][1]["value"].is_null(), "{out}");
+    let (code, out, error) = told("1/2");
+    assert!(code == 3 && out.is_empty() && error.contains("accuracy not reached"), "{error}");
+}
