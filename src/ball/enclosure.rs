@@ -55,9 +55,15 @@ impl Ball {
     /// The ball in decimals: the midpoint down to two places below the leading digit of the radius,
     /// thus with every digit that the ball proves, but with `most` digits at most.
     ///
-    /// For each `x` of the ball: `|x − midpoint| ≤ radius`.
+    /// For each `x` of the ball: `|x − midpoint| ≤ radius`. A midpoint below a quarter of the radius is
+    /// written as 0, since its digits say nothing.
     pub fn to_decimal(&self, most: usize) -> DecimalEnclosure {
         assert!(most > 0, "a decimal has at least one digit");
+        let center = Ball::new(self.midpoint().clone(), Magnitude::ZERO).magnitude();
+        if !self.is_exact() && center.scale(2) <= *self.radius() {
+            let midpoint = Decimal::from_scaled(&BigInt::zero(), 0);
+            return DecimalEnclosure { midpoint, radius: rounded_up(&self.magnitude()) };
+        }
         let place = if self.is_exact() {
             None
         } else {

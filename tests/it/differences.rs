@@ -134,6 +134,9 @@ fn an_extremum_beside_a_flat_end_has_all_digits() {
             place => matches!(place, Place::Arrival { time, .. } if time.to_f64() == 3.0),
         };
         assert!(found.places.iter().all(holds), "{:?}", found.places);
+        // What is undecided on both sides of the arrival is one interval.
+        let undecided = |place: &&Place| matches!(place, Place::Undecided { .. });
+        assert!(found.places.iter().filter(undecided).count() <= 1, "{:?}", found.places);
     }
 }
 

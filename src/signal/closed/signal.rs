@@ -11,7 +11,7 @@ use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::Observation;
 use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::signal::{
-    At, EchoCount, Effort, Instant, Known, Limit, Point, Signal, last_begun, zeros_of,
+    At, EchoCount, Effort, Instant, Known, Limit, Point, Signal, last_begun, later, zeros_of,
 };
 use crate::signal::silence::Silence;
 use crate::signal::taylor::{Near, Taylor};
@@ -518,24 +518,18 @@ impl Signal for ClosedSignal<'_> {
         self.exact_value(&self.scaled(stretch, at), side)
     }
 
-    /// By the exact function of the stretch, where that is known; else by the value alone, or the slope of a recurrence.
+    /// By the exact function of the stretch, where that is known; else by the value, and the slope of a recurrence.
     fn flatness(&self, stretch: usize, end: Limit, order: usize) -> Outcome<usize> {
-        let is_zero = match order {
-            0 => self.exact(stretch, At::End(end))? == Some(Rational::default()),
-            1 => self.slope_is_zero(stretch, end),
-            _ => false,
+        let flat = || usize::from(self.slope_is_zero(stretch, end));
+        let least = match order {
+            0 if self.exact(stretch, At::End(end))? == Some(Rational::default()) => 1 + flat(),
+            1 => flat(),
+            _ => 0,
         };
-        let least = usize::from(is_zero);
-        let (Source::Scene { network, .. } | Source::Recurrence { scene: Some(network), .. }) =
-            &self.source
-        else {
-            return Ok(least);
-        };
-        let time = &network.scene().time;
-        let own = self.exact_at(stretch, &Fraction::symbol(time), Effort::Much);
-        let Some(own) = own else { return Ok(least) };
-        let at = self.scaled(stretch, At::End(end));
-        Ok(zeros_of(own, time, &at, order)?.max(least))
+        let later = later();
+        let at = &*self.scaled(stretch, At::End(end)) + &Fraction::symbol(&later);
+        let Some(own) = self.exact_at(stretch, &at, Effort::Much) else { return Ok(least) };
+        Ok(zeros_of(own, &later, &Fraction::zero(), order)?.max(least))
     }
 
     /// A real function `Σ_λ e^{λx} Σ_j c_j x^j/j!` with N coefficients, of which the value is one, solves

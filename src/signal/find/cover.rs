@@ -285,21 +285,18 @@ impl Cover<'_, '_, '_> {
     /// What is known of a cell that begins or ends with the stretch, where several derivatives vanish.
     fn beside_a_flat_end(&self, from: &Rational, to: &Rational) -> Outcome<Option<Finding>> {
         let (search, target) = (self.search, self.target);
-        if target.order == 0 && *target.level != Rational::default() {
-            return Ok(None);
-        }
         for (side, end) in [Limit::Right, Limit::Left].into_iter().enumerate() {
             if *[from, to][side] != self.bounds[side] {
                 continue;
             }
             // Enclosures are cheaper than the exact values that tell how many derivatives vanish.
             let may_vanish = |order| {
-                let bits = search.bits.get();
-                let value = search.function.enclose(self.stretch, order, At::End(end), bits)?;
+                let (target, bits) = (Target { order, ..target }, search.bits.get());
+                let value = search.enclose(self.stretch, target, At::End(end), bits)?;
                 Ok::<_, EvaluateError>(value.contains_zero())
             };
             let flatness = || match may_vanish(target.order)? && may_vanish(target.order + 1)? {
-                true => search.function.flatness(self.stretch, end, target.order),
+                true => search.flatness(self.stretch, end, target),
                 false => Ok(0),
             };
             let count = *self.flatness[side].get_or_init(|| flatness().unwrap_or(0));

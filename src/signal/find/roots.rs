@@ -390,20 +390,14 @@ impl Finder<'_, '_> {
                 }
                 (_, [first, last]) => {
                     let equal = Some(Ordering::Equal);
-                    let (starts, stops) =
-                        (i == 0 && first == equal, i + 1 == count && last == equal);
-                    let lone = match (starts, stops) {
-                        (true, false) => self.touches(stretch, Limit::Right, cell)?,
-                        (false, true) => self.touches(stretch, Limit::Left, cell)?,
-                        _ => false,
-                    };
-                    let touched = match starts || stops {
+                    let is_end = (i == 0 && first == equal) || (i + 1 == count && last == equal);
+                    let touched = match is_end {
                         true => None,
                         false => self.touch(stretch, cell)?,
                     };
                     if let Some(time) = touched {
                         self.all.push(Root::Double { time: Value::Exact(time) });
-                    } else if !lone {
+                    } else {
                         let crosses = first.zip(last).is_some_and(|(a, b)| differ([a, b]));
                         self.leave(stretch, (cell.from.clone(), cell.to.clone()), crosses)?;
                     }
@@ -412,16 +406,6 @@ impl Finder<'_, '_> {
             self.check()?;
         }
         Ok(())
-    }
-
-    /// Whether `f − v`, exactly zero at this end of the stretch, has no other root in the cell
-    /// beside it: `f' = 0` there exactly, and `f''` has a sign on all of the cell.
-    fn touches(&self, stretch: usize, side: Limit, cell: &Cell) -> Outcome<bool> {
-        let (search, curvature) = (self.search, Target { order: 2, ..self.target });
-        let range = search.range(stretch, curvature, (&cell.from, &cell.to), search.bits.get())?;
-        let sign = range.sign();
-        Ok(sign.is_some_and(|sign| sign != Ordering::Equal)
-            && search.slope_vanishes(stretch, side)?)
     }
 
     /// The only root in a cell, if it is a simple fraction `t₀` of even order k: exactly there `f − v`, `f'`, … `f^(k−1)`

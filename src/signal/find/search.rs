@@ -125,7 +125,7 @@ impl<'a> Search<'a> {
                     }
                 }
                 (None, 1, At::End(side)) if bits == precisions.first() => {
-                    self.slope_vanishes(stretch, side)?.then_some(Ordering::Equal)
+                    (function.flatness(stretch, side, 1)? > 0).then_some(Ordering::Equal)
                 }
                 (sign, ..) => sign,
             };
@@ -144,10 +144,21 @@ impl<'a> Search<'a> {
         Ok(vanishes.then_some(Ordering::Equal))
     }
 
-    /// Whether the derivative in the limit at an end of a stretch is known to be exactly zero.
-    pub(crate) fn slope_vanishes(&self, stretch: usize, side: Limit) -> Outcome<bool> {
-        let slope = self.function.enclose(stretch, 1, At::End(side), self.bits.get())?;
-        Ok(slope.contains_zero() && self.function.flatness(stretch, side, 1)? > 0)
+    /// How many derivatives, from the target on, are known to be exactly zero in the limit at an end of a stretch.
+    pub(crate) fn flatness(
+        &self,
+        stretch: usize,
+        end: Limit,
+        target: Target<'_>,
+    ) -> Outcome<usize> {
+        let function = self.function;
+        if target.order > 0 || *target.level == Rational::default() {
+            return function.flatness(stretch, end, target.order);
+        }
+        match function.exact(stretch, At::End(end))?.as_ref() == Some(target.level) {
+            true => Ok(1 + function.flatness(stretch, end, 1)?),
+            false => Ok(0),
+        }
     }
 
     /// How many derivatives, from that of an order on, are known to be exactly zero at a time.

@@ -53,3 +53,12 @@ fn distant_exponents_print() {
     let tiny = Ball::new(Binary::new(5.into(), -far), Magnitude::power_of_two(-far));
     assert_eq!(tiny.to_decimal(10).to_string(), "6.21e-330985980542 ± 1.3e-330985980542");
 }
+
+#[test]
+fn midpoints_that_say_nothing_are_zero() {
+    let unit = |mantissa, exponent| {
+        Ball::new(Binary::new(i64::into(mantissa), exponent), Magnitude::from_u64(1))
+    };
+    assert_eq!(unit(-1, -2).to_decimal(10).to_string(), "0 ± 1.3e0");
+    assert_eq!(unit(257, -10).to_decimal(10).to_string(), "0.25 ± 1.1e0");
+}

@@ -30,6 +30,15 @@ const MASS: &str = "scene \"Mass\"\n\
      observe force = force(b.right)\n\
      observe velocity = velocity(m)\n";
 
+/// A mass on a spring between the bars, which turns: its poles are complex.
+const TURNING: &str = "scene \"Turning\"\n\
+     bar a { impedance = 1, travel = 1, velocity = 1 }\n\
+     bar b { impedance = 2, travel = pi/3 }\n\
+     mass m { mass = 1 }\n\
+     support s { stiffness = 9 }\n\
+     line free - a - m - s - b - fixed\n\
+     observe velocity = velocity(m)\n";
+
 /// On a grid: a mass on a bar whose other end throws back a fifth, with the other sign.
 const GRID: &str = "scene \"Grid\"\n\
      bar a { impedance = 1, travel = 1, velocity = 1 }\n\
@@ -138,7 +147,9 @@ fn with_a_mass_nothing_is_left_out() {
 /// The formula as it is printed keeps most digits of the first echoes, where these are seen at a delay and of several waves.
 #[test]
 fn printed_formulas_hold_the_first_echoes() {
-    for (text, name) in [(DAMPED, "force"), (MASS, "force"), (MASS, "velocity")] {
+    for (text, name) in
+        [(DAMPED, "force"), (MASS, "force"), (MASS, "velocity"), (TURNING, "velocity")]
+    {
         let (problem, times) = (problem(text), times(9, 40));
         let (truth, _) = digits(&problem, name, &times);
         let printed = Accuracy::Method(Method::Expanded, None);

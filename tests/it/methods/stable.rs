@@ -4,11 +4,14 @@
 use crate::methods::response::Response;
 use crate::methods::subject::with;
 use crate::methods::tally::{Tally, ends};
-use crate::methods::{exact, mass_ratio, random, unit_in_the_last_place};
+use crate::methods::{exact, mass_ratio, random, ratio, unit_in_the_last_place};
 use num_rational::BigRational;
 use proptest::prelude::RngExt as _;
+use std::collections::BTreeMap;
+use wavestep::answer::{Accuracy, Method};
 use wavestep::language::parse_number;
-use wavestep::signal::{Evaluator, Limit, MethodError, NoTaps, Summation, Summed};
+use wavestep::problem::Problem;
+use wavestep::signal::{Evaluator, Limit, MethodError, NoTaps, StablePrecision, Summation, Summed};
 
 /// Doubles on every period up to a last one: just after its start, just before its end, and four
 /// between, most of them near the front.
@@ -184,4 +187,27 @@ fn the_printed_formula_fails_first() {
         assert!(off(&plain, 3.0) < 1e-15 && off(&expanded, 3.0) < 1e-14);
         assert!(off(&plain, 161.0) < 1e-11 && off(&expanded, 161.0) > 1e3);
     });
+}
+
+/// A function of time is added to the echoes that are observed with it, at one time as at many.
+#[test]
+fn functions_of_time_are_added_to_echoes() {
+    let scene = wavestep::scenes::find("rigid-mass").expect("a built-in scene");
+    let text = format!("{}observe moved = f[n] + 1 + 3*t*exp(-t/2)\n", scene.text);
+    let values = BTreeMap::from([("mu".to_owned(), ratio(1, 3))]);
+    let problem = Problem::of_text("moved", &text, &values).unwrap();
+    let times = [ratio(1, 4), ratio(7, 2)];
+    let exactly = |time: &BigRational| problem.signal("moved")?.at(time, 17);
+    for precision in [StablePrecision::Double, StablePrecision::DoubleDouble] {
+        let values = |times: &[BigRational]| {
+            let method = Accuracy::Method(Method::Stable(precision), None);
+            problem.doubles("moved", times, Limit::Right, method).unwrap().values
+        };
+        for (time, value) in times.iter().zip(values(&times)) {
+            let known = exactly(time).unwrap().to_f64();
+            let alone = values(std::slice::from_ref(time))[0];
+            assert!((value - known).abs() < 1e-14, "{time}: {value}, {known}");
+            assert!((alone - known).abs() < 1e-14, "{time}: {alone}, {known}");
+        }
+    }
 }
