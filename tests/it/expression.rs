@@ -559,3 +559,19 @@ fn roots_and_pi_are_told_from_numbers_that_are_near() {
         assert_eq!(known.is_positive(&(&near - &pi)), is_above);
     }
 }
+
+/// A quadratic is split where its discriminant is a square, and only there.
+#[test]
+fn quadratics_are_split_where_they_can_be() {
+    let inverse = |text: &str| Fraction::reciprocal(&polynomial(text)).expect("a divisor");
+    for (product, [one, other]) in [
+        ("a^2 - 4*b^2", ["a - 2*b", "a + 2*b"]),
+        ("6*a^2 + a*b - b^2", ["2*a + b", "3*a - b"]),
+        ("a^2 - b^2*c^2 + 2*a + 1", ["a + 1 - b*c", "a + 1 + b*c"]),
+    ] {
+        assert_eq!(inverse(product), &inverse(one) * &inverse(other), "{product}");
+    }
+    for irreducible in ["a^2 + 4*b^2", "a^2 - 2*b^2", "a^2 + b", "a^2 + a + 1"] {
+        assert_eq!(inverse(irreducible).factors().count(), 1, "{irreducible}");
+    }
+}

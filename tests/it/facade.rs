@@ -236,3 +236,31 @@ fn tolerances_of_tiny_values_are_refused() -> Result<(), Error> {
     }
     Ok(())
 }
+
+/// Waves and the local time have other names where a scene calls symbols so.
+#[test]
+fn symbols_keep_their_names() -> Result<(), Error> {
+    let scene = |mass: &str, travel: &str| {
+        let text = format!(
+            "scene \"Names\"\nsymbol {mass} > 0\nsymbol {travel} > 0\n\
+             mass m {{ mass = {mass}, velocity = 1 }}\n\
+             bar rod {{ impedance = 1, travel = {travel} }}\nline free - m - rod - fixed\n"
+        );
+        Problem::read("names", &text)
+    };
+    let texts = |problem: Problem, wave: &str| {
+        Ok::<_, Error>(
+            problem.derive(wave, 0..=3)?.iter().map(|own| own.text()).collect::<Vec<_>>(),
+        )
+    };
+    let plain = texts(scene("a", "b")?, "f")?;
+    let renamed = texts(scene("f", "s")?, "f_")?;
+    let with = |text: &String| {
+        text.replace("f_", "F").replace("s_", "S").replace('f', "a").replace('s', "b")
+    };
+    let renamed: Vec<String> =
+        renamed.iter().map(|text| with(text).replace('F', "f").replace('S', "s")).collect();
+    let joined = |texts: &[String]| texts.join(" ").split_whitespace().collect::<String>();
+    assert_eq!(joined(&renamed), joined(&plain));
+    Ok(())
+}

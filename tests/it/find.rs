@@ -162,6 +162,15 @@ fn near_misses_are_kept_apart() {
     assert!(!found.iter().any(|root| matches!(root, Root::Undecided { .. })), "{found:?}");
 }
 
+/// `−exp(−t) + 1 − t + t²/2` begins with `t³/6`: a flat end of what sees a derivative of a wave.
+#[test]
+fn derivatives_that_are_seen_are_flat_at_an_end() {
+    let decay = "recurrence \"Decay\"\nperiod 2, local s, time t\nwave f\nequation f[n]' = -f[n]\n\
+        continuous f[n] starts at 1\nobserve q = f[n]' + 1 - t + t^2/2\n";
+    let found = roots(&solution(decay, &[]), "q", ["0", "1"], "0");
+    assert!(matches!(&found[..], [Root::End { .. }]), "{found:?}");
+}
+
 /// Where a function only touches a level, no enclosure decides it; at a simple fraction exact arithmetic does.
 #[test]
 fn levels_are_touched_at_simple_fractions() {
@@ -482,6 +491,20 @@ fn suprema_at_sides_and_ties() {
     let found = extremum(&force, "f", ["0", "5"], Goal::Largest);
     let plateau = Place::Plateau { from: exactly("4"), to: exactly("5"), closed: true };
     assert_eq!((found.value, found.places), (exactly("3"), vec![plateau]));
+    // Alternately 1 and 0: limits at two arrivals are two places, and so are plateaus apart.
+    let alternating = solution(
+        "recurrence \"Alternating\"\nperiod 1, local s, time t\nwave f\nequation f[n] + f[n-1] = 1\n\
+         observe arch = f[n] + 3*t - t^2\n",
+        &[],
+    );
+    let found = extremum(&alternating, "arch", ["1/2", "5/2"], Goal::Largest);
+    let at = |time, before, after| Place::Arrival { time: exactly(time), before, after };
+    let apart = vec![at("1", true, false), at("2", false, true)];
+    assert_eq!((found.value, found.places), (exactly("3"), apart));
+    let found = extremum(&alternating, "f", ["0", "5/2"], Goal::Largest);
+    let flat = |from, to, closed| Place::Plateau { from: exactly(from), to: exactly(to), closed };
+    let apart = vec![flat("0", "1", false), flat("2", "5/2", true)];
+    assert_eq!((found.value, found.places), (exactly("1"), apart));
 }
 
 /// Arrivals at irrational times, in seconds.

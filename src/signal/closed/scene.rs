@@ -120,9 +120,6 @@ impl<'a> SceneEchoes<'a> {
         at: &Fraction,
         side: Limit,
     ) -> Outcome<Point<'_>> {
-        if self.numbers.compare(at, &Fraction::zero())? == Ordering::Less {
-            return Ok(Point::exact(Rational::zero()));
-        }
         if self.numbers.compare(at, &self.arriving.last)? == Ordering::Greater {
             return Err(EvaluateError::AfterLast);
         }
