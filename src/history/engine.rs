@@ -137,6 +137,8 @@ pub(crate) struct State {
     displacements: Vec<Number>,
     /// How long its last cell beside a pressed local contact was allowed to be.
     pressed_for: Option<Rational>,
+    /// Whether it is followed no longer.
+    pub is_gone: bool,
 }
 
 impl State {
@@ -167,8 +169,9 @@ pub(crate) struct Engine {
     pub count: usize,
     /// What the cells hold that are kept, about.
     pub bytes: u64,
-    /// The time before which nothing is asked for.
+    /// The time before which nothing is asked for, and that before which nothing tells whether bodies have parted.
     pub asked_from: f64,
+    pub watched_from: f64,
     /// Whether waves are kept that leave for ever.
     pub keeps_departed: bool,
     /// What is asked for; without it all.
@@ -276,6 +279,7 @@ impl Engine {
             count: 0,
             bytes: 0,
             asked_from: 0.0,
+            watched_from: f64::INFINITY,
             keeps_departed: false,
             asked_sources: None,
             whole: 0.0,
@@ -337,8 +341,14 @@ impl Engine {
     /// The nodes at the start, all contacts closed.
     fn begin(&mut self) -> Outcome<()> {
         let start = Moment::at(Fraction::zero());
-        let contact =
-            || Contact { closed: true, gap: Number::zero(), flat: 0, idle: None, pressed: false };
+        let contact = || Contact {
+            closed: true,
+            gap: Number::zero(),
+            flat: 0,
+            idle: None,
+            pressed: false,
+            has_parted: false,
+        };
         self.open = self.layout.contacts.iter().map(|_| contact()).collect();
         for (number, node) in self.nodes.iter().enumerate() {
             let bits = self.cut.bits;
@@ -380,6 +390,7 @@ impl Engine {
                 passing: [None, None],
                 displacements,
                 pressed_for: None,
+                is_gone: false,
             });
             self.cells.push(Cells::default());
         }
@@ -424,14 +435,9 @@ impl Engine {
     /// # Errors
     /// [`HistoryError`], all kinds but [`HistoryError::AfterLast`].
     pub fn follow_until(&mut self, until: &Moment) -> Outcome<()> {
-        let followed = self.foresee_cells(until).and_then(|()| self.follow_all(until));
+        let followed = self.foresee_cells(until, |_| true).and_then(|()| self.follow_all(until));
         tell_done(0.0, "");
         followed
-    }
-
-    /// Tells how much was followed of what is followed until an instant, in several steps.
-    pub fn follow_in_all(&mut self, until: &Moment) {
-        self.whole = self.clock.about(until);
     }
 
     fn follow_all(&mut self, until: &Moment) -> Outcome<()> {
@@ -456,7 +462,7 @@ impl Engine {
     /// The node that was followed the least far, and how far. What arrives there has left the others:
     /// one that is further, however little, may ask for what is not known yet.
     pub fn behind(&self) -> Option<(usize, &Moment)> {
-        let states = self.states.iter().enumerate();
+        let states = self.states.iter().enumerate().filter(|(_, state)| !state.is_gone);
         let behind = states
             .reduce(|least, other| if self.is_earlier(other.1, least.1) { other } else { least });
         behind.map(|(node, state)| (node, &state.now))

@@ -66,7 +66,7 @@ impl<'a> Follower<'a> {
     fn follow(network: &Network, asked: &Asked, until: &Moment, bits: u64) -> Outcome<Rc<Engine>> {
         let mut engine = Engine::new(network, Contacts::of(network.scene()), bits)?;
         engine.ask_for(network, asked)?;
-        engine.follow_until(until)?;
+        engine.follow_asked(network, until, &asked.parted)?;
         Ok(Rc::new(engine))
     }
 

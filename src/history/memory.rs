@@ -3,7 +3,7 @@
 use crate::ball::Number;
 use crate::expression::Fraction;
 use crate::history::cells::Cells;
-use crate::history::engine::{Engine, Reach, TOLD_APART};
+use crate::history::engine::{Engine, Reach, State, TOLD_APART};
 use crate::history::error::{HistoryError, Outcome, When};
 use crate::history::moment::Moment;
 use crate::history::part::Source;
@@ -11,6 +11,7 @@ use crate::history::series::LONGEST_CELL;
 use crate::history::track::{Arriving, Track};
 use crate::limits::{MAX_HISTORY_CELLS, memory};
 use crate::network::{Network, Observed, Reading, Side};
+use std::cell::RefCell;
 use wavestep_polynomial::Rational;
 
 /// Memory is foreseen from this share of it on.
@@ -27,8 +28,10 @@ pub struct Asked {
     delays: Vec<Fraction>,
     /// Whether integrals of waves since the start are.
     is_integrated: bool,
-    /// Nothing but these; without them all, as for an energy, which whole waves are part of.
-    readings: Option<Vec<Reading>>,
+    /// Nothing but these readings, and these waves as they enter bars, to the right (0) or to the left (1); without them all.
+    seen: Option<(Vec<Reading>, Vec<[usize; 2]>)>,
+    /// From when on nothing meets again, once that is known.
+    pub parted: RefCell<Option<Moment>>,
 }
 
 impl Asked {
@@ -39,7 +42,8 @@ impl Asked {
             from: network.scaled_time(from),
             delays: readings().flat_map(Reading::delays).cloned().collect(),
             is_integrated: observed.is_none() || readings().any(Reading::is_integral),
-            readings: observed.filter(|own| own.is_linear()).map(|_| readings().cloned().collect()),
+            seen: observed.map(|own| (readings().cloned().collect(), own.entering().collect())),
+            parted: RefCell::default(),
         }
     }
 }
@@ -50,15 +54,20 @@ impl Engine {
     /// # Errors
     /// [`HistoryError::MissingValue`] for a symbol without a value.
     pub fn ask_for(&mut self, network: &Network, asked: &Asked) -> Outcome<()> {
-        let Asked { from, delays, is_integrated, readings } = asked;
+        let Asked { from, delays, is_integrated, seen, .. } = asked;
         let about = |time: &Fraction| self.clock.about(&Moment::at(time.clone()));
         let back = delays.iter().map(about).fold(self.longest_travel(), f64::max);
         self.asked_from = about(from) * (1.0 - TOLD_APART) - back;
         if !is_integrated {
             self.waves.iter_mut().flatten().for_each(Track::forget_integral);
         }
-        if let Some(readings) = readings {
-            let mut sources = Vec::new();
+        if let Some((readings, entering)) = seen {
+            let wave = |[bar, direction]: &[usize; 2]| Source::Wave {
+                bar: *bar,
+                direction: *direction,
+                delay: None,
+            };
+            let mut sources: Vec<Source> = entering.iter().map(wave).collect();
             for reading in readings {
                 let parts = self.reading(self.elements(network), reading, &Number::one())?;
                 sources.extend(parts.into_iter().map(|part| part.source));
@@ -68,11 +77,11 @@ impl Engine {
         Ok(())
     }
 
-    /// The time before which nothing of a node or a wave is needed: for ever where no reading is of it.
+    /// The time before which nothing of a node or a wave is needed.
     fn needed_from(&self, is_read: impl Fn(&Source) -> bool) -> f64 {
         match &self.asked_sources {
-            Some(sources) if !sources.iter().any(is_read) => f64::INFINITY,
-            _ => self.asked_from,
+            Some(sources) if !sources.iter().any(is_read) => self.watched_from,
+            _ => self.asked_from.min(self.watched_from),
         }
     }
 
@@ -89,7 +98,7 @@ impl Engine {
     }
 
     /// The longest travel time, for choices that need no proof.
-    fn longest_travel(&self) -> f64 {
+    pub fn longest_travel(&self) -> f64 {
         let travels = self.bars.iter().filter_map(|(_, travel)| travel.clone());
         travels.map(|travel| self.clock.about(&Moment::at(travel))).fold(0.0, f64::max)
     }
@@ -130,16 +139,16 @@ impl Engine {
         time.min((time - self.asked_from).max(self.longest_travel()))
     }
 
-    /// Refuses at once what takes too many cells: a node is at most a travel time ahead of its neighbours, so that
-    /// none of its cells is longer than two of these.
-    pub fn foresee_cells(&self, until: &Moment) -> Outcome<()> {
+    /// Refuses at once what takes too many cells of these nodes: a node is at most a travel time ahead of its neighbours, so
+    /// that none of its cells is longer than two of these.
+    pub fn foresee_cells(&self, until: &Moment, is_counted: impl Fn(usize) -> bool) -> Outcome<()> {
         let mut cells = self.count as f64;
-        for (node, state) in self.nodes.iter().zip(&self.states) {
+        let counted = |(node, state): &(usize, &State)| is_counted(*node) && !state.is_gone;
+        for (_, state) in self.states.iter().enumerate().filter(counted) {
             let left = self.clock.since(&state.now, until)?;
             let mut most = 0.0_f64;
-            for side in [node.left, node.right] {
-                let Side::Bar(bar) = side else { continue };
-                let Some(travel) = &self.bars[bar].1 else { continue };
+            for arriving in &state.arriving {
+                let Arriving::Delayed { travel, .. } = arriving else { continue };
                 let rate = self.clock.number(travel)?.reciprocal(self.cut.bits)?;
                 let passages = left.multiply(&rate, self.cut.bits).ball(64).to_double().0;
                 most = most.max(passages / 2.0);

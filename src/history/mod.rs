@@ -11,7 +11,7 @@
 //! contacts are true, `closed_form` for instants in closed form, `series` for the arithmetic, `cells` and `memory` for
 //! what is kept of it, `pressing` and `power` for local contacts, `resting` for those that press evenly, `passivity` and
 //! `passive` for what becomes of errors, at a node and in the line, `energy` for what a wave holds, `body` for energies
-//! and momenta of bodies and for why they never meet again. `family` follows closed contacts for all values of a symbol at
+//! and momenta of bodies and for why they never meet again, `parting` for what is followed no longer then. `family` follows closed contacts for all values of a symbol at
 //! once.
 
 mod body;
@@ -33,6 +33,7 @@ pub mod moment;
 pub mod motion;
 mod observe;
 mod part;
+mod parting;
 pub mod passive;
 pub mod passivity;
 mod phased;

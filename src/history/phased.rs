@@ -26,7 +26,10 @@ use wavestep_polynomial::Rational;
 /// The highest precision in bits that a search has.
 const SEARCH_BITS: u64 = 640;
 
-/// Where too many bits are lost, stretches are counted again with more, up to these.
+/// Stretches whose ends are known with so many bits can be searched.
+const ENOUGH_BITS: i64 = 96;
+
+/// Where fewer are left, stretches are counted again with more, up to these.
 const COUNTED_BITS: u64 = 1500;
 
 /// A value with fewer bits left tells nothing.
@@ -200,22 +203,23 @@ impl<'a> FollowedSignal<'a> {
         self.count.get_or_init(|| self.counted_with_enough()).clone()
     }
 
-    /// The same with so many bits that half of them are left at the ends of all stretches, if that can be: a light mass between
-    /// long bars loses some at each return of a wave.
+    /// The same with so many bits that enough are left at the ends of all stretches, if that can be: a light mass between
+    /// long bars loses some at each return of a wave, and each event some more. How many are lost hardly depends on how many
+    /// there are.
     fn counted_with_enough(&self) -> Outcome<usize> {
         let is_local = self.follower.network.local_contact().is_some();
         loop {
             let known = Rc::clone(&self.known.borrow());
             let pieces = known.pieces(self.follower.network, &self.window)?;
-            let bits = known.engine.cut.bits;
-            let more = bits * 3 / 2;
-            if is_local || more > COUNTED_BITS || known.tells(pieces, bits as i64 / 2) {
+            let (bits, left) = (known.engine.cut.bits, known.bits_left(pieces));
+            let more = (bits + ENOUGH_BITS.saturating_sub(left).max(0) as u64).min(2 * bits);
+            if is_local || left >= ENOUGH_BITS || more > COUNTED_BITS {
                 return Ok(pieces.len());
             }
             let engine = self.follower.engine(more);
             if engine.cut.bits <= bits {
                 return match &*self.follower.refusal.borrow() {
-                    Some(refusal) if !known.tells(pieces, LEAST_BITS) => Err(refusal.clone()),
+                    Some(refusal) if left < LEAST_BITS => Err(refusal.clone()),
                     _ => Ok(pieces.len()),
                 };
             }
@@ -361,8 +365,8 @@ impl Followed {
         Ok(self.pieces.get_or_init(|| pieces))
     }
 
-    /// Whether the values at the ends of pieces are known with so many bits, compared with the largest.
-    fn tells(&self, pieces: &[Piece], bits: i64) -> bool {
+    /// With how many bits the values at the ends of pieces are known, compared with the largest.
+    fn bits_left(&self, pieces: &[Piece]) -> i64 {
         let cut = &self.engine.cut;
         let (mut size, mut error) = (Magnitude::ZERO, Magnitude::ZERO);
         for Piece { course: [_, length], series, size: first, .. } in pieces {
@@ -370,7 +374,8 @@ impl Followed {
             size = size.max(*first).max(last.magnitude());
             error = error.max(*last.radius());
         }
-        error <= size.scale(-bits)
+        let Some(error) = error.top() else { return i64::MAX };
+        size.top().map_or(0, |size| size - error)
     }
 
     /// A length of the user's time in the scale of the scene.

@@ -52,38 +52,6 @@ pub(crate) fn longest(engine: &Engine) -> Outcome<Fraction> {
     Ok(if longest.is_zero() { Fraction::one() } else { longest })
 }
 
-/// Whether nothing can meet again after an instant.
-fn has_parted(network: &Network, engine: &Engine, moment: &Moment) -> Outcome<bool> {
-    let count = engine.layout.contacts.len();
-    // What happens a little later is known already; then the instant tells nothing.
-    for happening in &engine.happenings {
-        if engine.clock.compare(&happening.moment, moment)? == Ordering::Greater {
-            return Ok(false);
-        }
-    }
-    let apart = |contact: usize| engine.is_open(contact) || engine.is_idle(contact);
-    if count == 0 || !(0..count).all(apart) {
-        return Ok(count == 0);
-    }
-    for contact in 0..count {
-        let [left, right] = beside(network, engine, contact);
-        if !engine.never_meets(network, contact, [&left, &right], moment)? {
-            return Ok(false);
-        }
-    }
-    Ok(true)
-}
-
-/// The parts of the line at the left and at the right of a contact, if all contacts were open; an empty one for a wall.
-fn beside(network: &Network, engine: &Engine, contact: usize) -> [Range<usize>; 2] {
-    let joints: Vec<usize> = engine.layout.contacts.iter().map(|contact| contact.joint).collect();
-    let (parts, joint) = (parts(network, &joints), joints[contact]);
-    let side = |is_beside: &dyn Fn(&Range<usize>) -> bool| {
-        parts.iter().find(|part| is_beside(part)).cloned().unwrap_or_default()
-    };
-    [side(&|part| part.end == joint), side(&|part| part.start == joint)]
-}
-
 /// An event in the scale of the scene.
 struct Row {
     kind: EventKind,
@@ -169,7 +137,7 @@ impl Story<'_> {
             Some(_) => PATIENCE_WITH_LOCAL_CONTACTS,
         };
         let times = |count: u32| Moment::at(travel.scale(&Rational::from_integer(count.into())));
-        self.engine.follow_in_all(until.unwrap_or(&times(patience)));
+        self.engine.whole = self.engine.clock.about(until.unwrap_or(&times(patience)));
         let mut count = 0;
         loop {
             count += if count < patience { 1 } else { patience };
@@ -181,7 +149,7 @@ impl Story<'_> {
             let is_last = until == Some(&next);
             // Until then it may end early.
             if let Some(until) = until.filter(|_| count > patience) {
-                self.engine.foresee_cells(until)?;
+                self.engine.foresee_cells(until, |_| true)?;
             }
             match self.engine.follow_until(&next) {
                 // What is known until then is told.
@@ -194,7 +162,7 @@ impl Story<'_> {
             }
             self.end = next;
             self.parted = (count <= patience || is_last)
-                && has_parted(self.network, &self.engine, &self.end)?;
+                && self.engine.has_parted(self.network, &self.end)?;
             if self.parted || is_last {
                 return Ok(());
             }
@@ -379,7 +347,7 @@ impl Story<'_> {
     fn relative(&self, contact: usize, moment: &Moment) -> Outcome<Option<Number>> {
         let engine = &self.engine;
         let mut velocities = Vec::new();
-        for part in beside(self.network, engine, contact) {
+        for part in engine.bodies_beside(self.network, contact) {
             velocities.push(match part.is_empty() {
                 true => Some(Number::zero()),
                 false => engine.mean_velocity(self.network, &part, moment)?,

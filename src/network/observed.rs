@@ -26,17 +26,24 @@ pub struct Observed {
 }
 
 impl Observed {
-    /// Whether it is a sum of readings.
-    pub(crate) fn is_linear(&self) -> bool {
-        matches!(self.value, ObservedValue::Linear(_))
+    fn energies(&self) -> &[EnergyTerm] {
+        match &self.value {
+            ObservedValue::Linear(_) => &[],
+            ObservedValue::Energy(terms) => terms,
+        }
+    }
+
+    /// The waves that enter bars whose squares are part of it: the bar, and whether to the right (0) or to the left (1).
+    pub(crate) fn entering(&self) -> impl Iterator<Item = [usize; 2]> {
+        self.energies().iter().filter_map(|term| match term.squared {
+            Squared::Reading(_) => None,
+            Squared::Entering { bar, direction } => Some([bar, direction]),
+        })
     }
 
     /// All that is read for it.
     pub(crate) fn all_readings(&self) -> impl Iterator<Item = &Reading> {
-        let energies: &[EnergyTerm] = match &self.value {
-            ObservedValue::Linear(_) => &[],
-            ObservedValue::Energy(terms) => terms,
-        };
+        let energies = self.energies();
         let squared = energies.iter().filter_map(|term| match &term.squared {
             Squared::Reading(reading) => Some(reading),
             Squared::Entering { .. } => None,

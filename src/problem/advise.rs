@@ -289,6 +289,12 @@ impl Adviser<'_> {
         }
     }
 
+    /// Whether a scene that was tried is enough; nothing of others.
+    fn known(&self, problem: &Problem) -> Option<bool> {
+        let text = problem.source().text();
+        self.texts.iter().find(|(known, _)| known == text).map(|(_, is_enough)| *is_enough)
+    }
+
     /// Tries one answer; whether it is enough.
     fn attempt(&mut self, simpler: Simpler) -> bool {
         (self.tell)(&simpler);
@@ -296,12 +302,11 @@ impl Adviser<'_> {
         let (mut work, mut known) = (String::new(), None);
         let other = self.problem().simpler(&simpler);
         if let Ok(Other::Problem(problem)) = &other {
-            let text = problem.source().text();
-            if let Some((_, is_enough)) = self.texts.iter().find(|(known, _)| known == text) {
-                return *is_enough;
+            if let Some(is_enough) = self.known(problem) {
+                return is_enough;
             }
             known = Some(self.texts.len());
-            self.texts.push((text.to_owned(), false));
+            self.texts.push((problem.source().text().to_owned(), false));
         }
         let tried = other.and_then(|other| {
             let (sampled, count) = self.sample(&other)?;
@@ -430,6 +435,10 @@ impl Adviser<'_> {
             let simpler = Simpler::Scene(all.clone());
             (self.tell)(&simpler);
             let Ok(other) = self.problem().simpler(&simpler) else { continue };
+            // What was tried under another name.
+            if matches!(&other, Other::Problem(problem) if self.known(problem) == Some(false)) {
+                continue;
+            }
             let Ok((sampled, count)) = self.sample(&other) else { continue };
             let Some(verdict) = self.verdict(&sampled) else {
                 *changes = all;

@@ -11,11 +11,9 @@ use std::cell::Cell;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
-/// The precision in bits that is begun with.
+/// The precision in bits that is begun with, also for times that are irrational, where they bound a cell: a scene that is followed
+/// has it.
 const FIRST_BITS: u64 = 192;
-
-/// The precision in bits of times that are irrational, where they bound a cell.
-const BOUND_BITS: u64 = 320;
 
 /// The most bits of such times: more than it takes to tell two arrivals apart.
 const MAX_BOUND_BITS: u64 = 1 << 16;
@@ -186,6 +184,6 @@ impl<'a> Search<'a> {
             let is_near = slack * Rational::from_integer(BOUND_SHARE.into()) <= &before - &after;
             Ok(Attempt::of([first, last], is_near))
         };
-        Precisions::doubling(BOUND_BITS, MAX_BOUND_BITS).raise(attempt).map(Attempt::best)
+        Precisions::doubling(FIRST_BITS, MAX_BOUND_BITS).raise(attempt).map(Attempt::best)
     }
 }
