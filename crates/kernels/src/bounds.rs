@@ -244,4 +244,34 @@ mod tests {
             UNIT * 2e-20 + 2.0 * UNIT * size + UNIT * UNIT * (8.0 * (6.0 + 2e-20) + 8.0 + 2e-20);
         near(own.of_pairs(&[0.0, 0.0], 1e-25), 1e-25 + rounding + test + moved);
     }
+
+    /// Where all coefficients are pairs, nothing but squares of `ε` is left: `1 − 2 u + 4 u²` with low parts `3 ε`, `2 ε`, `ε`,
+    /// for `|u| ≤ 1/2`.
+    #[test]
+    fn pairs_count_squares() {
+        let own = Magnitudes::new(&[1.0, -2.0, 4.0], &[0.0, 2e-17], 0.5, false);
+        assert_eq!((&own.sizes[..], own.largest_head(3)), (&[3.0, 4.0, 4.0][..], 8.0));
+        let low = [3.0 * UNIT, 2.0 * UNIT, UNIT];
+        let (mut size, mut rounding) = (0.0, 0.0);
+        // The grid is 16 ε, and Horner's value before each step at most 0, 4 and 4.
+        for (rest, low) in [(16.0, 1.0), (20.0, 2.0), (20.0, 3.0)] {
+            size = size / 2.0 + rest + low;
+            rounding = rounding / 2.0 + rest + 2.0 * size + low;
+        }
+        let (total, derivative, second_derivative) = (3.0, 3.0, 2.0);
+        let in_units = 1e-17 / UNIT + 2.0 + 2.0;
+        let moved = in_units + 2.0 * size + 6.0 * derivative + second_derivative;
+        let stated = UNIT * UNIT * (rounding + moved + 2.0 * total);
+        let bound = own.of_pairs(&low, 0.0);
+        assert!(bound >= stated && bound <= stated * (1.0 + 1e-11), "{bound:e}, {stated:e}");
+    }
+
+    /// Next to the smallest doubles only what underflows is left.
+    #[test]
+    fn what_underflows_counts() {
+        let own = Magnitudes::new(&[0.0, 5e-324], &[], 1.0, true);
+        for bound in [own.of_doubles(0.0), own.of_pairs(&[0.0, 0.0], 0.0)] {
+            assert!(bound >= 3.0 * UNDERFLOW, "{bound:e}");
+        }
+    }
 }

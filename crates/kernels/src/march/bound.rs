@@ -421,11 +421,107 @@ impl<L: Lanes> Sums<L> {
 mod tests {
     use super::*;
     use crate::march::{Bounds, March, MarchOptions};
+    use crate::vector::{OneByOne, each_way};
+    use num_rational::BigRational;
+    use num_traits::{Signed as _, Zero as _};
+    use proptest::array::{uniform8, uniform10};
+    use proptest::prelude::*;
 
     const SIZE: f64 = 1e-3;
 
+    fn exact(value: f64) -> BigRational {
+        BigRational::from_float(value).expect("a finite number")
+    }
+
+    /// The first eight rows of a residual, by the coefficients of `u`, `g` and `|e|`.
+    #[derive(Clone)]
+    struct Rows {
+        parameters: [Parameter; 2],
+        coefficients: [[f64; 10]; 3],
+    }
+
+    impl Work for Rows {
+        type Output = [[f64; WIDTH]; 2];
+
+        fn run<L: Lanes>(self) -> Self::Output {
+            let [beta, gamma] = self.parameters;
+            let mut sums = Sums::<L>::new(beta, gamma);
+            let inverses = std::array::from_fn(|k| 1.0 / (k + 1) as f64);
+            let [u, g, e] = &self.coefficients;
+            sums.add([u, g, e], L::from_array(inverses));
+            [sums.smooth.to_array(), sums.first.to_array()]
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+        /// Where the terms of a row cancel, roundings and radii are all that is left: none of them is passed over.
+        #[test]
+        fn no_row_is_larger_than_its_bound(
+            mut u in uniform10(-1.0..1.0_f64), g in uniform10(-1.0..1.0_f64), e in uniform10(0.0..1e-16_f64),
+            row in 1_usize..=8, beta in 0.1..4.0_f64, gamma in -4.0..4.0_f64, radii in [0.0..1e-16_f64, 0.0..1e-16_f64],
+            with in [any::<bool>(), any::<bool>(), any::<bool>()],
+        ) {
+            let only = |is_there: bool, value: f64| if is_there { value } else { 0.0 };
+            let gamma = only(with[0], gamma);
+            let e = e.map(|own| only(with[1], own));
+            let radii = radii.map(|own| only(with[2], own));
+            let difference = |values: &[f64; 10]| values[row - 1] - values[row + 1];
+            u[row] = -(beta * difference(&u) + gamma * difference(&g)) / row as f64;
+            let within = |value, radius| Parameter::within(value, radius).expect("a number");
+            let parameters = [within(beta, radii[0]), within(gamma, radii[1])];
+            let number = exact(row as f64);
+            let differs = |values: &[f64; 10]| exact(values[row - 1]) - exact(values[row + 1]);
+            let mut largest = BigRational::zero();
+            for [one, other] in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
+                let beta = exact(beta) + exact(one * radii[0]);
+                let gamma = exact(gamma) + exact(other * radii[1]);
+                let sum = &number * exact(u[row]) + &beta * differs(&u) + gamma * differs(&g);
+                let around = beta * (exact(e[row - 1]) + exact(e[row + 1]));
+                largest = largest.max(sum.abs() + around);
+            }
+            let whole = &largest + &number * exact(e[row]);
+            // What is left are sums of numbers that are not negative.
+            let slack = exact(SLACK);
+            for [smooth, first] in each_way(&Rows { parameters, coefficients: [u, g, e] }) {
+                let smooth = exact(smooth[row - 1]) * &number * &slack;
+                prop_assert!(smooth >= largest, "{smooth} {largest}");
+                prop_assert!(exact(first[row - 1]) * &slack >= &whole * &whole);
+            }
+        }
+
+        /// `p − ρ g − u`, where `p` is that sum rounded.
+        #[test]
+        fn no_mismatch_is_larger_than_its_bound(
+            u in uniform8(-1.0..1.0_f64), g in uniform8(-1.0..1.0_f64), ratio in -1.0..1.0_f64, radius in 0.0..1e-16_f64,
+            has_radius in any::<bool>(),
+        ) {
+            let radius = if has_radius { radius } else { 0.0 };
+            let parameter = Parameter::within(ratio, radius).expect("a number");
+            let two = Parameter::within(2.0, 0.0).expect("a number");
+            let wave = Reflection::new(two, two, parameter).expect("a reflection");
+            let mut certificate = Certificate::new(&wave);
+            (certificate.before, certificate.length) = (g.to_vec(), 8);
+            let p: [f64; 8] = std::array::from_fn(|k| ratio * g[k] + u[k]);
+            certificate.measure::<OneByOne<false>>(&u, &p);
+            for k in 0..8 {
+                // The constant one counts twice.
+                let bound = certificate.mismatch[k] / if k == 0 { 2.0 } else { 1.0 };
+                for radius in [radius, -radius] {
+                    let ratio = exact(ratio) + exact(radius);
+                    let missing = exact(p[k]) - ratio * exact(g[k]) - exact(u[k]);
+                    prop_assert!(exact(bound) * exact(SLACK) >= missing.abs(), "{k}");
+                }
+            }
+        }
+    }
+
     /// Six periods of the rigid mass, `B = 2`, and one more whose wave is off by `1e−3 T_k`.
     fn perturbed(place: usize) -> Certificate {
+        perturbed_march(place).0
+    }
+
+    fn perturbed_march(place: usize) -> (Certificate, March) {
         let wave = Reflection::exact(2.0, 2.0, 1.0).expect("a reflection");
         let options = MarchOptions { bounds: Bounds::None, ..Default::default() };
         let mut march = March::new(&wave, options).expect("a march");
@@ -438,7 +534,7 @@ mod tests {
         wrong.resize(wrong.len().max(place + 1), 0.0);
         wrong[place] += SIZE;
         certificate.record(march.increment(), &wrong);
-        certificate
+        (certificate, march)
     }
 
     /// Each part of the bound, against the exact norms of `T_k` on `[0, 1]`. The parts are above
@@ -488,6 +584,21 @@ mod tests {
         let zero = DoubleDouble::from(0.0);
         let end = Ends { left: zero, right: zero, absolute: 1.0, radius: 0.0 };
         assert!(distance(end, zero, 0.0) >= 8.0 * UNIT * UNIT);
+        let one = DoubleDouble::ONE;
+        let end = Ends { left: one, right: one, absolute: 1.0, radius: 0.0 };
+        assert!(distance(end, one, 0.0) >= 16.0 * UNIT * UNIT);
+    }
+
+    /// A constant `δ` that is gone on the next period: there `|R_1|` is `3 δ` at most, and `Γ ‖R'‖` thrice what it was
+    /// above; the joint counts `√κ (B |J| + (B|ρ| + |C|) |J_before|) = ½ (2 δ + 6 δ)`.
+    #[test]
+    fn a_jump_counts_at_both_joints() {
+        let (mut found, mut march) = perturbed_march(0);
+        let before = found.slope_energy;
+        march.advance().expect("room");
+        found.record(march.increment(), march.coefficients());
+        let grown = found.slope_energy - before;
+        assert!(grown > 13.0 * SIZE && grown < 13.3 * SIZE, "{grown}");
     }
 
     #[test]
