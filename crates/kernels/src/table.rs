@@ -282,3 +282,29 @@ impl Table {
         crate::Evaluator::new(self)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By Sterbenz from half of the centre to twice as much, on either side of zero.
+    #[test]
+    fn arguments_are_exact_near_their_centre() {
+        for (centre, start, last, is_exact) in [
+            (1.0, 0.5, 2.0, true),
+            (1.0, 0.5_f64.next_down(), 1.0, false),
+            (1.0, 0.6, 2_f64.next_up(), false),
+            (100.0, 1.1, 150.0, false),
+            (100.0, 50.0, 150.0, true),
+            (-1.0, -2.0, -0.5, true),
+            (-1.0, -1.0, -0.4, false),
+            (0.0, -1.0, 1.0, true),
+        ] {
+            assert_eq!(
+                has_exact_argument(centre, start, last),
+                is_exact,
+                "{start} {centre} {last}"
+            );
+        }
+    }
+}

@@ -118,7 +118,12 @@ mod tests {
                 seen += 1;
                 for fraction in [0, 1 << 119, (1 << 120) - 1, 1 << 120] {
                     let position = Position::exact(number, fraction).unwrap();
-                    assert_eq!(period.value(&position), march.value(&position).unwrap());
+                    let value = period.value(&position);
+                    assert_eq!(value, march.value(&position).unwrap());
+                    // 63·64·2^112 units change by as much in 2S·2^−120 of a piece, S the number of pieces.
+                    let rounded = period.value(&Position { exact: false, ..position });
+                    let least = 63 * 64 * 2 * u128::from(period.scheme.pieces) / 256;
+                    assert!(rounded.radius >= value.radius + least, "{rounded:?} {value:?}");
                 }
                 let first = &period.coefficients[..period.proof.terms];
                 assert_eq!(Some(first), march.piece(number, 0));
