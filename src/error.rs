@@ -7,7 +7,7 @@ use crate::answer::{Method, WayError};
 use crate::ball::BallError;
 use crate::expression::{NotAUnit, NotInvertible};
 use crate::field::FieldError;
-use crate::history::HistoryError;
+use crate::history::{HistoryError, NotFollowed};
 use crate::language::{ChangeError, Diagnostic, did_you_mean};
 use crate::limits::MAX_DIGITS;
 use crate::lock::LockError;
@@ -416,6 +416,9 @@ fn remedy_of_history(error: &HistoryError) -> &'static str {
              mass or stiff spring rings"
         }
         HistoryError::TooMuchMemory { .. } => "choose an earlier end, or raise --memory",
+        HistoryError::Refused(NotFollowed::Massless { .. }) => {
+            "put a mass or a damper there; write a support that is nothing but stiff as a spring to `fixed`"
+        }
         HistoryError::Refused(_) => {
             "docs/scene-language.md lists under `Contacts` what is supported"
         }

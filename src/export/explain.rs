@@ -398,7 +398,8 @@ fn told(network: &Network, law: &Law) -> String {
         Rule::FixedEnd => format!("{place}, the end does not move:"),
         Rule::Balance(elements) => {
             let names: Vec<String> = elements.iter().map(name).collect();
-            format!("{place}, {} balances the forces:", names.join(" and "))
+            let balance = if names.len() == 1 { "balances" } else { "balance" };
+            format!("{place}, {} {balance} the forces:", names.join(" and "))
         }
         Rule::Spring(spring) => format!("{place}, {} carries the force:", name(spring)),
         Rule::Shortening(spring) => {

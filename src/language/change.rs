@@ -57,6 +57,8 @@ pub enum ChangeError {
     Endless(String),
     #[error("contacts stay closed in this scene")]
     NoContacts,
+    #[error("`{change}` does not suit this scene: {why}")]
+    Refused { change: String, why: String },
     #[error(transparent)]
     Text(#[from] Diagnostic),
 }

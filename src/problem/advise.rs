@@ -5,9 +5,9 @@
 
 use super::comparison::{Comparison, PURPOSE};
 use super::{Other, Problem, ProblemError, Simpler, Size, Wanted};
-use crate::ball::{Ball, Decimal};
+use crate::ball::{Ball, Bound, Decimal};
 use crate::language::syntax::Declared;
-use crate::language::{self, Beyond, Change};
+use crate::language::{self, Beyond, Change, ChangeError};
 use crate::signal::{Limit, Signal};
 use num_traits::Signed as _;
 use std::time::{Duration, Instant};
@@ -282,10 +282,13 @@ impl Adviser<'_> {
         match self.comparison.share(other, self.tolerance) {
             Err(error) => Verdict::Unproven(first_line(&error)),
             Ok(share) if share[1] <= *self.tolerance => Verdict::Enough(share),
-            Ok([_, most]) => Verdict::Unproven(format!(
-                "the difference may reach {:.2e} of the largest value",
-                num_traits::ToPrimitive::to_f64(&most).unwrap_or(f64::NAN)
-            )),
+            Ok([_, most]) => {
+                let percent = most * Rational::from_integer(100.into());
+                let percent = Decimal::bound(&percent, 3, Bound::Upper);
+                Verdict::Unproven(format!(
+                    "the difference may reach {percent} % of the largest value"
+                ))
+            }
         }
     }
 
@@ -419,7 +422,12 @@ impl Adviser<'_> {
             }
             self.extend(&mut changes, ways, &mut missed);
         }
-        self.tried.extend(missed);
+        // What was tried under another name is told already.
+        let is_new = |own: &Tried| match self.problem().simpler(&own.simpler) {
+            Ok(Other::Problem(problem)) => self.known(&problem).is_none(),
+            _ => true,
+        };
+        self.tried.extend(missed.filter(is_new));
         // What samples let pass and no proof does is taken back, the last change first.
         while !changes.is_empty() && !self.attempt(Simpler::Scene(changes.clone())) {
             changes.pop();
@@ -435,10 +443,6 @@ impl Adviser<'_> {
             let simpler = Simpler::Scene(all.clone());
             (self.tell)(&simpler);
             let Ok(other) = self.problem().simpler(&simpler) else { continue };
-            // What was tried under another name.
-            if matches!(&other, Other::Problem(problem) if self.known(problem) == Some(false)) {
-                continue;
-            }
             let Ok((sampled, count)) = self.sample(&other) else { continue };
             let Some(verdict) = self.verdict(&sampled) else {
                 *changes = all;
@@ -506,6 +510,7 @@ pub(super) fn first_line(error: &ProblemError) -> String {
         ProblemError::Text(diagnostics) if !diagnostics.is_empty() => {
             diagnostics[0].message().to_owned()
         }
+        ProblemError::Change(ChangeError::Refused { why, .. }) => why.clone(),
         error => error.to_string().lines().next().unwrap_or_default().to_owned(),
     }
 }

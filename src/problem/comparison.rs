@@ -74,9 +74,12 @@ impl<'p> Comparison<'p> {
     /// How many arrivals there are from the start to the end of the window, where they can be counted; else how many
     /// breaks on the window.
     pub fn arrivals(&self) -> Result<usize, ProblemError> {
-        let signal = self.closed().unwrap_or(&self.signal);
-        let stretches = (0..signal.count()?).filter(|stretch| !signal.is_instant(*stretch));
-        Ok(stretches.count() - 1)
+        let count = |signal: &Rc<dyn Signal + 'p>| -> Result<usize, ProblemError> {
+            let stretches = (0..signal.count()?).filter(|stretch| !signal.is_instant(*stretch));
+            Ok(stretches.count() - 1)
+        };
+        // Where echoes take too much memory, the scene is followed.
+        self.closed().and_then(count).or_else(|_| count(&self.signal))
     }
 
     /// The largest difference of an answer over the largest value, between two bounds: near ones, or where the tolerance

@@ -188,7 +188,14 @@ impl Problem {
         // Equations have no elements.
         self.scaled()?;
         let source = language::changed(&self.source, changes)?;
-        Problem::of(source, self.values.clone())
+        Problem::of(source, self.values.clone()).map_err(|error| match error {
+            // The text that was changed is nobody's.
+            ProblemError::Text(found) if !found.is_empty() => {
+                let change = changes.iter().map(ToString::to_string).collect::<Vec<_>>().join("+");
+                ChangeError::Refused { change, why: found[0].message().to_owned() }.into()
+            }
+            error => error,
+        })
     }
 
     /// The same for formulas: where symbols are left and one bar is a spring that swings with one mass, its rate has the name

@@ -123,8 +123,11 @@ impl Problem {
     /// All that can be asked for, in the order of the statements it comes from.
     fn names(&self) -> impl Iterator<Item = &str> {
         let (mut first, mut then) = (self.observables(), self.waves());
-        if matches!(self.kind, Kind::Equations(_)) {
-            std::mem::swap(&mut first, &mut then);
+        match self.kind {
+            Kind::Equations(_) => std::mem::swap(&mut first, &mut then),
+            // Its waves are those of closed contacts.
+            Kind::Line { .. } if !self.has_periods() => then.clear(),
+            Kind::Line { .. } => {}
         }
         first.into_iter().chain(then)
     }

@@ -121,7 +121,7 @@ impl Told<'_> {
             Verdict::Enough([_, most]) => at_most(most, &self.need.tolerance),
             Verdict::Misses { by, at } => {
                 let by = percent_above(by, &self.need.tolerance);
-                format!("{by} at t = {}{}", in_decimals(at), self.unit())
+                format!("at least {by} at t = {}{}", in_decimals(at), self.unit())
             }
             Verdict::Unproven(why) => format!("not proven: {why}"),
             Verdict::Unsuited(why) => format!("not applicable: {why}"),
