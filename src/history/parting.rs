@@ -17,8 +17,9 @@ use std::cmp::Ordering;
 use std::ops::Range;
 use wavestep_polynomial::Rational;
 
-/// Whether all has parted is asked again after such a part of the time that has passed, or a travel time if that is longer.
-const PART: u64 = 4;
+/// Whether all has parted is asked again after a part of the time that has passed, one in so many, or a travel time if that is
+/// longer.
+const PARTS: u64 = 4;
 
 impl Engine {
     /// Whether nothing can meet again after an instant.
@@ -97,11 +98,11 @@ impl Engine {
             self.follow_until(&next)?;
             // What is not decided is not proven.
             if known.is_some() || self.all_open() && self.has_parted(network, &next) == Ok(true) {
-                self.let_go(network, &unasked)?;
+                self.let_go(network, &unasked);
                 *parted.borrow_mut() = Some(next);
                 return self.follow_until(until);
             }
-            count += (count / PART).max(1);
+            count += (count / PARTS).max(1);
         }
     }
 
@@ -137,7 +138,8 @@ impl Engine {
                 NodeQuantity::Velocity(run) | NodeQuantity::Displacement(run) => {
                     // A run is beside a contact of its node, or all of the node belongs to one body.
                     let own = contacts.iter().filter(|own| own.node == node);
-                    let left = own.clone().rfind(|own| own.run < run).map(|own| line[own.joint]);
+                    let left = own.clone().rfind(|own| own.run < run);
+                    let left = left.and_then(|own| line.get(own.joint).copied());
                     let right = own.clone().find(|own| own.run >= run);
                     let right = right.and_then(|own| Some(line[own.joint.checked_sub(1)?]));
                     match left.or(right).or_else(|| self.element_of(node)) {
@@ -177,7 +179,7 @@ impl Engine {
     }
 
     /// Follows these bodies no longer: no contact closes again.
-    fn let_go(&mut self, network: &Network, bodies: &[Range<usize>]) -> Outcome<()> {
+    fn let_go(&mut self, network: &Network, bodies: &[Range<usize>]) {
         self.watched_from = f64::INFINITY;
         self.open.iter_mut().for_each(|contact| contact.has_parted = true);
         let line = &network.scene().line.elements;
@@ -192,6 +194,5 @@ impl Engine {
                 }
             }
         }
-        Ok(())
     }
 }

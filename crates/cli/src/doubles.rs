@@ -70,18 +70,20 @@ pub fn tell(found: &Doubles, points: usize, tolerance: Option<Tolerance>, explai
     }
 }
 
-/// Says on standard error how many echoes there are.
-pub fn count(echoes: Option<EchoCount>) {
+/// Says on standard error how many echoes of a quantity there are.
+pub fn count(name: &str, echoes: Option<EchoCount>) {
     let Some(EchoCount { expanded, arriving, needed }) = echoes else {
         return eprintln!(
-            "echoes computed: none; values come from a closed form or from whole pieces"
+            "echoes computed for {name}: none; values come from a closed form or from whole pieces"
         );
     };
     let needed = match needed == arriving {
         true => String::new(),
         false => format!(", of which the tolerance needs {needed}"),
     };
-    eprintln!("echoes computed: {expanded} of {arriving} that reach the observed place{needed}");
+    eprintln!(
+        "echoes computed for {name}: {expanded} of {arriving} that reach the observed place{needed}"
+    );
 }
 
 /// Says on standard error how sure values with a local contact, or with contacts that open, are.

@@ -72,7 +72,7 @@ fn answered(
         let found = found.map_err(|error| doubles::refused(error, times.len(), options.explain))?;
         doubles::tell(&found, times.len(), tolerance, options.explain);
         if options.stats {
-            doubles::count(found.echoes);
+            doubles::count(name, found.echoes);
         }
         let wanted = problem.wanted(name)?;
         return Ok((doubles::written(&found, problem, &wanted, times, options), 0));
@@ -92,7 +92,7 @@ fn answered(
         );
     }
     if options.stats {
-        doubles::count(found.echoes);
+        doubles::count(name, found.echoes);
     }
     let open = found.values.iter().filter(|value| matches!(value, Value::Enclosed(_))).count();
     Ok((written(problem, &wanted, (times, &found.values), options), open))

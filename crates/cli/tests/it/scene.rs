@@ -188,7 +188,7 @@ fn statistics_go_to_standard_error() {
     let arguments = ["eval", "pushed-bar", "--quantity", "velocity", "--at", "9", "--stats"];
     let (code, stdout, stderr) = run(anywhere(), &arguments);
     assert_eq!((code, stdout.as_str()), (0, "velocity(9) = 9\n"));
-    assert!(stderr.starts_with("echoes computed: "), "{stderr}");
+    assert!(stderr.starts_with("echoes computed for velocity: "), "{stderr}");
 }
 
 // ---- What is refused ----------------------------------------------------------------------------
