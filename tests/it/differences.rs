@@ -140,6 +140,19 @@ fn an_extremum_beside_a_flat_end_has_all_digits() {
     }
 }
 
+/// Where the slope at the middle of what is left stays undecided, that beside it is not.
+#[test]
+fn an_extremum_at_the_middle_of_an_interval_has_all_digits() {
+    let own = Problem::builtin("struck-free-bar").unwrap().with("mu", 1).unwrap();
+    let other = own.simpler(&"endless:rod.right".parse().unwrap()).unwrap();
+    let wanted = own.wanted("velocity").unwrap();
+    let (from, to) = (Rational::default(), Rational::from_integer(4.into()));
+    let signal = own.difference_on(&other, &wanted, [&from, &to], Purpose::Search).unwrap();
+    let found = Search::new(&*signal).unwrap().extremum(Goal::Largest, 9, 1 << 12).unwrap();
+    assert!(matches!(found.value, Value::Certified { .. }), "{:?}", found.value);
+    assert!(!found.places.iter().any(|place| matches!(place, Place::Undecided { .. })));
+}
+
 /// Two bars that part at `t = 2`, or stay together: behind the third bar, nothing is felt before `t = 4`, nor at once then.
 #[test]
 fn a_difference_that_is_zero_until_a_wave_comes_is_told_once() {

@@ -101,10 +101,23 @@ impl Search<'_> {
             match value.sign() {
                 Some(Ordering::Equal) => (root.from, root.to) = (middle.clone(), middle),
                 Some(sign) => root.cut(middle, sign),
-                None => match precisions.after(working) {
-                    Some(more) => working = more,
-                    None => return Ok(()),
-                },
+                // The root may be too near the middle to decide the sign there; a quarter of the interval away it may be decided.
+                None => {
+                    let quarter = &narrowed / Rational::from_integer(4.into());
+                    for beside in [&middle - &quarter, &middle + &quarter] {
+                        let value = self.enclose(stretch, target, At::Time(&beside), working)?;
+                        if let Some(sign) = value.sign().filter(|sign| sign.is_ne()) {
+                            root.cut(beside, sign);
+                        }
+                    }
+                    if &root.to - &root.from < narrowed {
+                        continue;
+                    }
+                    match precisions.after(working) {
+                        Some(more) => working = more,
+                        None => return Ok(()),
+                    }
+                }
             }
         }
     }
