@@ -50,8 +50,6 @@ pub(crate) struct Contact {
     /// Since when the force is exactly zero, after it was positive.
     pub idle: Option<Moment>,
     pub pressed: bool,
-    /// Whether it is open for ever: nobody asks for its gap.
-    pub has_parted: bool,
 }
 
 /// What keeps a contact as it is on a cell while it is not negative: its gap while it is open; its force while it
@@ -203,7 +201,7 @@ impl Engine {
                 return Guard { kept: Kept::Force, series, starts };
             }
             let own = &self.open[contact];
-            if own.has_parted {
+            if self.has_let_go {
                 let kept = Kept::Gap(Series::zero());
                 return Guard { kept, series: Series::zero(), starts: Vec::new() };
             }

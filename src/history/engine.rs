@@ -172,6 +172,8 @@ pub(crate) struct Engine {
     /// The time before which nothing is asked for, and that before which nothing tells whether bodies have parted.
     pub asked_from: f64,
     pub watched_from: f64,
+    /// Whether bodies are followed no longer: all contacts are open for ever, and nobody asks for their gaps.
+    pub has_let_go: bool,
     /// Whether waves are kept that leave for ever.
     pub keeps_departed: bool,
     /// What is asked for; without it all.
@@ -280,6 +282,7 @@ impl Engine {
             bytes: 0,
             asked_from: 0.0,
             watched_from: f64::INFINITY,
+            has_let_go: false,
             keeps_departed: false,
             asked_sources: None,
             whole: 0.0,
@@ -341,14 +344,8 @@ impl Engine {
     /// The nodes at the start, all contacts closed.
     fn begin(&mut self) -> Outcome<()> {
         let start = Moment::at(Fraction::zero());
-        let contact = || Contact {
-            closed: true,
-            gap: Number::zero(),
-            flat: 0,
-            idle: None,
-            pressed: false,
-            has_parted: false,
-        };
+        let contact =
+            || Contact { closed: true, gap: Number::zero(), flat: 0, idle: None, pressed: false };
         self.open = self.layout.contacts.iter().map(|_| contact()).collect();
         for (number, node) in self.nodes.iter().enumerate() {
             let bits = self.cut.bits;

@@ -74,14 +74,8 @@ impl Engine {
         if unasked.is_empty() {
             return self.follow_until(until);
         }
-        let line = &network.scene().line.elements;
-        let stay = line
-            .iter()
-            .enumerate()
-            .filter(|(place, _)| !unasked.iter().any(|own| own.contains(place)));
-        let stay: Vec<usize> =
-            stay.flat_map(|(_, element)| self.nodes_of(*element)).flatten().collect();
-        self.foresee_cells(until, |node| stay.contains(&node) && !self.has_contacts(node))?;
+        let leaving: Vec<usize> = self.nodes_in(network, &unasked).map(|(node, _)| node).collect();
+        self.foresee_cells(until, |node| !self.has_contacts(node) && !leaving.contains(&node))?;
         self.whole = self.clock.about(until);
         let travel = longest(self)?;
         let mut count = 1;
@@ -91,6 +85,7 @@ impl Engine {
                 .clone()
                 .unwrap_or_else(|| Moment::at(travel.scale(&Rational::from_integer(count.into()))));
             if self.clock.compare(&next, until)? != Ordering::Less {
+                self.watched_from = f64::INFINITY;
                 return self.follow_until(until);
             }
             self.watched_from =
@@ -114,6 +109,10 @@ impl Engine {
     /// The bodies of which nothing is asked; none where a gap may be.
     fn unasked(&self, network: &Network) -> Vec<Range<usize>> {
         let Some(sources) = &self.asked_sources else { return Vec::new() };
+        let mut bodies = self.bodies(network);
+        if bodies.len() < 2 {
+            return Vec::new();
+        }
         let line = &network.scene().line.elements;
         let contacts = &self.layout.contacts;
         let mut asked = Vec::new();
@@ -151,10 +150,6 @@ impl Engine {
         }
         let is_asked =
             |body: &Range<usize>| line[body.clone()].iter().any(|own| asked.contains(own));
-        let mut bodies = self.bodies(network);
-        if bodies.len() < 2 {
-            return Vec::new();
-        }
         bodies.retain(|body| !is_asked(body));
         bodies
     }
@@ -170,28 +165,32 @@ impl Engine {
         self.nodes[node].contacts().next().is_some()
     }
 
-    /// The nodes at the left and at the right of a bar, or the one of another element.
-    fn nodes_of(&self, element: usize) -> [Option<usize>; 2] {
-        match self.layout.bar(element) {
-            Some(bar) => self.layout.ends[bar],
-            None => [self.layout.node_of(element), None],
-        }
+    /// The nodes that bodies touch, each with the side at which a bar of theirs ends there, if one does.
+    fn nodes_in<'a>(
+        &'a self,
+        network: &'a Network,
+        bodies: &'a [Range<usize>],
+    ) -> impl Iterator<Item = (usize, Option<usize>)> + 'a {
+        let line = &network.scene().line.elements;
+        bodies.iter().flat_map(|body| &line[body.clone()]).flat_map(|element| {
+            let ends = match self.layout.bar(*element) {
+                // The left end of a bar is at the right of a node.
+                Some(bar) => [1, 0].map(Some).into_iter().zip(self.layout.ends[bar]),
+                None => [None; 2].into_iter().zip([self.layout.node_of(*element), None]),
+            };
+            ends.filter_map(|(side, node)| Some((node?, side)))
+        })
     }
 
     /// Follows these bodies no longer: no contact closes again.
     fn let_go(&mut self, network: &Network, bodies: &[Range<usize>]) {
-        self.watched_from = f64::INFINITY;
-        self.open.iter_mut().for_each(|contact| contact.has_parted = true);
-        let line = &network.scene().line.elements;
-        for element in bodies.iter().flat_map(|body| &line[body.clone()]) {
-            for (side, node) in self.nodes_of(*element).into_iter().enumerate() {
-                let Some(node) = node else { continue };
-                if !self.has_contacts(node) {
-                    self.states[node].is_gone = true;
-                } else if self.layout.bar(*element).is_some() {
-                    // At the left end of a bar it is what arrives from the right.
-                    self.states[node].arriving[1 - side] = Arriving::Constant(Number::zero());
-                }
+        (self.watched_from, self.has_let_go) = (f64::INFINITY, true);
+        let nodes: Vec<_> = self.nodes_in(network, bodies).collect();
+        for (node, side) in nodes {
+            if !self.has_contacts(node) {
+                self.states[node].is_gone = true;
+            } else if let Some(side) = side {
+                self.states[node].arriving[side] = Arriving::Constant(Number::zero());
             }
         }
     }
