@@ -201,8 +201,14 @@ impl Fraction {
     pub fn substitute(&self, x: &Symbol, value: &Fraction) -> Result<Fraction, NotAUnit> {
         let mut result = substitute_in(&self.numerator, x, value);
         for (factor, power) in &self.factors {
-            let factor = substitute_in(factor, x, value);
-            result = &result * &factor.inverse()?.pow(*power);
+            let below = match factor.symbols().contains(x) {
+                true => substitute_in(factor, x, value).inverse()?.pow(*power),
+                false => Fraction {
+                    numerator: Polynomial::one(),
+                    factors: BTreeMap::from([(factor.clone(), *power)]),
+                },
+            };
+            result = &result * &below;
         }
         Ok(result)
     }

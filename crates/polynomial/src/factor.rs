@@ -58,25 +58,34 @@ impl Polynomial {
         Some(found)
     }
 
-    /// Whether it keeps its degree in a symbol and is irreducible where the others have certain values.
-    /// Then it has no factors with that symbol but itself; nor any without, where one coefficient is a
-    /// number.
+    /// Whether it keeps its degree in a symbol and is irreducible where the others have certain values, and
+    /// no factor lacks that symbol. Then it has no factors but itself.
     fn stays_irreducible(&self) -> bool {
         self.symbols().len() > 1
             && self.symbols().iter().any(|x| {
-                if self.coefficients(x).iter().all(|(_, c)| c.as_constant().is_none()) {
-                    return false;
-                }
                 let others = self.symbols().iter().filter(|y| *y != x);
                 let values = [3, 7, 13, 29].iter().cycle();
                 let special = others.zip(values).fold(self.clone(), |p, (y, value)| {
                     let value = BigRational::from_integer(BigInt::from(*value));
                     p.substitute(y, &Polynomial::constant(&value))
                 });
-                let factors = special.factors();
                 special.degree(x) == self.degree(x)
-                    && factors.is_some_and(|all| matches!(all[..], [(_, 1)]))
+                    && special.factors().is_some_and(|all| matches!(all[..], [(_, 1)]))
+                    && self.is_primitive_in(x)
             })
+    }
+
+    /// Whether no factor lacks a symbol: it would divide the coefficients of all its powers. `false` where the
+    /// factors of the shortest coefficient are not found.
+    fn is_primitive_in(&self, x: &Symbol) -> bool {
+        let coefficients = self.coefficients(x);
+        let shortest = coefficients.iter().map(|(_, own)| own).min_by_key(|own| own.term_count());
+        let divides_all = |factor: &Polynomial| {
+            coefficients.iter().all(|(_, own)| own.divide(factor).is_some())
+        };
+        shortest.and_then(Polynomial::factors).is_some_and(|found| {
+            found.iter().all(|(factor, _)| !divides_all(factor))
+        })
     }
 }
 

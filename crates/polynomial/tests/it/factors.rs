@@ -28,6 +28,13 @@ fn factors_of_known_polynomials() {
         one("s^8 - 40*s^6 + 352*s^4 - 960*s^2 + 576")
     );
     assert_eq!(factors("s^12 - 1").len(), 6);
+    // The second factor alone holds s, and stays irreducible where b is a number.
+    assert_eq!(
+        factors("b^2*s^2 + 2*b*s^2 + s^2 + b^2 + 2*b + 1"),
+        [("b + 1".to_owned(), 2), ("s^2 + 1".to_owned(), 1)]
+    );
+    let alone = "b^2*s^2 + 3*b^2 + 2*b*s^2 + b + s^2 + 1";
+    assert_eq!(factors(alone), one(alone));
     assert_eq!(factors("s^2 - b^2"), [("b + s".to_owned(), 1), ("b - s".to_owned(), 1)]);
     assert_eq!(factors("b^2*s^2 + b*s^2 + mu*b + mu + b^3 + b^2").len(), 2);
     assert_eq!(factors("b^3 + b*mu + s + 2"), one("b^3 + b*mu + s + 2"));
