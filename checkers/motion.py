@@ -266,6 +266,8 @@ class System:
         self.members = [[r for r in range(line.count) if self.group[r] == g] for g in range(self.count)]
         self.fixed = [any(line.fixed[r] for r in own) for own in self.members]
         self.mass = [total(line.masses[r] for r in own) for own in self.members]
+        # What undamped supports alone hold goes back at once to where they carry no force. Any damping keeps it at rest there.
+        self.resting = {n for n, (r, _, _) in enumerate(line.supports) if self.is_propped(self.group[r])}
         self.moved = [not fixed and mass.sign() == 1 for fixed, mass in zip(self.fixed, self.mass)]
         self.endless = [any(line.endless[r] for r in own) for own in self.members]
         self.free = [g for g in range(self.count) if not self.fixed[g] and not self.moved[g] and not self.endless[g]]
@@ -286,6 +288,17 @@ class System:
                 r += way
         return False
 
+    def is_propped(self, g):
+        """Whether what moves as one touches undamped supports and open contacts only."""
+        line, own = self.line, self.members[g]
+        beside = [i for r in own for i in (r - 1, r) if 0 <= i < len(line.links) and i not in self.loose]
+        return (
+            all(line.links[i]["is"] == "contact" for i in beside)
+            and not any(line.fixed[r] or line.masses[r].sign() for r in own)
+            and not any(r in own for r, _ in line.loads)
+            and all(damping.is_zero() for r, _, damping in line.supports if r in own)
+        )
+
     def forces(self, v, alpha, u, incoming, loads, order):
         """The forces on each run, of one order of the series, by bars, springs, supports and loads; velocities that are not
         known yet count as zero."""
@@ -304,7 +317,7 @@ class System:
                 force = link["stiffness"] * alpha[i] + link["damping"] * (speed(i) - speed(i + 1))
                 one[i], one[i + 1] = one[i] - force, one[i + 1] + force
         for j, (r, stiffness, damping) in enumerate(line.supports):
-            one[r] = one[r] - stiffness * u[j] - damping * speed(r)
+            one[r] = one[r] - stiffness * u[j] - (ONE if j in self.resting else damping) * speed(r)
         for (r, _), load in zip(line.loads, loads):
             one[r] = one[r] + load
         return one
@@ -483,10 +496,11 @@ class Motion:
             self.closed ^= {i}
             own["idle"], own["pressed"], self.state["gap"][i] = None, False, ZERO
         self.system = System(self.line, self.closed)
-        loosened = self.system.loose - before.loose
-        for i in loosened:
-            need(self.state["alpha"][i].sign() in (0, None), "a spring comes loose while it is compressed")
-            self.state["alpha"][i] = ZERO
+        loosened = [("alpha", i) for i in self.system.loose - before.loose]
+        loosened += [("u", n) for n in self.system.resting - before.resting]
+        for what, n in loosened:
+            need(self.state[what][n].sign() in (0, None), "a spring or a support comes loose while it is compressed")
+            self.state[what][n] = ZERO
         for i in self.closed & set(changes):
             need(was_flush[i] or not self.is_rigid_impact(i), "rigid bodies meet")
         for g, own in enumerate(self.system.members):

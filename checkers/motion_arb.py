@@ -300,6 +300,7 @@ class Laws:
         ]
         self.held = sorted(self.held + self.loose)
         self.springs = [i for i, link in enumerate(parts.links) if link["is"] == "spring" and i not in self.loose]
+        self.propped = [n for n, own in enumerate(parts.supports) if self.stands_alone(own[0])]
         self.still = [parts.fixed[r] or parts.endless[r] for r in runs]
         self.moving = [r for r in runs if not self.still[r]]
         unknown = [("a" if self.heavy[r] else "v", r) for r in self.moving] + [("X", i) for i in self.held]
@@ -320,6 +321,20 @@ class Laws:
                     return True
                 r += step
         return False
+
+    def slack(self):
+        """What cannot be compressed."""
+        return {("alpha", i) for i in self.loose} | {("u", n) for n in self.propped}
+
+    def stands_alone(self, r):
+        """Whether undamped supports hold a run and what is held to it, and nothing pushes them."""
+        parts, near = self.parts, {r}
+        while more := {i + side for i in self.held for side in (0, 1) if near & {i, i + 1}} - near:
+            near |= more
+        touched = {i for run in near for i in (run - 1, run) if 0 <= i < len(parts.links)} - set(self.held)
+        pushed = any(parts.fixed[run] or self.heavy[run] or any(run == own[0] for own in parts.loads) for run in near)
+        damped = any(run in near and not is_nil(damping) for run, _, damping in parts.supports)
+        return not pushed and not damped and all(parts.links[i]["is"] == "contact" for i in touched)
 
     def balance(self, r):
         """The coefficients of what is not known in the forces on a run less its inertia."""
@@ -342,9 +357,9 @@ class Laws:
             elif link["is"] == "spring":
                 resists(r, -link["damping"])
                 resists(other, link["damping"])
-        for run, _, damping in parts.supports:
-            if run == r:
-                resists(r, -damping)
+        for n, (run, _, damping) in enumerate(parts.supports):
+            if run == r:  # one that nothing pushes has no velocity, however it is damped
+                resists(r, fmpq(-1) if n in self.propped else -damping)
         return row
 
     def joint(self, i):
@@ -584,7 +599,7 @@ class Story:
 
     def switch(self, contacts, smoothly):
         """Opens and closes contacts at this instant."""
-        loose, speeds, heavy = set(self.laws.loose), dict(self.state), self.laws.heavy
+        slack, speeds, heavy = self.laws.slack(), dict(self.state), self.laws.heavy
         for i in contacts:
             if i in self.closed:
                 since = self.idle.pop(i, None)
@@ -600,10 +615,10 @@ class Story:
             self.pressed.discard(i)
             self.gaps[i] = NIL
         self.laws = Laws(self.parts, self.closed)
-        freed = set(self.laws.loose) - loose
-        for i in freed:
-            need(sign(self.state["alpha", i]) in (0, None), "a compressed spring comes loose")
-            self.state["alpha", i] = NIL
+        freed = self.laws.slack() - slack
+        for key in freed:
+            need(sign(self.state[key]) in (0, None), "a compressed spring comes loose")
+            self.state[key] = NIL
         # How many derivatives of a gap are zero at first: that of the second order too where masses or walls part, whose force has
         # just come to zero.
         self.flush = {}

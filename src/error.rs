@@ -417,7 +417,7 @@ fn remedy_of_history(error: &HistoryError) -> &'static str {
         }
         HistoryError::TooMuchMemory { .. } => "choose an earlier end, or raise --memory",
         HistoryError::Refused(NotFollowed::Massless { .. }) => {
-            "put a mass or a damper there; write a support that is nothing but stiff as a spring to `fixed`"
+            "put a mass or a damper there, or write two springs in a row as one"
         }
         HistoryError::Refused(_) => {
             "docs/scene-language.md lists under `Contacts` what is supported"

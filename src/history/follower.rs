@@ -38,11 +38,12 @@ pub(crate) struct Follower<'a> {
 }
 
 impl<'a> Follower<'a> {
-    /// Follows the scene until the end of a window of the user's time, and forgets what is not asked for to see an
-    /// observable on it, if only one is. With the number of digits, where that is known, it takes no more bits than it needs.
+    /// Follows the scene until the end of a window of the user's time, and forgets what is not asked for to see these
+    /// observables on it, if only some are. With the number of digits, where that is known, it takes no more bits than it
+    /// needs.
     pub fn new(
         network: &'a Network,
-        observed: Option<&Observed>,
+        observed: Option<&[&Observed]>,
         [from, to]: [&Rational; 2],
         digits: Option<usize>,
     ) -> Outcome<Rc<Follower<'a>>> {

@@ -35,14 +35,16 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// For an observable from a time of the user's on; without one, for all of it.
-    pub fn of(network: &Network, observed: Option<&Observed>, from: &Rational) -> Asked {
-        let readings = || observed.into_iter().flat_map(Observed::all_readings);
+    /// For observables from a time of the user's on; without any list of them, for all of it.
+    pub fn of(network: &Network, observed: Option<&[&Observed]>, from: &Rational) -> Asked {
+        let all = || observed.into_iter().flatten();
+        let readings = || all().flat_map(|own| own.all_readings());
+        let entering = || all().flat_map(|own| own.entering());
         Asked {
             from: network.scaled_time(from),
             delays: readings().flat_map(Reading::delays).cloned().collect(),
             is_integrated: observed.is_none() || readings().any(Reading::is_integral),
-            seen: observed.map(|own| (readings().cloned().collect(), own.entering().collect())),
+            seen: observed.map(|_| (readings().cloned().collect(), entering().collect())),
             parted: RefCell::default(),
         }
     }

@@ -111,20 +111,18 @@ pub(crate) struct FollowedSignal<'a> {
 }
 
 impl<'a> FollowedSignal<'a> {
-    /// Follows the scene until the end of the window, to see an observable that is linear in the motion.
-    pub fn of_scene(
-        network: &'a Network,
+    /// An observable that is linear in the motion.
+    pub fn observable(
+        follower: &Rc<Follower<'a>>,
         observed: &Observed,
         window: [&Rational; 2],
-        digits: Option<usize>,
     ) -> Outcome<Self> {
         if window[1] < window[0] || *window[0] < Rational::zero() {
             return Err(EvaluateError::EmptyWindow.into());
         }
-        let follower = Follower::new(network, Some(observed), window, digits)?;
         let readings = (&*observed.readings, &observed.unit);
-        let signal = FollowedSignal::linear(&follower, readings, window)?;
-        Ok(FollowedSignal { silence: Silence::of(network, observed), ..signal })
+        let signal = FollowedSignal::linear(follower, readings, window)?;
+        Ok(FollowedSignal { silence: Silence::of(follower.network, observed), ..signal })
     }
 
     /// A sum of readings, in a unit, of a scene that is followed already.

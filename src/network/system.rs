@@ -7,7 +7,7 @@
 //! the two arriving waves, then what each load does and the force in each local contact.
 
 use crate::ball::Arithmetic;
-use crate::network::node::{Acting, ElementLaw, Link, Lumped, Node};
+use crate::network::node::{Acting, ElementLaw, Link, Lumped, Node, Side};
 use crate::scene::Drive;
 
 /// Something without mass moves, and nothing resists it.
@@ -164,7 +164,15 @@ impl<V: Arithmetic> System<V> {
         for (run, joined) in joined.iter().enumerate() {
             group.push(group[run] + usize::from(!joined));
         }
-        Law::of(node, group, &idle, bits).system(closed)
+        // What undamped supports alone hold goes back to where they carry no force, and rests there.
+        let resting: Vec<usize> =
+            (0..=group[joined.len()]).filter(|own| is_propped(node, &group, &idle, *own)).collect();
+        for (own, idle) in node.elements.iter().zip(&mut idle) {
+            *idle |= !own.law.is_link() && resting.contains(&group[own.run]);
+        }
+        let mut law = Law::of(node, group, &idle, bits);
+        resting.into_iter().for_each(|group| law.held[group] = true);
+        law.system(closed)
     }
 }
 
@@ -373,6 +381,26 @@ impl<V: Arithmetic> Law<'_, V> {
         }
         if from_right { sum.negate() } else { sum }
     }
+}
+
+/// Whether runs that move as one have no mass, and nothing but undamped supports and open contacts.
+fn is_propped<V: Arithmetic>(
+    node: &Node<V>,
+    groups: &[usize],
+    idle: &[bool],
+    group: usize,
+) -> bool {
+    let mut runs = (0..node.runs()).filter(|run| groups[*run] == group);
+    let is_tied = node.elements.iter().zip(idle).any(|(own, idle)| {
+        let ends = [own.run, own.run + 1].map(|run| groups.get(run) == Some(&group));
+        own.law.is_link() && !idle && ends[0] != ends[1]
+    });
+    let mut attached = runs.clone().flat_map(|run| node.attached(run)).peekable();
+    let is_support = |own: &Lumped<V>| matches!(&own.law, ElementLaw::Support { damping, .. } if damping.is_zero());
+    !is_tied
+        && runs.all(|run| node.sides(run).all(|side| side == Side::Free))
+        && attached.peek().is_some()
+        && attached.all(is_support)
 }
 
 /// An undamped spring that has nothing but open contacts at one end, by the run at its left.

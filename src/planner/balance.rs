@@ -1,9 +1,10 @@
 //! Energies and momenta with what flows in, their derivative: what roots and extrema ask for.
 
+use super::SignalError;
 use super::energy;
-use super::{Origin, Purpose, SignalError, Sources};
+use super::together::Sources;
 use crate::expression::{Fraction, Root};
-use crate::network::{Balance, FlowTerm, Network, Observed, ObservedValue, Squared};
+use crate::network::{Balance, FlowTerm, Observed, ObservedValue, Squared};
 use crate::signal::{
     Balanced, ClosedSignal, Combination, Constant, Operation, Product, Scale, Signal,
 };
@@ -11,24 +12,22 @@ use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
 /// An energy or a momentum on a window of the user's time; one value where nothing flows in.
-pub(super) fn of_scene<'a>(
-    origin: Origin,
-    network: &'a Network,
-    (observed, purpose): (&Observed, Purpose),
+pub(super) fn of_sources<'a>(
+    sources: &Sources<'a>,
+    observed: &Observed,
     Balance { at_start, flow }: &Balance,
     window: [&Rational; 2],
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
+    let network = sources.network;
     let scale = Scale::of(network);
     let unit = observed.unit.clone();
-    // What is not followed is refused, also where its energy would stay.
-    let sources = Sources::on(origin, network, (observed, purpose), window)?;
     if flow.is_empty() {
         let rule = Constant::new(&scale, at_start.clone());
         return Ok(Box::new(Operation::new(&scale, rule, unit, window)));
     }
     let one = Root::from(Fraction::one());
     let of: Box<dyn Signal + 'a> = match &observed.value {
-        ObservedValue::Energy(terms) => energy::of_sources(&sources, terms, &one, window)?,
+        ObservedValue::Energy(terms) => energy::of_sources(sources, terms, &one, window)?,
         ObservedValue::Linear(value) => sources.signal(value, &observed.readings, window)?,
     };
     let factors = flow.iter().flat_map(|term| &term.factors);

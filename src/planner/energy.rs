@@ -1,6 +1,7 @@
 //! Energies as signals: `Σ c q²` of masses and springs, `Σ c q p` of local contacts, `Σ c ∫ q² dt` of the waves in bars.
 
-use super::{SignalError, Sources};
+use super::SignalError;
+use super::together::Sources;
 use crate::expression::{Fraction, Root};
 use crate::network::{EnergyTerm, Network, Squared, Window};
 use crate::signal::{Combination, EvaluateError, Integral, Operation, Product, Scale, Signal};

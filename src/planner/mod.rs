@@ -7,18 +7,16 @@
 
 mod balance;
 mod energy;
+mod together;
 
-use crate::ball::BallError;
+pub(crate) use together::Together;
+
 use crate::expression::{Fraction, Root};
-use crate::history::{self, FollowedSignal, Follower, HistoryError};
-use crate::network::{
-    Contacts, ElementLaw, FieldBars, Layout, Lumped, Network, Node, Observed, ObservedValue,
-    Squared, Term,
-};
-use crate::recurrence::Observation;
+use crate::history::{FollowedSignal, Follower, HistoryError};
+
+use crate::network::{Contacts, ElementLaw, FieldBars, Layout, Lumped, Network, Node, Observed};
 use crate::signal::{
-    ClosedForm, ClosedSignal, Difference, EvaluateError, Limit, Operation, Scale, Signal, Taps,
-    Vibrating, value,
+    ClosedForm, ClosedSignal, Difference, EvaluateError, Operation, Scale, Signal, Vibrating,
 };
 use num_traits::Zero as _;
 use std::rc::Rc;
@@ -150,7 +148,21 @@ pub fn of_scene<'a>(
     window: [&Rational; 2],
     purpose: Purpose,
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
-    chosen(network, observed, window, purpose).map(|(_, signal)| signal)
+    let alone = [observed];
+    let together = Together::new(network, &alone, window, purpose);
+    together.chosen(observed).map(|(_, signal)| signal)
+}
+
+/// Several observables of a scene on one window of the user's time, each with its own error; where the scene is followed,
+/// it is once for all of them.
+pub fn of_several<'a>(
+    network: &'a Network,
+    observed: &[&Observed],
+    window: [&Rational; 2],
+    purpose: Purpose,
+) -> Vec<Result<Box<dyn Signal + 'a>, SignalError>> {
+    let together = Together::new(network, observed, window, purpose);
+    observed.iter().map(|own| together.chosen(own).map(|(_, signal)| signal)).collect()
 }
 
 /// How far a signal of one scene or recurrence is from one of another, both on this window and in one unit; of the second only
@@ -182,71 +194,6 @@ pub(crate) fn vibration<'a>(
     Some(Box::new(Operation::new(&scale, rule, Root::from(Fraction::one()), window)))
 }
 
-/// The same, with the source that it comes from.
-pub(crate) fn chosen<'a>(
-    network: &'a Network,
-    observed: &Observed,
-    window: [&Rational; 2],
-    purpose: Purpose,
-) -> Result<(Origin, Box<dyn Signal + 'a>), SignalError> {
-    let from = |origin| {
-        of_origin(origin, network, observed, window, purpose).map(|signal| (origin, signal))
-    };
-    if !has_periods(network) {
-        if purpose == Purpose::ClosedContacts {
-            history::stays_closed(network, window[1])?;
-            return from(Origin::Closed);
-        }
-        return from(Origin::Followed);
-    }
-    let closed = || from(Origin::Closed);
-    if origin(network, window[1], purpose) == Origin::Closed {
-        let found = closed()?;
-        return match purpose != Purpose::Echoes && resonates(network, &*found.1, window[1]) {
-            true => from(Origin::Followed),
-            false => Ok(found),
-        };
-    }
-    if purpose == Purpose::Polynomials && is_cheap_closed(network, observed, window) {
-        return closed();
-    }
-    match from(Origin::Followed) {
-        // The closed form gives the clearer error for a window that cannot be followed.
-        Err(SignalError::Followed(
-            HistoryError::Refused(_) | HistoryError::TooManyCells { .. },
-        )) => closed(),
-        // Where following takes too much memory, searching many sums takes too long.
-        Err(SignalError::Followed(error @ HistoryError::TooMuchMemory { .. }))
-            if purpose == Purpose::Search
-                && has_few_arrivals(network, window[1], MOST_SEARCHED).is_ok_and(|few| !few) =>
-        {
-            Err(error.into())
-        }
-        Err(_) if ClosedForm::foreseen(network, window[1]).is_ok() => closed(),
-        followed => followed,
-    }
-}
-
-/// Bits by which numbers that differ are told apart.
-const TELLING_BITS: u64 = 1 << 12;
-
-/// Whether a load has a rate of the motion, where both are numbers with names and no form tells that they are equal.
-fn resonates(network: &Network, signal: &dyn Signal, at: &Rational) -> bool {
-    let model = network.model();
-    let may_resonate = !model.loads.is_empty() && !model.constants.is_empty();
-    let divides = EvaluateError::Ball(BallError::DivisorMayBeZero);
-    may_resonate && value(signal, at, Limit::Left, 1, TELLING_BITS) == Err(divides)
-}
-
-/// Whether the closed form is cheap for polynomials: a march through waves of one pole and one lag, which takes no memory, or
-/// echoes that die out, so that most are left out.
-fn is_cheap_closed(network: &Network, observed: &Observed, window: [&Rational; 2]) -> bool {
-    let Ok(signal) = ClosedSignal::of_scene(network, observed, window) else { return false };
-    signal
-        .closed_form()
-        .is_ok_and(|form| Taps::of(form).is_ok() || form.falls(window[1]).unwrap_or(false))
-}
-
 /// The same from one of the two sources.
 ///
 /// # Errors
@@ -258,25 +205,7 @@ pub fn of_origin<'a>(
     window: [&Rational; 2],
     purpose: Purpose,
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
-    if let (Purpose::Search | Purpose::Size { .. }, Some(known)) = (purpose, &observed.balance) {
-        return balance::of_scene(origin, network, (observed, purpose), known, window);
-    }
-    if let ObservedValue::Energy(terms) = &observed.value {
-        let sources = Sources::on(origin, network, (observed, purpose), window)?;
-        return energy::of_sources(&sources, terms, &observed.unit, window);
-    }
-    if origin == Origin::Followed {
-        let followed = FollowedSignal::of_scene(network, observed, window, purpose.digits())?;
-        return Ok(match purpose {
-            Purpose::Values { .. } | Purpose::Echoes => Box::new(followed),
-            _ => Box::new(followed.cut_at_breaks()?),
-        });
-    }
-    let signal = ClosedSignal::of_scene(network, observed, window)?;
-    Ok(Box::new(match purpose {
-        Purpose::Echoes => signal.echo_by_echo(),
-        _ => signal,
-    }))
+    Together::new(network, &[observed], window, purpose).of_origin(origin, observed)
 }
 
 /// How many cells are worked out where an observable is followed on a window, and how many of them, with those of waves,
@@ -287,77 +216,9 @@ pub fn cells(
     observed: &Observed,
     window: [&Rational; 2],
 ) -> Result<[usize; 2], SignalError> {
-    let asked = (observed, Purpose::Stretches);
-    let sources = Sources::on(Origin::Followed, network, asked, window)?;
-    Ok(sources.follower.expect("it is followed").cells())
-}
-
-/// Where signals come from of which one is made: they share one closed form or one history.
-struct Sources<'a> {
-    network: &'a Network,
-    /// The end of the window, in the user's time.
-    to: Rational,
-    /// Where the scene is followed.
-    follower: Option<Rc<Follower<'a>>>,
-}
-
-/// Something that is read of a motion, in waves, and as a reading of what is followed, on a window.
-type Seen<'s> = (&'s Observation, Squared, [&'s Rational; 2]);
-
-impl<'a> Sources<'a> {
-    /// For an observable on a window.
-    fn on(
-        origin: Origin,
-        network: &'a Network,
-        (observed, purpose): (&Observed, Purpose),
-        [from, to]: [&Rational; 2],
-    ) -> Result<Self, SignalError> {
-        if to < from {
-            return Err(EvaluateError::EmptyWindow.into());
-        }
-        // Integrals of squares cost digits.
-        let (from, digits) = match &observed.value {
-            ObservedValue::Energy(terms) => (&energy::reach(network, terms, from)?, None),
-            ObservedValue::Linear(_) => (from, purpose.digits()),
-        };
-        let follower = match origin {
-            Origin::Closed => None,
-            Origin::Followed => Some(Follower::new(network, Some(observed), [from, to], digits)?),
-        };
-        Ok(Sources { network, to: to.clone(), follower })
-    }
-
-    /// Signals in the scale of the scene.
-    fn signals<'s>(
-        &self,
-        seen: impl Iterator<Item = Seen<'s>>,
-    ) -> Result<Vec<Rc<dyn Signal + 'a>>, SignalError> {
-        let Some(follower) = &self.follower else {
-            let seen: Vec<_> = seen.map(|(waves, _, window)| (waves, window)).collect();
-            let signals = ClosedSignal::several(self.network, &seen, &self.to)?.into_iter();
-            return Ok(signals.map(|signal| Rc::new(signal) as Rc<dyn Signal>).collect());
-        };
-        let mut signals: Vec<Rc<dyn Signal + 'a>> = Vec::new();
-        for (_, reading, window) in seen {
-            signals.push(Rc::new(FollowedSignal::squared(follower, &reading, window)?));
-        }
-        Ok(signals)
-    }
-
-    /// A sum of readings in the scale of the scene.
-    fn signal(
-        &self,
-        waves: &Observation,
-        readings: &[Term],
-        window: [&Rational; 2],
-    ) -> Result<Box<dyn Signal + 'a>, SignalError> {
-        let Some(follower) = &self.follower else {
-            let mut signals = ClosedSignal::several(self.network, &[(waves, window)], &self.to)?;
-            return Ok(Box::new(signals.pop().expect("one signal for one observation")));
-        };
-        let unit = Root::from(Fraction::one());
-        Ok(Box::new(FollowedSignal::linear(follower, (readings, &unit), window)?))
-    }
+    let alone = [observed];
+    let together = Together::new(network, &alone, window, Purpose::Stretches);
+    Ok(together.follower(observed)?.cells())
 }
 
 /// A wave as it enters a bar, without the state at the start, its integral over time since then, and the

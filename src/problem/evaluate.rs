@@ -8,7 +8,7 @@ use crate::expression::Fraction;
 use crate::field::FieldEvaluator;
 use crate::model::{Model as _, ModelError, Steps};
 use crate::network::ScaledScene;
-use crate::planner::{self, Origin, Purpose};
+use crate::planner::{self, Origin, Purpose, Together};
 use crate::signal::{self, EchoCount, EvaluateError, Limit, Signal, Value, reaching_a_double};
 use num_traits::{Signed as _, ToPrimitive as _};
 use wavestep_polynomial::Rational;
@@ -120,12 +120,14 @@ impl Problem {
             let echoes = if count_echoes { signal.echoes() } else { None };
             return Ok(Proven { values, echoes, origin: Origin::Closed });
         };
-        let (origin, signal) = planner::chosen(network, observed, window, purpose)?;
+        let alone = [observed];
+        let together = Together::new(network, &alone, window, purpose);
+        let (origin, signal) = together.chosen(observed)?;
         match all(&*signal) {
             // On a lattice it shows late that a closed form is too much.
             Err(error) if error.is_too_much_of_a_closed_form() && !count_echoes => {
                 let origin = Origin::Followed;
-                let followed = planner::of_origin(origin, network, observed, window, purpose);
+                let followed = together.of_origin(origin, observed);
                 let values = all(&*followed.map_err(|_| error)?)?;
                 Ok(Proven { values, echoes: None, origin })
             }
@@ -204,6 +206,26 @@ impl Problem {
         let scene = self.network().ok().zip(wanted.place);
         let contacts_open = !self.has_periods() && purpose != Purpose::ClosedContacts;
         Ok(Question { signal, scene, contacts_open, costs: &self.costs })
+    }
+
+    /// Observables or waves on one window, in their order: a motion that is followed is followed once for all of them.
+    ///
+    /// # Errors
+    /// Each as [`Problem::signal_on`].
+    pub fn signals_on(
+        &self,
+        wanted: &[Wanted],
+        window: [&Rational; 2],
+        purpose: Purpose,
+    ) -> Vec<Result<Box<dyn Signal + '_>, ProblemError>> {
+        let observed: Option<Vec<_>> = wanted.iter().map(|one| one.observed.as_ref()).collect();
+        match (&self.kind, observed) {
+            (Kind::Line { network, .. }, Some(observed)) => {
+                let signals = planner::of_several(network, &observed, window, purpose);
+                signals.into_iter().map(|signal| Ok(signal?)).collect()
+            }
+            _ => wanted.iter().map(|one| self.signal_on(one, window, purpose)).collect(),
+        }
     }
 
     /// A wave or an observable as a function of time on a window.

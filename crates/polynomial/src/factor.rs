@@ -80,12 +80,11 @@ impl Polynomial {
     fn is_primitive_in(&self, x: &Symbol) -> bool {
         let coefficients = self.coefficients(x);
         let shortest = coefficients.iter().map(|(_, own)| own).min_by_key(|own| own.term_count());
-        let divides_all = |factor: &Polynomial| {
-            coefficients.iter().all(|(_, own)| own.divide(factor).is_some())
-        };
-        shortest.and_then(Polynomial::factors).is_some_and(|found| {
-            found.iter().all(|(factor, _)| !divides_all(factor))
-        })
+        let divides_all =
+            |factor: &Polynomial| coefficients.iter().all(|(_, own)| own.divide(factor).is_some());
+        shortest
+            .and_then(Polynomial::factors)
+            .is_some_and(|found| found.iter().all(|(factor, _)| !divides_all(factor)))
     }
 }
 

@@ -346,10 +346,11 @@ impl Sweep<'_> {
         if !asked.extrema.is_empty() {
             let window = self.window(&problem)?;
             last = last.max(window[1].clone());
-            for extremum in &asked.extrema {
-                let (goal, name) = extremum;
-                let wanted = problem.wanted(name)?;
-                let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?;
+            let names = asked.extrema.iter().map(|(_, name)| problem.wanted(name));
+            let wanted = names.collect::<Result<Vec<_>, _>>()?;
+            let signals = problem.signals_on(&wanted, window.each_ref(), Purpose::Search);
+            for (extremum, signal) in asked.extrema.iter().zip(signals) {
+                let (goal, signal) = (&extremum.0, signal?);
                 let found = Search::new(&*signal)?.extremum(*goal, DIGITS, SEARCH_BITS)?;
                 let [value, time] = extremum_columns(extremum);
                 put(row, value, Some(&found.value));

@@ -51,6 +51,36 @@ fn a_damped_spring_is_without_force_after_an_opening() {
     assert_eq!(force, vec![Value::Exact(rational(0, 1)); 2]);
 }
 
+/// A support without damping that stands alone behind a contact is a spring to the ground: what it held flies on, and it is
+/// back at once where it carries no force.
+#[test]
+fn a_support_that_stands_alone_is_a_spring_to_the_ground() {
+    let drill = |rock: &str, end: &str| {
+        network_of(
+            &format!(
+                "scene \"A bit on rock\"\nbar piston {{ impedance = 1, travel = 1, velocity = 1 }}\n\
+                bar rod {{ impedance = 2, travel = 3 }}\nmass bit {{ mass = 1 }}\n{rock} rock {{ stiffness = 1/4 }}\n\
+                line free - piston | rod - bit | rock - {end}\ncontacts open\n\
+                observe F = force(rock)\nobserve u = displacement(bit)\nobserve e = energy(rock)\n"
+            ),
+            &[],
+        )
+    };
+    let [support, spring] = [drill("support", "free"), drill("spring", "fixed")];
+    let until = rational(40, 1);
+    let [ours, others] = [&support, &spring].map(|own| History::of(own, Some(&until), 12).unwrap());
+    let of_rock = |history: &History| history.events.iter().filter(|own| own.contact == 1).count();
+    assert!(of_rock(&ours) > 2, "the rock lets go, and is met again");
+    assert_eq!(format!("{:?}", ours.events), format!("{:?}", others.events));
+    let times: Vec<Rational> = (1..40).map(|n| rational(n, 1)).collect();
+    for name in ["F", "u", "e"] {
+        let told = |own| values(own, name, &times, Limit::Right, 12);
+        assert_eq!(told(&support), told(&spring), "{name}");
+    }
+    let forces = values(&support, "F", &times, Limit::Right, 12);
+    assert!(forces.contains(&Value::Exact(rational(0, 1))));
+}
+
 /// Both sides of a closed contact move alike: their difference is zero as far as can be told.
 #[test]
 fn a_difference_that_is_zero_is_told_as_that() {

@@ -436,6 +436,8 @@ fn events_beside_all_elements_are_verified() {
          line free - p - m | b - fixed\n",
         "load p { force = 1 - cos(2*pi*t), until = 1 }\nmass m { mass = 1/2 }\nbar b { impedance = sqrt(3), travel = 1 }\n\
          support u { stiffness = 1, damping = 1 }\nline free - p - m | b - u - free\n",
+        "bar a { impedance = 1, travel = 1, velocity = 1 }\nmass m { mass = 1 }\nsupport u { stiffness = 1 }\n\
+         support w { stiffness = 1/4 }\nline free - a - m | u - w - free\n",
     ];
     let written = lines.iter().enumerate().map(|(i, line)| {
         let (scene, file) = (format!("{i}.wave"), format!("{i}.json"));

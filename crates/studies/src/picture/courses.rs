@@ -51,11 +51,10 @@ pub fn courses(
     if names.is_empty() {
         return Err(PictureError::NothingObserved);
     }
-    let course = |name: &str| -> Result<Course, PictureError> {
-        let wanted = problem.wanted(name)?;
-        course(problem, &wanted, &*problem.signal_on(&wanted, window, Purpose::Polynomials)?)
-    };
-    names.into_iter().map(course).collect()
+    let names = names.into_iter();
+    let wanted: Vec<Wanted> = names.map(|name| problem.wanted(name)).collect::<Result<_, _>>()?;
+    let signals = problem.signals_on(&wanted, window, Purpose::Polynomials).into_iter();
+    wanted.iter().zip(signals).map(|(wanted, signal)| course(problem, wanted, &*signal?)).collect()
 }
 
 /// What is drawn of a quantity.

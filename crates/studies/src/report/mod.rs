@@ -119,12 +119,12 @@ pub fn page(problem: &Problem, request: &Request<'_>) -> String {
 }
 
 fn observed<'a>(problem: &'a Problem, window: [&Rational; 2]) -> Outcome<Vec<Observed<'a>>> {
-    let observed = |name| -> Outcome<Observed<'a>> {
-        let wanted = problem.wanted(name)?;
-        let signal = problem.signal_on(&wanted, window, Purpose::Search)?;
-        Ok(Observed { wanted, signal })
-    };
-    let all: Vec<_> = problem.observables().into_iter().map(observed).collect::<Result<_, _>>()?;
+    let names = problem.observables().into_iter();
+    let wanted: Vec<Wanted> = names.map(|name| problem.wanted(name)).collect::<Result<_, _>>()?;
+    let signals = problem.signals_on(&wanted, window, Purpose::Search);
+    let all = wanted.into_iter().zip(signals);
+    let all = all.map(|(wanted, signal)| Ok(Observed { wanted, signal: signal? }));
+    let all = all.collect::<Outcome<Vec<_>>>()?;
     if all.is_empty() { Err(PictureError::NothingObserved) } else { Ok(all) }
 }
 
