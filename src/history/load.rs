@@ -107,7 +107,8 @@ impl Course {
             true => Number::zero(),
             false => Number::Enclosed(value.real().clone()),
         };
-        Ok(Series { flat, ..Series::new(sum.into_iter().map(number).collect(), rest) })
+        let steady = flat.saturating_sub(1);
+        Ok(Series { flat, steady, ..Series::new(sum.into_iter().map(number).collect(), rest) })
     }
 
     /// How many derivatives, from the function itself on, are exactly zero at an instant, of those that may be: a sine begins

@@ -163,8 +163,8 @@ impl System<Number> {
                 let series = Series::new(own, entry(&course.rest))
                     .with_error(entry(&course.error), entry(&course.fresh))
                     .with_error_at_start(at_start);
-                states[*member] =
-                    Series { flat: flat[*member], roughness: course.roughness, ..series };
+                let (flat, steady) = flat[*member];
+                states[*member] = Series { flat, steady, roughness: course.roughness, ..series };
             }
             added.push(course.added);
         }
@@ -175,8 +175,9 @@ impl System<Number> {
         Motion { state: states, added, velocities, forces }
     }
 
-    /// How many derivatives of each entry of the state are exactly zero at the start, by those of what acts on it.
-    fn flatness(&self, state: &[Number], input: &[Series]) -> Vec<usize> {
+    /// How many derivatives of each entry of the state are exactly zero at the start, and how many of its slope, by those of
+    /// what acts on it.
+    fn flatness(&self, state: &[Number], input: &[Series]) -> Vec<(usize, usize)> {
         let mut flat: Vec<usize> =
             state.iter().map(|own| if own.is_zero() { STARTS } else { 0 }).collect();
         let acting: Vec<usize> = input.iter().map(Series::flatness).collect();
@@ -185,12 +186,13 @@ impl System<Number> {
             let both: Vec<usize> = flat.iter().chain(&acting).copied().collect();
             let pushed = |row: &Vec<Number>| {
                 let acts = row.iter().zip(&both).filter(|(entry, _)| !entry.is_zero());
-                acts.map(|(_, order)| order.saturating_add(1)).min().unwrap_or(STARTS)
+                acts.map(|(_, order)| *order).min().unwrap_or(STARTS).min(STARTS)
             };
+            let slopes: Vec<usize> = self.change.iter().map(pushed).collect();
             let next: Vec<usize> =
-                flat.iter().zip(&self.change).map(|(own, row)| pushed(row).min(*own)).collect();
+                flat.iter().zip(&slopes).map(|(own, slope)| (slope + 1).min(*own)).collect();
             if next == flat {
-                return flat;
+                return flat.into_iter().zip(slopes).collect();
             }
             flat = next;
         }

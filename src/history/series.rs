@@ -237,7 +237,8 @@ fn moved(sizes: &[Magnitude], j: usize, r: &Magnitude) -> Magnitude {
 /// - `|e(x)| ≤ error` on the cell, and `|e(0)| ≤ error_at_start`;
 /// - `|e'(x)| ≤ slope` on the cell, where known: of an integral the error of the integrand, often far below what `rest`
 ///   tells of a rough function;
-/// - `f` and its derivatives below the order `flat` are exactly zero at `x = 0`, whatever its coefficients say;
+/// - `f` and its derivatives below the order `flat` are exactly zero at `x = 0`, whatever its coefficients say, and so are
+///   those of the orders `1 … steady`, at least `flat - 1` of them;
 /// - `|e(x)| ≤ fresh` if what arrived at the node, and its state at the start of the cell, had been free of errors.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Series {
@@ -247,6 +248,7 @@ pub struct Series {
     pub fresh: Magnitude,
     pub(super) error_at_start: Magnitude,
     pub(super) flat: usize,
+    pub(super) steady: usize,
     pub(super) slope: Option<Magnitude>,
     pub roughness: Option<Roughness>,
     /// Its sign on the cell, where that is known otherwise.
@@ -292,8 +294,19 @@ impl Series {
             coefficients.pop();
         }
         let (error, fresh, error_at_start) = (rest, rest, rest);
-        let (flat, slope, roughness, signed) = (0, None, None, None);
-        Series { coefficients, rest, error, fresh, error_at_start, flat, slope, roughness, signed }
+        let (flat, steady, slope, roughness, signed) = (0, 0, None, None, None);
+        Series {
+            coefficients,
+            rest,
+            error,
+            fresh,
+            error_at_start,
+            flat,
+            steady,
+            slope,
+            roughness,
+            signed,
+        }
     }
 
     /// The same function, of whose error less is known to be at the start.
@@ -314,6 +327,16 @@ impl Series {
             true if self.coefficients.is_empty() => usize::MAX,
             true => self.flat.max(leading()),
             false => self.flat,
+        }
+    }
+
+    /// The same of its derivative.
+    pub fn steadiness(&self) -> usize {
+        let leading = || self.coefficients.iter().skip(1).take_while(|c| c.is_zero()).count();
+        match self.rest.is_zero() {
+            true if self.coefficients.len() <= 1 => usize::MAX,
+            true => self.steady.max(leading()),
+            false => self.steady,
         }
     }
 
@@ -392,7 +415,7 @@ impl Series {
 
     /// An enclosure of `f^(k)(0)/k!`: of `c_k`, and a bound of that derivative of the rest over `k!`.
     pub fn start(&self, k: usize, cut: &Truncation) -> Number {
-        if k < self.flat {
+        if k < self.flat || k > 0 && k <= self.steady {
             return Number::zero();
         }
         let mut rest = match k {
@@ -418,16 +441,17 @@ impl Series {
             own.multiply(&sizes[0]).add(&other.multiply(&sizes[1]))
         };
         let slopes = self.slope_error().zip(other.slope_error());
-        let flatness = |series: &Series, factor: &Number| match factor.is_zero() {
-            true => usize::MAX,
-            false => series.flatness(),
+        let least = |of: fn(&Series) -> usize| {
+            let parts = [(self, a), (other, b)].into_iter();
+            let acting = parts.filter(|(_, factor)| !factor.is_zero());
+            acting.map(|(series, _)| of(series)).min().unwrap_or(usize::MAX)
         };
-        let flat = flatness(self, a).min(flatness(other, b));
         Series {
             error: sum(&self.error, &other.error),
             fresh: sum(&self.fresh, &other.fresh),
             error_at_start: sum(&self.error_at_start, &other.error_at_start),
-            flat,
+            flat: least(Series::flatness),
+            steady: least(Series::steadiness),
             slope: slopes.map(|(own, other)| sum(&own, &other)),
             roughness: self.roughness.max(other.roughness),
             signed: sign_of_sum([(self, a), (other, b)]),
@@ -520,6 +544,7 @@ impl Series {
             fresh: self.fresh.add(&rounded),
             error_at_start: self.error_at_start.add(&off),
             flat: self.flat,
+            steady: self.steady,
             roughness: self.roughness.max(norm.roughness),
             signed: self.signed,
             ..Series::new(coefficients, self.rest.add(&added).add(&norm.of_sizes(&radii)))
@@ -621,6 +646,7 @@ impl Series {
             fresh: self.fresh.multiply(length),
             error_at_start: Magnitude::ZERO,
             flat,
+            steady: self.flatness(),
             slope: Some(self.error),
             roughness: self.roughness,
             ..Series::new(coefficients, self.rest.multiply(&longest))
@@ -633,8 +659,13 @@ impl Series {
         let slopes = terms.map(|(k, c)| c.multiply(&Number::integer(k as i64), cut.bits));
         let rest = self.bound_of_derivative(&self.rest, 1, cut);
         let error = self.slope.unwrap_or(rest);
-        let (flat, roughness) =
-            (self.flat.saturating_sub(1), self.roughness.map(Roughness::halved));
-        Series { flat, roughness, ..Series::new(slopes.collect(), rest).with_error(error, error) }
+        let (flat, steady) = (self.steady, self.steady.saturating_sub(1));
+        let roughness = self.roughness.map(Roughness::halved);
+        Series {
+            flat,
+            steady,
+            roughness,
+            ..Series::new(slopes.collect(), rest).with_error(error, error)
+        }
     }
 }

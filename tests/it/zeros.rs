@@ -165,6 +165,22 @@ fn a_flat_beginning_is_one_zero() -> Result<(), Error> {
     Ok(())
 }
 
+/// A mass that meets a spring at rest loses velocity and energy with slope zero at first: both are largest at the start, and
+/// nowhere near, where contacts open too.
+#[test]
+fn what_leaves_its_start_with_slope_zero_is_largest_there() -> Result<(), Error> {
+    let text = PILE.replace("line free - ram - cushion", "line free - ram | cushion")
+        + "contacts open\nobserve falls = velocity(ram)\nobserve has = energy(ram)\n";
+    let problem = read(&text)?;
+    for (name, largest) in [("falls", 5), ("has", 100_000)] {
+        let found = problem.signal(name)?.extremum(Goal::Largest, "0 ms"..="2 ms", DIGITS)?;
+        assert_eq!(found.value.to_f64(), f64::from(largest), "{name}");
+        let [Place::End(time)] = &found.places[..] else { panic!("{name}: {:?}", found.places) };
+        assert_eq!(time.to_f64(), 0.0);
+    }
+    Ok(())
+}
+
 /// What has decayed to 2^−433 is not told from zero by the first enclosures, and nowhere taken for it.
 #[test]
 fn what_is_small_is_no_zero() -> Result<(), Error> {
