@@ -1,5 +1,6 @@
 //! Errors: each of one kind, with their causes beneath.
 
+use num_bigint::BigInt;
 use std::error::Error as _;
 use wavestep::Error;
 use wavestep::answer::WayError;
@@ -8,6 +9,7 @@ use wavestep::network::NetworkError;
 use wavestep::problem::ProblemError;
 use wavestep::signal::EvaluateError;
 use wavestep::solution::{SolveError, Unsolvable};
+use wavestep_polynomial::Integer;
 
 fn unsolved(reason: Unsolvable) -> ProblemError {
     SolveError { wave: "f".to_owned(), order: 3, reason }.into()
@@ -63,4 +65,19 @@ fn remedies_can_be_followed() {
     let alone = drill.replace("spring tip { stiffness = 3 }\n", "").replace("tip - ", "");
     let problem = wavestep::Problem::read("drill", &alone.replace("= 6", "= 2")).unwrap();
     assert!(problem.signal("v").and_then(|v| v.at("60", 6)).is_ok());
+}
+
+/// Periods are counted as far as a number of them can be read.
+#[test]
+fn far_more_periods_than_are_computed_are_not_counted() {
+    let told = |bits: u32| {
+        let periods = Integer::from((BigInt::from(1) << bits) - 1);
+        EvaluateError::TooManyPeriods { periods, limit: 9 }.to_string()
+    };
+    let counted = "there are 18446744073709551615 periods before this time; at most 9 are computed";
+    assert_eq!(told(64), counted);
+    assert_eq!(
+        told(65),
+        "there are far more periods before this time than the 9 that are computed"
+    );
 }

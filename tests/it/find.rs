@@ -507,6 +507,23 @@ fn suprema_at_sides_and_ties() {
     assert_eq!((found.value, found.places), (exactly("1"), apart));
 }
 
+/// Places that touch and have one value are one; those apart are not, also a limit that is not attained before a plateau.
+#[test]
+fn places_apart_are_told_apart() -> Result<(), wavestep::Error> {
+    let text = "scene \"Places\"\nbar rod { impedance = 1 }\nload rise { force = t, until = 1 }\n\
+        load first { force = 1, from = 2, until = 3 }\nload again { force = 1, from = 3, until = 4 }\n\
+        load late { force = 1, from = 5, until = 6 }\n\
+        line free - rise - first - again - late - rod - endless\nobserve v = velocity(rod.left)\n";
+    let problem = wavestep::Problem::read("places", text)?;
+    let found = problem.signal("v")?.extremum(Goal::Largest, "0"..="7", 20)?;
+    let exactly = |text: &str| Value::Exact(number(text));
+    let flat = |from, to| Place::Plateau { from: exactly(from), to: exactly(to), closed: false };
+    let limit = Place::Arrival { time: exactly("1"), before: true, after: false };
+    assert_eq!(found.value, exactly("1"));
+    assert_eq!(found.places, [limit, flat("2", "4"), flat("5", "6")]);
+    Ok(())
+}
+
 /// Arrivals at irrational times, in seconds.
 #[test]
 fn scenes_with_units_and_lattices() {

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use std::cell::Cell;
 use wavestep::ball::decimal::{half_even, round_scaled, rounded_up, scale_far};
-use wavestep::ball::{Ball, Binary, Bound, Decimal, Exactness, Magnitude};
+use wavestep::ball::{Ball, Binary, Bound, Decimal, Exactness, Magnitude, in_decimals};
 
 fn ratio(above: i64, below: i64) -> BigRational {
     BigRational::new(above.into(), below.into())
@@ -52,6 +52,17 @@ fn rationals_round_to_even() {
     assert_eq!(text(&ratio(1, 4), 10), "0.25");
     assert_eq!(text(&ratio(0, 1), 10), "0");
     assert_eq!(text(&BigRational::from_integer(BigInt::from(10).pow(30)), 20), "1e30");
+}
+
+/// Decimals where few of them are all, else the fraction.
+#[test]
+fn fractions_without_an_end_stay_fractions() {
+    let told =
+        [(1, 4), (1, 3), (-7, 1), (22, 7)].map(|(above, below)| in_decimals(&ratio(above, below)));
+    assert_eq!(told, ["0.25", "1/3", "-7", "22/7"]);
+    // 2^-24 has 17 digits, 2^-25 one more.
+    let [short, long] = [24, 25].map(|power| in_decimals(&ratio(1, 1 << power)));
+    assert_eq!([short.as_str(), long.as_str()], ["5.9604644775390625e-8", "1/33554432"]);
 }
 
 #[test]

@@ -113,6 +113,47 @@ impl Worst {
     }
 }
 
+/// One first echo `c e^{-rx}` that no other follows, for as long as its period.
+fn only_first(rate: f64, coefficient: f64, period: f64) -> EchoSum {
+    let (one, slow) = (Expansion::ONE, number(2.0_f64.powi(-30)));
+    let terms = [Term { lag: 0, coefficient: one }];
+    let wave = Echoes::new(Family::Laguerre, slow, slow, one, &terms, number(period));
+    let first = ExponentialPolynomial {
+        rate: number(rate),
+        coefficients: vec![number(coefficient), number(coefficient)],
+    };
+    EchoSum::new(wave.and_then(|wave| wave.with_first(vec![vec![first]])).expect("a wave"), 0)
+        .expect("a sum")
+}
+
+/// `c (1 + x) e^{-rx}` where the exponential alone is below or above all normal doubles, but the value is not.
+#[test]
+fn first_echoes_keep_their_digits_where_exponentials_leave_the_range() {
+    for (rate, coefficient) in [(1.0, 2.0_f64.powi(200)), (-1.0, 2.0_f64.powi(-200))] {
+        let sum = only_first(rate, coefficient, 1e4);
+        for time in [1.0_f64, 699.0, 700.0, 720.0, 745.0, 800.0] {
+            let half = (-rate * time / 2.0).exp();
+            let expected = half * coefficient * (1.0 + time) * half;
+            for method in [Method::Scaled, Method::DoubleDouble] {
+                let told = in_double(&sum, method, time.into(), Limit::Right).expect("in range");
+                let off = (told / expected - 1.0).abs();
+                assert!(off < 1e-12, "{method:?} at {time}: {told:e}, not {expected:e}");
+            }
+        }
+    }
+}
+
+/// The largest argument is that of the fastest rate, of first echoes as of the others.
+#[test]
+fn times_too_late_for_the_rates_of_first_echoes_are_refused() {
+    let late = 2.0_f64.powi(41);
+    for (rate, refused) in [(0.25, false), (1.0, true), (-1.0, true)] {
+        let sum = only_first(rate, 1.0, 4.0 * late);
+        let told = in_double(&sum, Method::Scaled, late.into(), Limit::Right);
+        assert_eq!(told == Err(EchoError::TimeTooLarge), refused, "{rate}: {told:?}");
+    }
+}
+
 #[test]
 fn the_reference_agrees_with_exact_polynomials() {
     let mut random = Random(1);
