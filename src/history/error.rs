@@ -186,7 +186,7 @@ impl Question {
             Question::Simultaneous => format!("nothing more changes at t = {at}"),
             Question::Sign { quantity, place } => format!("{quantity} {place} is zero at t = {at}"),
             Question::Zero { quantity, place } => {
-                format!("{quantity} {place} falls to zero at t = {at} and not below")
+                format!("{quantity} {place} does not fall below zero at t = {at}")
             }
             Question::ZeroBeforeArrival { quantity, place } => {
                 format!("{quantity} {place} becomes zero when something arrives there, at t = {at}")

@@ -93,7 +93,7 @@ pub fn drawn(scaled: &ScaledScene) -> String {
     format!(
         "<figure><div class=\"wide\" role=\"group\" aria-label=\"The line\" tabindex=\"0\">\
          <svg class=\"line-of-scene\"{least} viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">{out}</svg></div>\
-         <figcaption>{note} Masses, springs and ends are signs; an arrow is a velocity at the start or a load; \
+         <figcaption>{note} Masses, springs and ends are symbols, not to scale; an arrow is a velocity at the start or a load; \
          a gap is a contact.</figcaption></figure>\n",
         px(wide),
         px(y + 10.0),

@@ -293,8 +293,8 @@ fn assumptions(problem: &Problem, open: Option<bool>) -> Vec<String> {
             false => "Contacts stay closed, even when they would go into tension.".to_owned(),
         }));
         all.push(
-            "Bars are uniform and carry plane longitudinal waves without dispersion; displacement and \
-             velocity are positive to the right, forces where they compress, strains where they pull."
+            "Bars are uniform and carry plane longitudinal waves without dispersion. Displacement and velocity are \
+             positive to the right, force is positive in compression, stress and strain in tension."
                 .to_owned(),
         );
     }
