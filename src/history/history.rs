@@ -275,9 +275,14 @@ impl History {
         digits: usize,
         bits: u64,
     ) -> Outcome<History> {
-        let until = until.map(|until| Moment::at(network.scaled_time(until)));
+        let end = until.map(|until| Moment::at(network.scaled_time(until)));
         let mut story = Story::begin(network, digits, bits)?;
-        story.follow(until.as_ref())?;
-        story.told()
+        story.follow(end.as_ref())?;
+        let told = story.told()?;
+        let ending = match (told.ending, until) {
+            (Ending::Followed(_), Some(until)) => Ending::Followed(Value::Exact(until.clone())),
+            (ending, _) => ending,
+        };
+        Ok(History { ending, ..told })
     }
 }

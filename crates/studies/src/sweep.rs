@@ -17,8 +17,9 @@ use wavestep::language;
 use wavestep::limits::{SEARCH_BITS, VALUE_BITS, count_nothing_here};
 use wavestep::planner::Purpose;
 use wavestep::problem::{
-    Digits, Given, Problem, Undecided, Values, evenly_spaced, geometrically_spaced, number,
+    Digits, Given, Problem, Undecided, Values, Wanted, evenly_spaced, geometrically_spaced, number,
 };
+use wavestep::scene::Dimension;
 use wavestep::signal::{Extremum, Goal, Limit, Place, Search, Value};
 use wavestep_polynomial::Rational;
 
@@ -231,12 +232,15 @@ impl Sweep<'_> {
         let asked = self.asked;
         let mut columns: Vec<String> = self.axes.iter().map(|axis| axis.symbol.clone()).collect();
         for name in self.names(&problem) {
-            columns.extend(asked.at.iter().map(|at| value_column(name, at)));
+            let wanted = problem.wanted(name)?;
+            columns.extend(asked.at.iter().map(|at| value_column(&problem, &wanted, at)));
         }
-        columns.extend(asked.extrema.iter().flat_map(extremum_columns));
+        for (goal, name) in &asked.extrema {
+            columns.extend(extremum_columns(&problem, *goal, &problem.wanted(name)?));
+        }
         if asked.contacts {
             let start = problem.history(Some(&Rational::default()), DIGITS)?;
-            columns.extend(start.contacts.iter().flat_map(contact_columns));
+            columns.extend(start.contacts.iter().flat_map(|own| contact_columns(&problem, own)));
         }
         Ok(columns)
     }
@@ -338,9 +342,10 @@ impl Sweep<'_> {
             undecided: Undecided::Refused,
         };
         for name in self.names(&problem).into_iter().filter(|_| !times.is_empty()) {
-            let found = problem.proven(&problem.wanted(name)?, &times, digits, &|| ())?;
+            let wanted = problem.wanted(name)?;
+            let found = problem.proven(&wanted, &times, digits, &|| ())?;
             for (at, value) in asked.at.iter().zip(&found.values) {
-                put(row, value_column(name, at), Some(value));
+                put(row, value_column(&problem, &wanted, at), Some(value));
             }
         }
         if !asked.extrema.is_empty() {
@@ -349,10 +354,9 @@ impl Sweep<'_> {
             let names = asked.extrema.iter().map(|(_, name)| problem.wanted(name));
             let wanted = names.collect::<Result<Vec<_>, _>>()?;
             let signals = problem.signals_on(&wanted, window.each_ref(), Purpose::Search);
-            for (extremum, signal) in asked.extrema.iter().zip(signals) {
-                let (goal, signal) = (&extremum.0, signal?);
-                let found = Search::new(&*signal)?.extremum(*goal, DIGITS, SEARCH_BITS)?;
-                let [value, time] = extremum_columns(extremum);
+            for (((goal, _), wanted), signal) in asked.extrema.iter().zip(&wanted).zip(signals) {
+                let found = Search::new(&*signal?)?.extremum(*goal, DIGITS, SEARCH_BITS)?;
+                let [value, time] = extremum_columns(&problem, *goal, wanted);
                 put(row, value, Some(&found.value));
                 put(row, time, first(&found));
             }
@@ -360,7 +364,7 @@ impl Sweep<'_> {
         if asked.contacts {
             let until = asked.to.as_ref().map(|to| to.of(&problem)).transpose()?;
             let history = problem.history(until.as_ref(), DIGITS)?;
-            history.contacts.iter().for_each(|contact| put_contact(row, contact));
+            history.contacts.iter().for_each(|contact| put_contact(row, &problem, contact));
             if let Ending::Followed(time) = &history.ending {
                 let teller = Teller { problem: &problem, digits: DIGITS, longest_fraction: DIGITS };
                 let time = teller.time(time);
@@ -425,24 +429,40 @@ fn first(found: &Extremum) -> Option<&Value> {
     }
 }
 
-fn put_contact(row: &mut Row, contact: &ContactSummary) {
-    let [count, duration, impulse, restitution] = contact_columns(contact);
+fn put_contact(row: &mut Row, problem: &Problem, contact: &ContactSummary) {
+    let [count, duration, impulse, restitution] = contact_columns(problem, contact);
     row.insert(count, json!(contact.durations.len() as f64));
     put(row, duration, contact.durations.first().and_then(Option::as_ref));
     put(row, impulse, contact.impulses.first());
     put(row, restitution, contact.restitution.as_ref());
 }
 
-fn value_column(name: &str, at: &Time) -> String {
-    format!("{name}({})", at.label)
+/// A column with its unit, where there is one.
+fn in_unit(problem: &Problem, name: String, dimension: Dimension) -> String {
+    match dimension.unit() {
+        unit if problem.has_units() && !unit.is_empty() => format!("{name} [{unit}]"),
+        _ => name,
+    }
 }
 
-fn extremum_columns((goal, name): &(Goal, String)) -> [String; 2] {
-    let which = if *goal == Goal::Largest { "max" } else { "min" };
-    [format!("{which}({name})"), format!("time of {which}({name})")]
+fn value_column(problem: &Problem, wanted: &Wanted, at: &Time) -> String {
+    in_unit(problem, format!("{}({})", wanted.name, at.label), wanted.dimension)
 }
 
-fn contact_columns(contact: &ContactSummary) -> [String; 4] {
+fn extremum_columns(problem: &Problem, goal: Goal, wanted: &Wanted) -> [String; 2] {
+    let which = if goal == Goal::Largest { "max" } else { "min" };
+    let value = format!("{which}({})", wanted.name);
+    let time = format!("time of {value}");
+    [in_unit(problem, value, wanted.dimension), in_unit(problem, time, Dimension::TIME)]
+}
+
+fn contact_columns(problem: &Problem, contact: &ContactSummary) -> [String; 4] {
     let name = contact.between.join("-");
-    ["contacts", "contact time", "impulse", "restitution"].map(|what| format!("{what} {name}"))
+    let columns = [
+        ("contacts", Dimension::NONE),
+        ("contact time", Dimension::TIME),
+        ("impulse", Dimension::MOMENTUM),
+        ("restitution", Dimension::NONE),
+    ];
+    columns.map(|(what, dimension)| in_unit(problem, format!("{what} {name}"), dimension))
 }
