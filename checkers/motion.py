@@ -473,6 +473,7 @@ class Motion:
                 sign = begins(self.kept(i, solved) + [ZERO])
                 decided(sign is not None, "whether a contact changes is not decided")
                 changes += [i] if sign < 0 else []
+            changes = self.yielding(changes)
             if not changes:
                 # What opens and closes at one instant has done neither.
                 twice = {i for i in self.open if before[i][0] == (i in self.closed)}
@@ -482,6 +483,18 @@ class Motion:
                 return solved
             self.change(changes, False)
         raise Undecided("the contacts do not settle")
+
+    def yielding(self, changes):
+        """Without a contact that a support would press: what supports alone would hold on, displaced, goes back to one side."""
+        after, line = System(self.line, self.closed ^ set(changes)), self.line
+        kept = set()
+        for n in after.resting - self.system.resting:
+            r, stiffness, _ = line.supports[n]
+            own = after.members[after.group[r]]
+            push = total(line.supports[m][1] * self.state["u"][m] for m in after.resting if line.supports[m][0] in own)
+            if push.sign() in (1, -1):
+                kept.add(own[0] - 1 if push.sign() == 1 else own[-1])
+        return [i for i in changes if i not in kept]
 
     def change(self, changes, by_itself):
         """Opens and closes contacts now. Where one opens by itself, or where both sides have inertia, the velocities on both

@@ -594,8 +594,25 @@ class Story:
                         self.idle[i] = before[1][i]
                     self.pressed |= before[2] & {i}
                 return states, solutions
-            self.switch(wrong, False)
+            self.switch([i for i in wrong if i not in self.propping(wrong)], False)
         raise Undecided("contacts open and close without end")
+
+    def propping(self, wrong):
+        """The contacts that stay closed since a support, which would else be left alone, pushes there."""
+        later = Laws(self.parts, self.closed ^ set(wrong))
+        found = set()
+        for n in set(later.propped) - set(self.laws.propped):
+            left = right = self.parts.supports[n][0]
+            while left - 1 in later.held:
+                left -= 1
+            while right in later.held:
+                right += 1
+            push = NIL
+            for m, (r, stiffness, _) in enumerate(self.parts.supports):
+                if left <= r <= right:
+                    push = push + product(stiffness, self.state["u", m])
+            found |= {left - 1} if sign(push) == 1 else {right} if sign(push) == -1 else set()
+        return found
 
     def switch(self, contacts, smoothly):
         """Opens and closes contacts at this instant."""

@@ -13,7 +13,7 @@ use crate::history::motion::Motion;
 use crate::history::passivity::Passivity;
 use crate::history::series::{CellNorm, Series, Truncation};
 use crate::limits::MAX_EVENTS;
-use crate::network::System;
+use crate::network::{ElementLaw, Lumped, Node, System};
 use std::cmp::Ordering;
 
 /// Why a contact closed or opened.
@@ -173,6 +173,20 @@ impl Guard {
     }
 }
 
+/// The supports that let go of a node as its contacts change, with their stiffness and where their displacement stood.
+fn relieved<'n>(
+    node: &'n Node<Number>,
+    [before, after]: [&'n System<Number>; 2],
+) -> impl Iterator<Item = (&'n Lumped<Number>, &'n Number, usize)> {
+    let places = before.kept.iter().zip(&after.kept);
+    node.elements.iter().zip(places).filter_map(|(own, places)| match (&own.law, places) {
+        (ElementLaw::Support { stiffness, .. }, (Some(place), None)) => {
+            Some((own, stiffness, *place))
+        }
+        _ => None,
+    })
+}
+
 impl Engine {
     fn between(&self, contact: usize) -> String {
         let [left, right] = &self.layout.contacts[contact].names;
@@ -251,6 +265,41 @@ impl Engine {
             }
         }
         Ok(changes)
+    }
+
+    /// Of contacts that would change at once, those that do. What undamped supports alone would hold on, displaced, pushes
+    /// what is at one side of it: there the contact stays closed.
+    pub fn yielding(&self, node: usize, changes: Vec<usize>) -> Outcome<Vec<usize>> {
+        let (own, state, bits) = (&self.nodes[node], &self.states[node], self.cut.bits);
+        let next =
+            self.system(node, |contact| self.open[contact].closed != changes.contains(&contact))?;
+        let mut pushes = vec![Number::zero(); own.runs()];
+        for (lumped, stiffness, place) in relieved(own, [&state.system, &next]) {
+            let push = &mut pushes[next.group[lumped.run]];
+            *push = push.add(&stiffness.multiply(&state.state[place], bits), bits);
+        }
+        let now = self.clock.time(&state.now)?;
+        let mut pressed = Vec::new();
+        for (group, push) in pushes.iter().enumerate().filter(|(_, push)| !push.is_zero()) {
+            let beside = |side: usize| {
+                let mut parting = own.contacts().filter(|(own, _)| changes.contains(own));
+                let found = parting.find(|(_, run)| next.group[run + 1 - side] == group);
+                found.map(|(contact, _)| contact)
+            };
+            let side = match push.sign() {
+                Some(Ordering::Less) => beside(1),
+                Some(_) => beside(0),
+                // It is let go where it rests already.
+                None => {
+                    let contact = beside(0).or(beside(1)).unwrap_or(changes[0]);
+                    let (quantity, place) = ("the force", self.between(contact));
+                    self.clock.tie(Question::Sign { quantity, place }, &now, &push.magnitude())?;
+                    continue;
+                }
+            };
+            pressed.push(side.ok_or_else(|| self.clock.undecided(Question::Simultaneous, &now))?);
+        }
+        Ok(changes.into_iter().filter(|contact| !pressed.contains(contact)).collect())
     }
 
     /// Whether a local contact has not been pressed yet, as far as is known, and may not be on this cell either: its
@@ -383,6 +432,12 @@ impl Engine {
         }
         let passivity = Passivity::at(&self.nodes[node], &system, (&next, self.cut.bits))?;
         let state = &mut self.states[node];
+        // What rests on supports that have let go is where it began.
+        for (lumped, ..) in relieved(&self.nodes[node], [&state.system, &system]) {
+            let own = |run: &usize| system.group[*run] == system.group[lumped.run];
+            let runs = (0..system.group.len()).filter(own);
+            runs.for_each(|run| state.displacements[run] = Number::zero());
+        }
         state.errors = passivity.errors(&next);
         (state.system, state.passivity, state.state) = (system, passivity, next);
         Ok(())

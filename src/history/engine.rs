@@ -134,7 +134,7 @@ pub(crate) struct State {
     pub arriving: [Arriving; 2],
     /// Of what leaves at its left and at its right.
     pub passing: [Option<Passing>; 2],
-    displacements: Vec<Number>,
+    pub(super) displacements: Vec<Number>,
     /// How long its last cell beside a pressed local contact was allowed to be.
     pressed_for: Option<Rational>,
     /// Whether it is followed no longer.
@@ -699,6 +699,7 @@ impl Engine {
                 let now = self.clock.time(&self.states[node].now)?;
                 return Err(self.clock.undecided(Question::Simultaneous, &now));
             }
+            let changes = self.yielding(node, changes)?;
             self.change(node, &changes, Cause::Jump)?;
         }
     }

@@ -194,11 +194,13 @@ impl Engine {
             NodeQuantity::Force(place) => Some(place),
             NodeQuantity::Compression(place) => match own.elements[place].law.resistance() {
                 Some([_, damping]) if damping.is_zero() => {
-                    self.contact_of_spring(Lump { node, place })
+                    let lone = || own.contact_of_support(own.elements[place].run);
+                    self.contact_of_spring(Lump { node, place }).or_else(lone)
                 }
                 _ => None,
             },
-            NodeQuantity::Velocity(_) | NodeQuantity::Displacement(_) => None,
+            NodeQuantity::Displacement(run) => own.contact_of_support(run),
+            NodeQuantity::Velocity(_) => None,
         };
         let mut contacts = own.contacts().zip(0..);
         let contact = contacts.find(|((own, _), place)| is_local(*own) || force == Some(*place));

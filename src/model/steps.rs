@@ -432,17 +432,19 @@ impl<'a> Motion<'a> {
     /// open one, falls below zero.
     fn first_change(&self, piece: &Solved) -> Option<(usize, f64)> {
         let floor = self.steps.tolerance * self.speed;
-        let mut first: Option<(usize, f64)> = None;
+        // The share, and how far below zero what is so at once: what pulls most is let go first.
+        let mut first: Option<(usize, (f64, f64))> = None;
         for (contact, guard) in piece.guards.iter().enumerate() {
             let most = guard.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
             let floor = -floor.min(most);
-            if let Some(share) = falls_below(guard, floor)
-                && first.is_none_or(|(_, earliest)| share < earliest)
-            {
-                first = Some((contact, share));
+            if let Some(share) = falls_below(guard, floor) {
+                let own = (share, if share > 0.0 { 0.0 } else { sum(guard, -1.0) });
+                if first.is_none_or(|(_, earliest)| own < earliest) {
+                    first = Some((contact, own));
+                }
             }
         }
-        first
+        first.map(|(contact, (share, _))| (contact, share))
     }
 
     /// What acts on a node at these times since a period began: the waves that arrive, loads, and no forces

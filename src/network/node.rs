@@ -4,6 +4,7 @@
 //! run to the next; masses, supports and loads belong to a run. The symbolic laws, the system of equations in
 //! numbers and all models read this one description, in exact values, balls or doubles.
 
+use crate::ball::Arithmetic;
 use crate::scene::{Drive, ElementIndex};
 use wavestep_polynomial::Rational;
 
@@ -239,5 +240,25 @@ impl<V> Node<V> {
             Link::Contact(contact) | Link::Local { contact, .. } => Some((*contact, run)),
             Link::Element(_) => None,
         })
+    }
+}
+
+impl<V: Arithmetic> Node<V> {
+    /// Whether nothing acts on a run but undamped supports, one at least, and the links beside it.
+    pub fn is_propped(&self, run: usize) -> bool {
+        let mut attached = self.attached(run).peekable();
+        attached.peek().is_some()
+            && attached.all(
+                |own| matches!(&own.law, ElementLaw::Support { damping, .. } if damping.is_zero()),
+            )
+            && self.sides(run).all(|side| side == Side::Free)
+    }
+
+    /// The contact, by its place among those of the node, that alone presses on a run on undamped supports: its force
+    /// vanishes when they are back.
+    pub fn contact_of_support(&self, run: usize) -> Option<usize> {
+        let is_end = run == 0 || run == self.links.len();
+        (is_end && self.is_propped(run))
+            .then(|| self.contact_left_of(run).or_else(|| self.contact_right_of(run)))?
     }
 }

@@ -7,7 +7,7 @@
 //! the two arriving waves, then what each load does and the force in each local contact.
 
 use crate::ball::Arithmetic;
-use crate::network::node::{Acting, ElementLaw, Link, Lumped, Node, Side};
+use crate::network::node::{Acting, ElementLaw, Link, Lumped, Node};
 use crate::scene::Drive;
 
 /// Something without mass moves, and nothing resists it.
@@ -383,7 +383,7 @@ impl<V: Arithmetic> Law<'_, V> {
     }
 }
 
-/// Whether runs that move as one have no mass, and nothing but undamped supports and open contacts.
+/// Whether undamped supports, with springs that are idle, are all that holds runs that move as one.
 fn is_propped<V: Arithmetic>(
     node: &Node<V>,
     groups: &[usize],
@@ -395,12 +395,9 @@ fn is_propped<V: Arithmetic>(
         let ends = [own.run, own.run + 1].map(|run| groups.get(run) == Some(&group));
         own.law.is_link() && !idle && ends[0] != ends[1]
     });
-    let mut attached = runs.clone().flat_map(|run| node.attached(run)).peekable();
-    let is_support = |own: &Lumped<V>| matches!(&own.law, ElementLaw::Support { damping, .. } if damping.is_zero());
     !is_tied
-        && runs.all(|run| node.sides(run).all(|side| side == Side::Free))
-        && attached.peek().is_some()
-        && attached.all(is_support)
+        && runs.clone().any(|run| node.is_propped(run))
+        && runs.all(|run| node.is_bare(run) || node.is_propped(run))
 }
 
 /// An undamped spring that has nothing but open contacts at one end, by the run at its left.

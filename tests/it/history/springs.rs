@@ -81,6 +81,39 @@ fn a_support_that_stands_alone_is_a_spring_to_the_ground() {
     assert!(forces.contains(&Value::Exact(rational(0, 1))));
 }
 
+/// Waves that reach both sides of a support at once would part it from both bars. As it is displaced it goes back with one of
+/// them, so that no energy is lost, and stands alone only once it is back.
+#[test]
+fn a_support_between_two_contacts_goes_back_with_one_side() {
+    let bars = |of: [&str; 2], line: &str| {
+        let [left, right] = of;
+        network_of(
+            &format!(
+                "scene \"A support between bars\"\nbar a {{ {left}, travel = 1 }}\nbar b {{ {right}, travel = 1 }}\n\
+                support r {{ stiffness = 3 }}\nsupport w {{ stiffness = 2 }}\nline {line}\ncontacts open\n\
+                observe e = energy(line)\nobserve u = displacement(r)\n"
+            ),
+            &[],
+        )
+    };
+    let struck = ["impedance = 1, velocity = 1", "impedance = 1"];
+    let mirrored = ["impedance = 1, velocity = -1", "impedance = 1"];
+    let both = ["impedance = 1, velocity = 2", "impedance = 2, velocity = -2"];
+    let times: Vec<Rational> = (1..27).map(|n| rational(n, 3)).collect();
+    for (bars, energy) in [
+        (bars(struck, "free - a | r - w | b - free"), rational(1, 2)),
+        (bars(mirrored, "free - b | w | r | a - free"), rational(1, 2)),
+        (bars(both, "free - w | a | r | b - free"), rational(6, 1)),
+    ] {
+        for value in values(&bars, "e", &times, Limit::Right, 12) {
+            assert!((value.to_f64() - Value::Exact(energy.clone()).to_f64()).abs() < 1e-12);
+        }
+        let displacements = values(&bars, "u", &times, Limit::Right, 12);
+        assert!(displacements.contains(&Value::Exact(rational(0, 1))), "{displacements:?}");
+        assert!(displacements.iter().any(|u| u.to_f64().abs() > 0.1), "{displacements:?}");
+    }
+}
+
 /// Both sides of a closed contact move alike: their difference is zero as far as can be told.
 #[test]
 fn a_difference_that_is_zero_is_told_as_that() {

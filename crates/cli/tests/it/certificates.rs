@@ -438,6 +438,8 @@ fn events_beside_all_elements_are_verified() {
          support u { stiffness = 1, damping = 1 }\nline free - p - m | b - u - free\n",
         "bar a { impedance = 1, travel = 1, velocity = 1 }\nmass m { mass = 1 }\nsupport u { stiffness = 1 }\n\
          support w { stiffness = 1/4 }\nline free - a - m | u - w - free\n",
+        "bar a { impedance = 1, travel = 1, velocity = 1 }\nsupport u { stiffness = 3 }\n\
+         bar b { impedance = 1, travel = 1 }\nline free - a | u | b - free\n",
     ];
     let written = lines.iter().enumerate().map(|(i, line)| {
         let (scene, file) = (format!("{i}.wave"), format!("{i}.json"));
