@@ -80,12 +80,28 @@ impl Guard {
         }
     }
 
-    /// Whether a contact is known to be closed until the end of the cell: a local one whose compression cannot come
-    /// to zero there.
+    /// Whether a contact is known to stay as it is until the end of the cell: a local one whose compression cannot come to
+    /// zero there, and one whose force or gap has the sign of what arrives from a local contact that pushes.
     fn is_safe(&self) -> bool {
         match &self.kept {
             Kept::Compression(_, force) => !force.coefficients.is_empty(),
-            Kept::Force | Kept::Gap(_) => self.series.is_zero(),
+            Kept::Force | Kept::Gap(_) => {
+                self.series.is_zero() || self.told() == Some(Ordering::Greater)
+            }
+        }
+    }
+
+    /// The sign that a force has on the cell, or a gap, by that of what arrives. A gap was not negative before, so that it is not
+    /// where it grows.
+    fn told(&self) -> Option<Ordering> {
+        let sign = |series: &Series| series.signed.map(|own| own.sign);
+        match &self.kept {
+            Kept::Force => sign(&self.series),
+            Kept::Gap(rate) => {
+                let begins = self.starts.first().is_some_and(Number::is_zero);
+                sign(rate).filter(|sign| begins || sign.is_gt())
+            }
+            Kept::Compression(..) => None,
         }
     }
 
@@ -252,7 +268,12 @@ impl Engine {
             match beginning(&guard.series, &guard.starts) {
                 Beginning::Positive | Beginning::Zero => {}
                 Beginning::Negative => changes.push(contact),
-                Beginning::Undecided if self.only_touches(contact, guard) => {}
+                Beginning::Undecided if guard.told() == Some(Ordering::Less) => {
+                    changes.push(contact)
+                }
+                Beginning::Undecided
+                    if guard.told() == Some(Ordering::Greater)
+                        || self.only_touches(contact, guard) => {}
                 Beginning::Undecided => {
                     let (quantity, place) = (guard.quantity(), self.between(contact));
                     let now = self.clock.time(&self.states[node].now)?;

@@ -272,6 +272,32 @@ fn nothing_is_lost_between_free_bars() {
     assert!((momentum - 3.75).abs() < 1e-11, "{momentum}");
 }
 
+/// What a ball presses arrives at a contact between two bars, pushes it, and comes back from the far end as tension that parts
+/// them: below all precision at first, but with a known sign. The first bar is at rest then, and the second has all momentum.
+#[test]
+fn a_local_contact_and_one_that_opens_are_followed() {
+    let text = "mass ball { mass = 1/8, velocity = 1 }\nhertz tip { stiffness = 40 }\n\
+        bar a { impedance = 1, travel = 3 }\nbar b { impedance = 1, travel = 2 }\n\
+        line free - ball - tip - a | b - free\ncontacts open\nobserve F = force(tip)\n\
+        observe e = energy(a)\nobserve p = momentum(b)\nobserve v = velocity(ball)\nobserve all = energy(line)\n";
+    let ours = problem(text);
+    let joined =
+        problem(&text.replace("a | b", "a - b").replace("p = momentum(b)", "p = momentum(line)"));
+    // The same force as of one bar, until the wave is back.
+    let times = ["1/10", "1/2", "1", "3/2"];
+    assert_eq!(values(&ours, "F", &times, 12), values(&joined, "F", &times, 12));
+    let history = ours.history(Some(&rational("12")), 12).unwrap();
+    assert_eq!(history.assumptions, [""; 0]);
+    assert_eq!(history.contacts[1].durations.len(), 1);
+    let [pressed, passed] = [0, 1].map(|contact| history.contacts[contact].impulses[0].to_f64());
+    close(pressed, passed, 1e-12);
+    assert_eq!(value(&ours, "e", "9", 12), "0");
+    let late = |name| value(&ours, name, "12", 15).parse::<f64>().unwrap();
+    close(late("p"), pressed, 1e-12);
+    close(late("p") + late("v") / 8.0, 0.125, 1e-12);
+    close(late("all"), 0.0625, 1e-12);
+}
+
 fn close(found: f64, wanted: f64, tolerance: f64) {
     assert!((found - wanted).abs() <= tolerance * wanted.abs(), "{found} and {wanted}");
 }
