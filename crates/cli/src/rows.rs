@@ -10,6 +10,7 @@ use wavestep::ball::{Decimal, Exactness};
 use wavestep::problem::{self, Problem, Wanted, evenly_spaced};
 use wavestep::scene::Dimension;
 use wavestep::signal::{Limit, Value};
+use wavestep_studies::told::Teller;
 
 /// The most times that are evaluated at once.
 const MAX_POINTS: usize = 1_000_000;
@@ -127,7 +128,8 @@ pub fn written(
         }
         Format::Json => json_document(problem, wanted, rows, options),
         _ => {
-            let values = rows.1.iter().map(|value| value.to_text(options.digits));
+            let teller = Teller { problem, digits: options.digits, longest_fraction: usize::MAX };
+            let values = rows.1.iter().map(|value| teller.number(value));
             lines(problem, wanted, rows.0.iter().zip(values), options)
         }
     }

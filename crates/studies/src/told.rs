@@ -21,21 +21,25 @@ pub struct Teller<'a> {
 }
 
 impl Teller<'_> {
-    /// A value with its unit; where the scene has units, exact values are decimals, rounded where they do not end.
-    pub fn value(&self, value: &Value, dimension: Dimension) -> String {
-        let dimensional = self.problem.has_units();
-        let ends = |text: &String| !text.contains('/');
-        let text = match value {
-            Value::Exact(number) if dimensional => {
-                let rounded = || value.decimal(self.digits).0.to_string();
-                Some(in_decimals(number)).filter(ends).unwrap_or_else(rounded)
+    /// A value without its unit; where the scene has units, exact values are decimals, rounded where they do not end.
+    pub fn number(&self, value: &Value) -> String {
+        let rounded = || value.decimal(self.digits).0.to_string();
+        match value {
+            Value::Exact(number) if self.problem.has_units() => {
+                let decimals = in_decimals(number);
+                if decimals.contains('/') { rounded() } else { decimals }
             }
             Value::Exact(fraction) if fraction.to_string().len() > self.longest_fraction => {
-                value.decimal(self.digits).0.to_string()
+                rounded()
             }
             other => other.to_text(self.digits),
-        };
-        match dimensional {
+        }
+    }
+
+    /// The same with the unit.
+    pub fn value(&self, value: &Value, dimension: Dimension) -> String {
+        let text = self.number(value);
+        match self.problem.has_units() {
             true => format!("{text} {}", dimension.unit()).trim_end().to_owned(),
             false => text,
         }

@@ -400,6 +400,23 @@ fn values_beyond_a_pulling_contact_are_noted() {
     assert!(!err.contains("in tension"), "{err}");
 }
 
+/// In scenes with units exact values are decimals, rounded where they do not end; without units the fraction stands beside.
+#[test]
+fn fractions_stand_beside_decimals_without_units() {
+    let folder = folder("fractions");
+    let text = "scene \"A\"\nbar a { impedance = 1 kg/s, travel = 1 s, velocity = 1 m/s }\n\
+        bar b { impedance = 2 kg/s, travel = 1 s }\nline free - a | b - free\nobserve v = velocity(b.left)\n";
+    fs::write(folder.join("units.wave"), text).unwrap();
+    let plain = text.replace(" kg/s", "").replace(" m/s", "").replace("1 s", "1");
+    fs::write(folder.join("plain.wave"), plain).unwrap();
+    let told = |scene: &str, at: &str| {
+        let line = format!("eval {scene} --quantity v --digits 6 --at {at}");
+        run(&folder, &words(&line)).1
+    };
+    assert_eq!(told("units.wave", "0.5s"), "v(0.5 s) = 0.333333 m/s\n");
+    assert_eq!(told("plain.wave", "1/2"), "v(1/2) = 0.333333 = 1/3\n");
+}
+
 #[test]
 fn a_picture_of_values_beyond_doubles_is_refused() {
     let folder = folder("too-large");
