@@ -194,9 +194,9 @@ fn kind_of_evaluate(error: &EvaluateError) -> Kind {
         EvaluateError::MissingValue(_) | EvaluateError::EmptyWindow | EvaluateError::AfterLast => {
             Kind::BadInput
         }
-        EvaluateError::AccuracyNotReached { .. } | EvaluateError::NotFollowed { .. } => {
-            Kind::AccuracyNotReached
-        }
+        EvaluateError::AccuracyNotReached { .. }
+        | EvaluateError::InstantsUndecided { .. }
+        | EvaluateError::NotFollowed { .. } => Kind::AccuracyNotReached,
         EvaluateError::TooManyPeriods { .. }
         | EvaluateError::TooManyEchoes { .. }
         | EvaluateError::TooMuchMemory { .. }
@@ -403,6 +403,7 @@ fn remedy_of_evaluate(error: &EvaluateError) -> &'static str {
             "choose an earlier time, raise --memory, or use doubles by the method marched"
         }
         EvaluateError::AccuracyNotReached { .. } => OTHER_DIGITS,
+        EvaluateError::InstantsUndecided { .. } => "choose a time slightly earlier or later",
         _ => "choose an earlier time",
     }
 }

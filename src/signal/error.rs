@@ -25,6 +25,8 @@ pub enum EvaluateError {
         "accuracy not reached with {bits} bits; the best enclosure has radius {}", best.radius()
     )]
     AccuracyNotReached { best: Box<Ball>, bits: u64 },
+    #[error("{bits} bits do not tell whether two instants are one")]
+    InstantsUndecided { bits: u64 },
     #[error(transparent)]
     Ball(#[from] BallError),
     /// About so many arrive; `u128::MAX` where they were not counted.
@@ -87,10 +89,13 @@ fn too_many_echoes(echoes: u128, limit: usize) -> String {
 impl EvaluateError {
     /// Whether a search ended before it was decided: what is known until then holds.
     pub(crate) fn is_unsettled(&self) -> bool {
-        use EvaluateError::{AccuracyNotReached, NotFollowed, TooManyCells, TooManyRoots};
+        use EvaluateError::{
+            AccuracyNotReached, InstantsUndecided, NotFollowed, TooManyCells, TooManyRoots,
+        };
         matches!(
             self,
             AccuracyNotReached { .. }
+                | InstantsUndecided { .. }
                 | NotFollowed { .. }
                 | TooManyCells { .. }
                 | TooManyRoots { .. }

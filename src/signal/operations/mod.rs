@@ -194,13 +194,21 @@ impl<'m> Mark<'m> {
             let difference = self.ball(bits)?.subtract(&other.ball(bits)?, bits);
             Ok::<_, EvaluateError>(match difference.sign() {
                 Some(order) => Attempt::Done(order),
-                None => Attempt::NotYet(EvaluateError::AccuracyNotReached {
-                    best: Box::new(difference),
-                    bits,
-                }),
+                None => Attempt::NotYet(EvaluateError::InstantsUndecided { bits }),
             })
         };
-        Precisions::doubling(first, most).raise(attempt).and_then(Attempt::done)
+        let order = Precisions::doubling(first, most).raise(attempt).and_then(Attempt::done);
+        // Where instants were taken for one on the way, an answer says so.
+        let assumes = |mark: &Mark<'_>| {
+            let event = mark.instant.as_ref().and_then(|own| own.event);
+            event.is_some_and(|(bits, _)| bits > 0)
+        };
+        match order {
+            Err(EvaluateError::InstantsUndecided { .. }) if assumes(self) || assumes(other) => {
+                Ok(Ordering::Equal)
+            }
+            order => order,
+        }
     }
 }
 
@@ -410,7 +418,7 @@ impl<'a, R: Rule> Operation<'a, R> {
                     continue;
                 };
                 let order = first.first().map(|known| match mark.compare(known.1) {
-                    Err(EvaluateError::AccuracyNotReached { .. }) if self.rule.takes_ties() => {
+                    Err(EvaluateError::InstantsUndecided { .. }) if self.rule.takes_ties() => {
                         Ok(Ordering::Equal)
                     }
                     order => order,

@@ -114,6 +114,23 @@ fn a_support_between_two_contacts_goes_back_with_one_side() {
     }
 }
 
+/// A contact closes as a wave arrives there: two instants that no precision tells apart are assumed to be one. What a bar
+/// holds then, and a travel time later, is told under that assumption.
+#[test]
+fn energies_at_instants_that_are_assumed_to_be_one_are_told() {
+    let text = "scene \"One instant\"\nbar a { impedance = 1, travel = 3/2, velocity = 1 }\n\
+        support r { stiffness = 5 }\nbar b { impedance = 2, travel = 1, velocity = -1/2 }\n\
+        line fixed - a | r | b - free\ncontacts open\nobserve e = energy(b)\nobserve all = energy(line)\n";
+    let network = network_of(text, &[]);
+    let times = [rational(9, 2), rational(11, 2), rational(13, 2)];
+    for (name, energy) in [("e", 0.25), ("all", 1.0)] {
+        for value in values(&network, name, &times, Limit::Right, 12) {
+            assert!((value.to_f64() - energy).abs() < 1e-12, "{name}: {value:?}");
+        }
+    }
+    assert_eq!(network.assumed.all().len(), 1);
+}
+
 /// Both sides of a closed contact move alike: their difference is zero as far as can be told.
 #[test]
 fn a_difference_that_is_zero_is_told_as_that() {
