@@ -13,7 +13,6 @@ pub(crate) use together::Together;
 
 use crate::expression::{Fraction, Root};
 use crate::history::{FollowedSignal, Follower, HistoryError};
-
 use crate::network::{Contacts, ElementLaw, FieldBars, Layout, Lumped, Network, Node, Observed};
 use crate::signal::{
     ClosedForm, ClosedSignal, Difference, EvaluateError, Operation, Scale, Signal, Vibrating,
@@ -148,9 +147,7 @@ pub fn of_scene<'a>(
     window: [&Rational; 2],
     purpose: Purpose,
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
-    let alone = [observed];
-    let together = Together::new(network, &alone, window, purpose);
-    together.chosen(observed).map(|(_, signal)| signal)
+    Together::new(network, &[observed], window, purpose).chosen(observed).map(|(_, signal)| signal)
 }
 
 /// Several observables of a scene on one window of the user's time, each with its own error; where the scene is followed,
@@ -216,9 +213,8 @@ pub fn cells(
     observed: &Observed,
     window: [&Rational; 2],
 ) -> Result<[usize; 2], SignalError> {
-    let alone = [observed];
-    let together = Together::new(network, &alone, window, Purpose::Stretches);
-    Ok(together.follower(observed)?.cells())
+    let stretches = Purpose::Stretches;
+    Ok(Together::new(network, &[observed], window, stretches).follower(observed)?.cells())
 }
 
 /// A wave as it enters a bar, without the state at the start, its integral over time since then, and the
