@@ -13,7 +13,7 @@ READS, HALF = {"quantity", "observed"}, Fraction(1, 2)
 
 # What can be read of elements, and how much more has to be said: delays of both waves, a side.
 READINGS = {("bar", what): 2 for what in ("velocity", "displacement", "force")}
-READINGS |= {("bar", "momentum"): 0} | {(kind, "energy"): 0 for kind in ("bar", "mass", "spring", "support")}
+READINGS |= {("bar", "work"): 2, ("spring", "work"): 0, ("support", "work"): 0, ("bar", "momentum"): 0} | {(kind, "energy"): 0 for kind in ("bar", "mass", "spring", "support")}
 READINGS |= {("spring", what): 1 for what in ("velocity", "displacement")}
 READINGS |= {(kind, what): 0 for kind in ("mass", "support", "force") for what in ("velocity", "displacement")}
 READINGS |= {(kind, what): 0 for kind in ("spring", "support") for what in ("compression", "force")}
@@ -35,13 +35,20 @@ class Reader:
 
     def integral(self, n, key, of):
         """The integral from the start on, of what is known or of its square, as a series on a cell."""
-        over = lambda m: [c.times(self.motion.step / (k + 1)) for k, c in enumerate(of(self.motion.past[m][key]))]
+        over = lambda m: [c.times(self.motion.step / (k + 1)) for k, c in enumerate(of(self.past(m, key)))]
         sums = self.sums.setdefault((key, of), [ZERO])
         while len(sums) <= n:
             m = len(sums) - 1
             length = self.motion.since(self.motion.marks[m + 1], self.motion.marks[m]).times(1 / self.motion.step)
             sums.append(value([sums[m], *over(m)], length))
         return [sums[n], *over(n)]
+
+    def past(self, n, key):
+        """What is known on a cell, and the rate at which a spring is compressed."""
+        past, (what, place) = self.motion.past[n], key
+        if what != "rate":
+            return past[key]
+        return list(map(total, zip_longest(past["v", place], scaled(-ONE, past["v", place + 1]), fillvalue=ZERO)))
 
     def at(self, time):
         """What is known at a time: a function of what, how long before, and of what of it the integral from the start on is meant."""
@@ -85,6 +92,9 @@ class Reader:
             if kind == "bar":
                 is_sum, (right, left) = what == "displacement", of
                 self.need_section(n, right, left)
+                if what == "work":
+                    sums += [scaled(factor, own) for own in self.work(link, time, [(("right", n), right), (("left", n), left)], known)]
+                    continue
                 at_rest = scaled(link["velocity"], time if is_sum else [ONE])
                 size, way = (link["impedance"], -link["impedance"]) if what == "force" else (ONE, ONE)
                 sums.append(scaled(factor, [link["force"]] if what == "force" else at_rest))
@@ -100,14 +110,16 @@ class Reader:
                 sums.append(scaled((factor * line.own_masses[name]).times(HALF), squared(known(("v", n), None))))
                 continue
             read = known(("alpha", n) if kind == "spring" else ("u", n), None)
-            if what == "energy":
-                stiffness = link["stiffness"] if link else line.supports[n][1]
+            stiffness, damping = (link["stiffness"], link["damping"]) if link else line.supports[n][1:]
+            if what in ("energy", "work"):
                 sums.append(scaled((factor * stiffness).times(HALF), squared(read)))
+                if what == "work" and not damping.is_zero():  # and what its damper has taken
+                    key = ("rate", n) if link else ("v", line.supports[n][0])
+                    sums.append(scaled(factor * damping, known(key, None, squared)))
                 continue
             if what == "compression":
                 sums.append(scaled(factor, read))
                 continue
-            stiffness, damping = (link["stiffness"], link["damping"]) if link else line.supports[n][1:]
             sums.append(scaled(factor * stiffness, read))
             for r, way in ((n, damping), (n + 1, -damping)) if link else ((line.supports[n][0], damping),):
                 sums.append(scaled(factor * way, known(("v", r), None)))
@@ -120,6 +132,16 @@ class Reader:
             return []
         gone = [] if line.travels[n] is None else [scaled(-ONE, known(key, line.travels[n], of))]
         return [known(key, None, of), *gone]
+
+    def work(self, link, time, waves, known):
+        """What has passed a section of a bar, the integral of force times velocity: with the waves a and b these are x + z (a - b) and
+        v + a + b, and their product is x v + (x + z v) a + (x - z v) b + z (a^2 - b^2)."""
+        z, v, x = link["impedance"], link["velocity"], link["force"]
+        sums = [scaled(x * v, time)]
+        for way, (key, delay) in zip((z, -z), waves):
+            if delay is not None:
+                sums += [scaled(x + way * v, known(key, delay, list)), scaled(way, known(key, delay, squared))]
+        return sums
 
     def momentum(self, n, link, known):
         """Of a bar over its impedance: the sum of the velocities of all sections."""

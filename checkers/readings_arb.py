@@ -47,7 +47,9 @@ class Place:
 
     def integral(self, key, n, over):
         story = self.story
-        grown = lambda m: times(story.step, [NIL] + [c / (k + 1) for k, c in enumerate(over(story.past[m][key]))])
+        rate = lambda past: plus(past["speed", key[1]], times(-1, past["speed", key[1] + 1]))
+        known = lambda past: rate(past) if key[0] == "rate" else past[key]
+        grown = lambda m: times(story.step, [NIL] + [c / (k + 1) for k, c in enumerate(over(known(story.past[m])))])
         sums = story.integrals.setdefault((key, over), [NIL])
         for m in range(len(sums) - 1, n):
             length = short(story.between(story.begins[m + 1], story.begins[m]) / story.step)
@@ -85,6 +87,17 @@ class Place:
         mixed = plus(times(short(z * v + p), f), times(short(z * v - p), g))
         return plus([short((z * v * v + p * p / z) * width / 2)], plus(squares, mixed))
 
+    def passed(self, n, right, left):
+        """The integral of (v + f + g) (p + Z (f - g)) at a section, where the waves have been on the way for so long."""
+        self.check_section(n, right, left)
+        z, v, p = (self.story.parts.links[n][key] for key in ("impedance", "velocity", "force"))
+        work = times(short(p * v), self.time())
+        for way, own, side in (("f", right, z), ("g", left, -z)):
+            if own is not None:
+                wave, power = (self.series((way, n), self.delayed(own), over) for over in (list, square))
+                work = plus(work, plus(times(short(p + side * v), wave), times(side, power)))
+        return work
+
     def observed(self, rows):
         """The sum of what is read of elements by their names."""
         parts, result = self.story.parts, [NIL]
@@ -94,12 +107,19 @@ class Place:
             if kind == "bar" and what in ("momentum", "energy"):
                 need(not of, "a bar as a whole has no section")
                 read = self.whole(n, what)
-            elif what == "energy":
-                need(kind in ("mass", "spring", "support") and not of, "this has no energy")
+            elif kind == "bar" and what == "work":
+                need(len(of) == 2, "the section is missing")
+                read = self.passed(n, *of)
+            elif what in ("energy", "work"):
+                need(kind in ("mass", "spring", "support")[what == "work" :] and not of, "this has no energy, or takes none")
                 key = {"mass": "speed", "spring": "alpha", "support": "u"}[kind]
                 own = {"mass": parts.masses.get(name), "support": parts.supports[n][1] if kind == "support" else None}
                 own = parts.links[n]["stiffness"] if kind == "spring" else own[kind]
                 read = times(own / 2, square(self.series((key, n), now)))
+                if what == "work":
+                    key = ("rate", n) if kind == "spring" else ("speed", parts.supports[n][0])
+                    damping = parts.links[n]["damping"] if kind == "spring" else parts.supports[n][2]
+                    read = plus(read, times(damping, self.series(key, now, square)))
             elif kind == "bar":
                 need(what in ("velocity", "force", "displacement") and len(of) == 2, "a bar is read in another way")
                 self.check_section(n, *of)

@@ -157,7 +157,7 @@ impl Observable {
             MeasuredValue::Linear(terms) => {
                 Some(terms.iter().map(double).collect::<Result<_, _>>()?)
             }
-            MeasuredValue::Energy(_) => None,
+            MeasuredValue::Energy { .. } => None,
         };
         Ok(Observable { name: measured.name.clone(), terms })
     }

@@ -9,12 +9,12 @@
 
 use crate::expression::{Expression, Fraction};
 use crate::network::layout::Layout;
-use crate::network::measures::{MeasuredValue, vanishes};
+use crate::network::measures::{MeasuredValue, Passage, loads_alone, vanishes};
 use crate::network::node::{ElementLaw, Lumped};
 use crate::network::observed::{ObservedValue, Squared, Window};
-use crate::network::reading::{Face, Field, Lump, Reading, section};
+use crate::network::reading::{Face, Field, Lump, Reading, Section, section};
 use crate::network::scaled::ScaledScene;
-use crate::scene::{Drive, ElementIndex, End, Joint, Kind, Measure, Observable, Scene};
+use crate::scene::{Drive, ElementIndex, End, Joint, Kind, Measure, Observable, Scene, Seen};
 
 /// A coefficient times the product of one or two readings.
 pub(super) struct Flow {
@@ -32,17 +32,95 @@ impl Flow {
     }
 }
 
+/// The power that passes a section of a bar is the product of these.
+const POWER: [Field; 2] = [Field::Force, Field::Velocity];
+
 /// The terms of the derivative of an observable with respect to time, in the scales of the scene, where it
 /// is an energy or a momentum whose balance is known.
-pub(super) fn flow(scaled: &ScaledScene, observable: &Observable) -> Option<Vec<Flow>> {
+pub(super) fn flow(
+    scaled: &ScaledScene,
+    observable: &Observable,
+    value: &MeasuredValue,
+) -> Option<Vec<Flow>> {
+    let mut all = Vec::new();
+    if let MeasuredValue::Energy { passed, .. } = value {
+        for (coefficient, passage) in passed {
+            all.extend(times(work(scaled, passage), coefficient));
+        }
+    }
+    let held: Vec<&Seen> =
+        observable.terms.iter().filter(|seen| seen.measure != Measure::Work).collect();
+    if all.is_empty() {
+        return into_elements(scaled, &held);
+    }
+    // What the line loses apart from what its elements hold, so that what is counted twice cancels.
+    let (line, own) =
+        held.into_iter().partition::<Vec<&Seen>, _>(|seen| seen.place.element().is_none());
+    all.extend(into_elements(scaled, &line)?);
+    for seen in own {
+        let element = seen.place.element()?;
+        let balance = Balance { scaled, measure: Measure::Energy };
+        let into = balance.through_bar(element, [false; 2]);
+        all.extend(times(into.or_else(|| balance.into_lump(element))?, &seen.coefficient));
+    }
+    Some(joined(all))
+}
+
+/// The same with one term for one product; what cancels is left out.
+fn joined(terms: Vec<Flow>) -> Vec<Flow> {
+    let mut sum: Vec<Flow> = Vec::new();
+    for term in terms {
+        let is_same = |own: &&mut Flow| {
+            (&own.factors, &own.loads, &own.course) == (&term.factors, &term.loads, &term.course)
+        };
+        match sum.iter_mut().find(is_same) {
+            Some(own) => own.coefficient = &own.coefficient + &term.coefficient,
+            None => sum.push(term),
+        }
+    }
+    sum.retain(|term| !term.coefficient.is_zero());
+    sum
+}
+
+/// The power of the work that is done somewhere.
+pub(super) fn work(scaled: &ScaledScene, passage: &Passage) -> Vec<Flow> {
+    let balance = Balance { scaled, measure: Measure::Work };
+    let lump = match passage {
+        Passage::Section(section) => {
+            return balance.through(section, &POWER, Fraction::one()).into_iter().collect();
+        }
+        Passage::Element(lump) => *lump,
+    };
+    let power = |sign, face| Flow::new(sign, vec![Reading::Force(lump), Reading::Velocity(face)]);
+    let (left, right) = (Face::Left(lump), Face::Right(lump));
+    match &balance.layout().nodes[lump.node].elements[lump.place].law {
+        ElementLaw::Load(drive) => {
+            let own = &balance.layout().nodes[lump.node];
+            let beside = own.attached(own.elements[lump.place].run);
+            let force =
+                match beside.filter(|own| matches!(own.law, ElementLaw::Load(_))).count() == 1 {
+                    true => balance.pushed(lump, *drive),
+                    false => None,
+                };
+            Balance::supplied(force.unwrap_or_else(|| vec![balance.given(lump)]), lump)
+        }
+        law if law.is_link() => {
+            vec![power(Fraction::one(), left), power(-&Fraction::one(), right)]
+        }
+        _ => vec![power(Fraction::one(), left)],
+    }
+}
+
+/// The flow into what elements hold: terms of one measure.
+fn into_elements(scaled: &ScaledScene, terms: &[&Seen]) -> Option<Vec<Flow>> {
     let scene = &scaled.scene;
-    let measure = observable.terms.first()?.measure;
-    if observable.terms.iter().any(|seen| seen.measure != measure) {
+    let Some(measure) = terms.first().map(|seen| seen.measure) else { return Some(Vec::new()) };
+    if terms.iter().any(|seen| seen.measure != measure) {
         return None;
     }
     let coefficient = |element: &ElementIndex| {
         let mut sum = Fraction::zero();
-        for seen in &observable.terms {
+        for seen in terms {
             if seen.place.element().is_none_or(|own| own == *element) {
                 sum = &sum + &seen.coefficient;
             }
@@ -79,7 +157,7 @@ pub(super) fn flow(scaled: &ScaledScene, observable: &Observable) -> Option<Vec<
     Some(all)
 }
 
-fn times(terms: Vec<Flow>, coefficient: &Fraction) -> Vec<Flow> {
+pub(super) fn times(terms: Vec<Flow>, coefficient: &Fraction) -> Vec<Flow> {
     let times = |own: Flow| Flow { coefficient: &own.coefficient * coefficient, ..own };
     terms.into_iter().map(times).collect()
 }
@@ -110,38 +188,62 @@ impl Balance<'_> {
         }
         let mut terms = Vec::new();
         for (lump, law) in self.lumps() {
-            let [left, right] = [Face::Left(lump), Face::Right(lump)].map(Reading::Velocity);
             match law {
                 ElementLaw::Load(drive) => {
-                    for mut power in self.pushed(lump, *drive)? {
-                        power.factors.push(left.clone());
-                        terms.push(power);
-                    }
+                    terms.extend(Balance::supplied(self.pushed(lump, *drive)?, lump))
                 }
-                ElementLaw::Support { damping, .. } => {
-                    terms.push(Flow::new(-damping, vec![left.clone(), left]));
-                }
-                ElementLaw::Spring { damping, .. } => {
-                    terms.push(Flow::new(-damping, vec![left.clone(), left.clone()]));
-                    terms.push(Flow::new(damping + damping, vec![left, right.clone()]));
-                    terms.push(Flow::new(-damping, vec![right.clone(), right]));
-                }
-                ElementLaw::Mass { .. } | ElementLaw::LocalContact { .. } => {}
+                _ => terms.extend(self.damper(lump)),
             }
         }
-        terms.retain(|term| !term.coefficient.is_zero());
         Some(terms)
+    }
+
+    /// The power of a force that acts at a place.
+    fn supplied(mut force: Vec<Flow>, lump: Lump) -> Vec<Flow> {
+        force.iter_mut().for_each(|term| term.factors.push(Reading::Velocity(Face::Left(lump))));
+        force
+    }
+
+    /// What the damping of a spring or a support takes from its energy.
+    fn damper(&self, lump: Lump) -> Vec<Flow> {
+        let [left, right] = [Face::Left(lump), Face::Right(lump)].map(Reading::Velocity);
+        let law = &self.layout().nodes[lump.node].elements[lump.place].law;
+        let Some([_, damping]) = law.resistance().filter(|[_, damping]| !damping.is_zero()) else {
+            return Vec::new();
+        };
+        let mut terms = vec![Flow::new(-damping, vec![left.clone(), left.clone()])];
+        if law.is_link() {
+            terms.push(Flow::new(damping + damping, vec![left, right.clone()]));
+            terms.push(Flow::new(-damping, vec![right.clone(), right]));
+        }
+        terms
+    }
+
+    /// What flows into the energy of a spring, a local contact or a support; a load has none.
+    fn into_lump(&self, element: ElementIndex) -> Option<Vec<Flow>> {
+        let node = self.layout().node_of(element)?;
+        let lump = Lump { node, place: self.layout().nodes[node].place(element)? };
+        match self.layout().nodes[node].elements[lump.place].law {
+            ElementLaw::Mass { .. } => None,
+            ElementLaw::Load(_) => Some(Vec::new()),
+            _ => {
+                let mut into = work(self.scaled, &Passage::Element(lump));
+                into.extend(self.damper(lump));
+                Some(into)
+            }
+        }
     }
 
     /// The force of a load: by the balance of its place, which leaves out what does not move, or else as it is given.
     fn pushed(&self, lump: Lump, drive: Drive) -> Option<Vec<Flow>> {
-        let given = || {
-            let load = self.layout().nodes[lump.node].elements[lump.place].element;
-            let course = Some(self.scaled.model.loads[&load].course.clone());
-            let loads = Some(vec![load]);
-            vec![Flow { loads, course, ..Flow::new(Fraction::one(), Vec::new()) }]
-        };
-        self.balanced(lump).or_else(|| (drive == Drive::Force).then(given))
+        self.balanced(lump).or_else(|| (drive == Drive::Force).then(|| vec![self.given(lump)]))
+    }
+
+    /// The force of a load as it is given.
+    fn given(&self, lump: Lump) -> Flow {
+        let load = self.layout().nodes[lump.node].elements[lump.place].element;
+        let course = Some(self.scaled.model.loads[&load].course.clone());
+        Flow { loads: Some(vec![load]), course, ..Flow::new(Fraction::one(), Vec::new()) }
     }
 
     /// The total force of the loads of a place, by the balance there: what bars, springs and supports take up. Nothing for all
@@ -221,7 +323,7 @@ impl Balance<'_> {
     /// The force at the left (0) or right (1) side of a bar or a spring.
     fn force_at_end(&self, element: ElementIndex, side: usize) -> Option<Reading> {
         if let Some(bar) = self.layout().bar(element) {
-            return Some(self.in_bar(Field::Force, bar, side));
+            return Some(Reading::InBar(Field::Force, self.end(bar, side)));
         }
         let node = self.layout().node_of(element)?;
         let place = self.layout().nodes[node].place(element)?;
@@ -229,37 +331,39 @@ impl Balance<'_> {
         is_spring.then_some(Reading::Force(Lump { node, place }))
     }
 
-    fn in_bar(&self, field: Field, bar: usize, side: usize) -> Reading {
+    /// The section at the left (0) or right (1) end of a bar.
+    fn end(&self, bar: usize, side: usize) -> Section {
         let travel = &self.scaled.model.bars[&self.layout().bars[bar]].travel;
         let time = travel.clone().filter(|_| side == 1).unwrap_or_else(Fraction::zero);
-        Reading::InBar(field, section(self.layout(), &self.scaled.model, bar, time))
+        section(self.layout(), &self.scaled.model, bar, time)
     }
 
     /// What enters a bar at its left and leaves at its right, except at inner ends.
     fn through_bar(&self, element: ElementIndex, inner: [bool; 2]) -> Option<Vec<Flow>> {
         let bar = self.layout().bar(element)?;
         let fields: &[Field] = match self.measure {
-            Measure::Energy => &[Field::Force, Field::Velocity],
+            Measure::Energy => &POWER,
             Measure::Momentum => &[Field::Force],
             _ => return None,
         };
         let mut terms = Vec::new();
         let is_outer = |side: &usize| self.layout().ends[bar][*side].is_some() && !inner[*side];
         for side in (0..2).filter(is_outer) {
-            let factors: Vec<Reading> =
-                fields.iter().map(|field| self.in_bar(*field, bar, side)).collect();
-            let is_zero = |factor: &Reading| match factor {
-                Reading::InBar(field, section) => {
-                    vanishes(&self.scaled.scene, self.layout(), *field, section)
-                }
-                _ => false,
-            };
-            if !factors.iter().any(is_zero) {
-                let sign = if side == 0 { Fraction::one() } else { -&Fraction::one() };
-                terms.push(Flow::new(sign, factors));
-            }
+            let sign = if side == 0 { Fraction::one() } else { -&Fraction::one() };
+            terms.extend(self.through(&self.end(bar, side), fields, sign));
         }
         Some(terms)
+    }
+
+    /// What passes a section to the right, the product of these fields; none where a boundary condition makes it zero.
+    fn through(&self, section: &Section, fields: &[Field], sign: Fraction) -> Option<Flow> {
+        let (scene, layout) = (&self.scaled.scene, self.layout());
+        if fields.iter().any(|field| vanishes(scene, layout, *field, section)) {
+            return None;
+        }
+        let loads = loads_alone(scene, layout, Field::Force, section);
+        let factors = fields.iter().map(|field| Reading::InBar(*field, section.clone())).collect();
+        Some(Flow { loads, ..Flow::new(sign, factors) })
     }
 }
 
@@ -302,8 +406,8 @@ pub(super) fn at_start(
             sum = &sum + &(&term.coefficient * &reading_at_start(scaled, &term.of)?);
         }
     }
-    if let ObservedValue::Energy(parts) = parts {
-        for part in parts {
+    if let ObservedValue::Energy { held, .. } = parts {
+        for part in held {
             let square = match (&part.window, &part.squared) {
                 (Window::Last(travel), _) => &part.before.pow(2) * travel,
                 // A local contact is not compressed.

@@ -105,7 +105,7 @@ impl Network {
             ObservedValue::Linear(observation) => {
                 Some(Observable { name: observed.name.clone(), observation: observation.clone() })
             }
-            ObservedValue::Energy(_) => None,
+            ObservedValue::Energy { .. } => None,
         };
         Statement {
             period: self.lattice().periods()[0].clone(),

@@ -10,7 +10,7 @@ use crate::network::error::NetworkError;
 use crate::network::layout::Layout;
 use crate::network::model::{Model, Scale, bar_roots};
 use crate::network::node::{ElementLaw, Lumped, Side};
-use crate::network::reading::{Elements, Face, Field, Reading, Section, Term, section};
+use crate::network::reading::{Elements, Face, Field, Lump, Reading, Section, Term, section};
 use crate::scene::{
     Body, Dimension, Drive, ElementIndex, Joint, Kind, Measure, Mistake, Observable, Place,
     Position, Scene, Seen,
@@ -22,8 +22,22 @@ use wavestep_polynomial::Rational;
 pub enum MeasuredValue {
     /// Linear in the motion.
     Linear(Vec<Term>),
-    /// The energies of elements, with their coefficients; see [`Elements::energy`].
-    Energy(Vec<(Fraction, ElementIndex)>),
+    /// Energies, each with its coefficient.
+    Energy {
+        /// What elements hold; see [`Elements::energy`].
+        held: Vec<(Fraction, ElementIndex)>,
+        /// What has passed since the start.
+        passed: Vec<(Fraction, Passage)>,
+    },
+}
+
+/// Where work is done, `∫ X v dt` since the start.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Passage {
+    /// What has passed a section to the right.
+    Section(Section),
+    /// What a spring, a local contact or a support has taken up, or what a load has given.
+    Element(Lump),
 }
 
 /// An observable of a scene as a sum of readings.
@@ -82,28 +96,37 @@ impl<'a> Table<'a> {
         if let Some(mistake) = terms.iter().find_map(|seen| self.scene.refusal(seen)) {
             return Err(refused(mistake));
         }
-        let energies = terms.iter().filter(|seen| seen.measure == Measure::Energy).count();
-        match energies {
+        match terms.iter().filter(|seen| seen.measure.is_energy()).count() {
             0 => self.linear(name, terms),
-            _ if energies == terms.len() => {
-                let value = terms.iter().flat_map(|seen| self.energies(seen)).collect();
-                let value = MeasuredValue::Energy(value);
-                let dimension =
-                    if self.scene.dimensional { Dimension::ENERGY } else { Dimension::NONE };
-                let unit = unit(&self.model.scale, Measure::Energy, None)?;
-                Ok(Measured { name: name.clone(), value, loads: None, unit, dimension })
-            }
+            energies if energies == terms.len() => self.energies(name, terms),
             _ => Err(refused(Mistake::MixedDimensions)),
         }
     }
 
-    /// The elements whose energies are added.
-    fn energies(&self, seen: &Seen) -> Vec<(Fraction, ElementIndex)> {
-        let elements = match seen.place.element() {
-            Some(element) => vec![element],
-            None => self.scene.line.elements.clone(),
-        };
-        elements.into_iter().map(|element| (seen.coefficient.clone(), element)).collect()
+    /// A sum of energies.
+    fn energies(&mut self, name: &str, terms: &[Seen]) -> Result<Measured, NetworkError> {
+        let (mut held, mut passed) = (Vec::new(), Vec::new());
+        for seen in terms {
+            let own = |element| (seen.coefficient.clone(), element);
+            match (seen.measure, seen.place.element()) {
+                (Measure::Work, Some(element)) => {
+                    let passage = match self.section(name, &seen.place)? {
+                        Some(section) => Ok(Passage::Section(section)),
+                        None => self.elements().lump(element).map(Passage::Element),
+                    };
+                    let name = || name.to_owned();
+                    let passage = passage
+                        .map_err(|reason| NetworkError::Unobservable { name: name(), reason })?;
+                    passed.push((seen.coefficient.clone(), passage));
+                }
+                (_, Some(element)) => held.push(own(element)),
+                (_, None) => held.extend(self.scene.line.elements.iter().copied().map(own)),
+            }
+        }
+        let dimension = if self.scene.dimensional { Dimension::ENERGY } else { Dimension::NONE };
+        let (name, unit) = (name.to_owned(), unit(&self.model.scale, Measure::Energy, None)?);
+        let value = MeasuredValue::Energy { held, passed };
+        Ok(Measured { name, value, loads: None, unit, dimension })
     }
 
     /// A sum of linear measures, in the unit of the first.
@@ -232,7 +255,7 @@ pub(super) fn vanishes(scene: &Scene, layout: &Layout, field: Field, section: &S
 }
 
 /// The loads that by a boundary condition are all that a field is made of: at a free end they are the force.
-fn loads_alone(
+pub(super) fn loads_alone(
     scene: &Scene,
     layout: &Layout,
     field: Field,

@@ -43,6 +43,7 @@ pub use error::NetworkError;
 pub use impact::{Impact, NoClosedForm};
 pub(crate) use laws::{Law, Rule};
 pub use layout::{Contact, Contacts, Layout};
+pub use measures::Passage;
 pub use measures::{Measured, MeasuredValue};
 pub use model::{Model, ModelBar, ModelLoad, Scale};
 pub use node::ElementLaw;

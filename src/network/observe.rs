@@ -5,7 +5,7 @@
 //! the start.
 
 use crate::expression::{Expression, Fraction, Root};
-use crate::network::balance::{Flow, at_start, flow};
+use crate::network::balance::{Flow, at_start, flow, times, work};
 use crate::network::equations::{Network, Role};
 use crate::network::error::NetworkError;
 use crate::network::measures::MeasuredValue;
@@ -31,22 +31,26 @@ impl Network {
                     }
                     ObservedValue::Linear(sum)
                 }
-                MeasuredValue::Energy(elements) => {
-                    let mut parts = Vec::new();
+                MeasuredValue::Energy { held: elements, passed } => {
+                    let mut held = Vec::new();
                     for (coefficient, element) in elements {
-                        parts.extend(self.energy(&measured.name, coefficient, *element)?);
+                        held.extend(self.energy(&measured.name, coefficient, *element)?);
                     }
-                    ObservedValue::Energy(parts)
+                    let works = passed
+                        .iter()
+                        .flat_map(|(coefficient, own)| times(work(&self.scaled, own), coefficient));
+                    let works = works.collect();
+                    ObservedValue::Energy { held, passed: self.flowing(works) }
                 }
             };
             let at_start = at_start(&self.scaled, &measured.value, &value);
-            let flow = flow(&self.scaled, &self.scaled.scene.observables[place]);
+            let flow = flow(&self.scaled, &self.scaled.scene.observables[place], &measured.value);
             let balance = flow
                 .zip(at_start)
                 .map(|(flow, at_start)| Balance { at_start, flow: self.flowing(flow) });
             let readings = match measured.value {
                 MeasuredValue::Linear(terms) => terms,
-                MeasuredValue::Energy(_) => Vec::new(),
+                MeasuredValue::Energy { .. } => Vec::new(),
             };
             let acts =
                 measured.loads.map(|loads| loads.into_iter().map(|load| self.acts(load)).collect());

@@ -26,16 +26,16 @@ pub struct Observed {
 }
 
 impl Observed {
-    fn energies(&self) -> &[EnergyTerm] {
+    fn energies(&self) -> (&[EnergyTerm], &[FlowTerm]) {
         match &self.value {
-            ObservedValue::Linear(_) => &[],
-            ObservedValue::Energy(terms) => terms,
+            ObservedValue::Linear(_) => (&[], &[]),
+            ObservedValue::Energy { held, passed } => (held, passed),
         }
     }
 
     /// The waves that enter bars whose squares are part of it: the bar, and whether to the right (0) or to the left (1).
     pub(crate) fn entering(&self) -> impl Iterator<Item = [usize; 2]> {
-        self.energies().iter().filter_map(|term| match term.squared {
+        self.energies().0.iter().filter_map(|term| match term.squared {
             Squared::Reading(_) => None,
             Squared::Entering { bar, direction } => Some([bar, direction]),
         })
@@ -43,13 +43,13 @@ impl Observed {
 
     /// All that is read for it.
     pub(crate) fn all_readings(&self) -> impl Iterator<Item = &Reading> {
-        let energies = self.energies();
+        let (energies, passed) = self.energies();
         let squared = energies.iter().filter_map(|term| match &term.squared {
             Squared::Reading(reading) => Some(reading),
             Squared::Entering { .. } => None,
         });
         let times = energies.iter().filter_map(|term| term.times.as_ref());
-        let flow = self.balance.iter().flat_map(|balance| &balance.flow);
+        let flow = self.balance.iter().flat_map(|balance| &balance.flow).chain(passed);
         let factors = flow.flat_map(|term| &term.factors).map(|(reading, _)| reading);
         let linear = self.readings.iter().map(|term| &term.of);
         linear.chain(squared).chain(times).chain(factors)
@@ -61,8 +61,8 @@ impl Observed {
 pub enum ObservedValue {
     /// Linear in the waves.
     Linear(Observation),
-    /// A sum of energies.
-    Energy(Vec<EnergyTerm>),
+    /// A sum of energies: what elements hold, and the integral since the start of what flows past.
+    Energy { held: Vec<EnergyTerm>, passed: Vec<FlowTerm> },
 }
 
 /// What an energy is the square of.
@@ -103,9 +103,9 @@ pub(crate) struct Balance {
 
 /// A coefficient times the product of readings, each of them also in waves.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct FlowTerm {
+pub struct FlowTerm {
     pub coefficient: Fraction,
-    pub factors: Vec<(Reading, Observation)>,
+    pub(crate) factors: Vec<(Reading, Observation)>,
     /// From when until when it is not zero, where that is known.
     pub acts: Option<Vec<(Fraction, Option<Fraction>)>>,
     /// A function of time that it is multiplied with.

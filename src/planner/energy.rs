@@ -1,10 +1,13 @@
-//! Energies as signals: `Σ c q²` of masses and springs, `Σ c q p` of local contacts, `Σ c ∫ q² dt` of the waves in bars.
+//! Energies as signals: `Σ c q²` of masses and springs, `Σ c q p` of local contacts, `Σ c ∫ q² dt` of the waves in bars,
+//! `Σ c ∫ q p dt` of what has passed a place.
 
 use super::SignalError;
 use super::together::Sources;
 use crate::expression::{Fraction, Root};
-use crate::network::{EnergyTerm, Network, Squared, Window};
-use crate::signal::{Combination, EvaluateError, Integral, Operation, Product, Scale, Signal};
+use crate::network::{EnergyTerm, FlowTerm, Network, Squared, Window};
+use crate::signal::{
+    ClosedSignal, Combination, Constant, EvaluateError, Integral, Operation, Product, Scale, Signal,
+};
 use num_traits::{Signed as _, Zero as _};
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
@@ -15,7 +18,7 @@ const REACH_BITS: u64 = 64;
 /// An energy of a scene, the sum of its terms, on a window of the user's time, of sources that are known until its end.
 pub(super) fn of_sources<'a>(
     sources: &Sources<'a>,
-    terms: &[EnergyTerm],
+    (terms, passed): (&[EnergyTerm], &[FlowTerm]),
     unit: &Root,
     [from, to]: [&Rational; 2],
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
@@ -53,6 +56,13 @@ pub(super) fn of_sources<'a>(
         operands.push(Rc::new(Operation::new(&scale, integral, one_root(), [from, to])));
         products.push(Product { coefficient, factors: vec![place] });
     }
+    if !passed.is_empty() {
+        let power = power(sources, passed, [&Rational::zero(), to])?;
+        let work = Integral::new(&scale, Rc::new(power), None, Fraction::zero(), [from, to]);
+        let (coefficient, factors) = (Fraction::one(), vec![operands.len()]);
+        operands.push(Rc::new(Operation::new(&scale, work, one_root(), [from, to])));
+        products.push(Product { coefficient, factors });
+    }
     let sum = combination(&scale, operands, products);
     Ok(Box::new(Operation::new(&scale, sum, unit.clone(), [from, to])))
 }
@@ -69,12 +79,46 @@ fn combination<'a>(
     Combination { scale: Rc::clone(scale), operands, products }
 }
 
+/// What flows in, or past a place, on a window.
+pub(super) fn power<'a>(
+    sources: &Sources<'a>,
+    flow: &[FlowTerm],
+    window: [&Rational; 2],
+) -> Result<Operation<'a, Combination<'a>>, SignalError> {
+    let scale = Scale::of(sources.network);
+    let factors = flow.iter().flat_map(|term| &term.factors);
+    let mut operands = sources.signals(
+        factors.map(|(reading, waves)| (waves, Squared::Reading(reading.clone()), window)),
+    )?;
+    let mut places = 0..operands.len();
+    let mut products = Vec::new();
+    for FlowTerm { coefficient, factors, acts, course } in flow {
+        let mut factors: Vec<usize> = places.by_ref().take(factors.len()).collect();
+        // What is known to be zero before and after is a product with zero there.
+        let acting = acts.as_ref().map(|acts| Constant::within(&scale, acts, window));
+        if let Some(Ok(acting)) = acting {
+            factors.push(operands.len());
+            operands.push(Rc::new(Operation::new(&scale, acting, one_root(), window)));
+        }
+        if let Some(course) = course {
+            factors.push(operands.len());
+            operands.push(Rc::new(ClosedSignal::of_course(sources.network, course, window)?));
+        }
+        products.push(Product { coefficient: coefficient.clone(), factors });
+    }
+    let flow = combination(&scale, operands, products);
+    Ok(Operation::new(&scale, flow, one_root(), window))
+}
+
 /// A time before which no term is asked for its quantity.
 pub(super) fn reach(
     network: &Network,
-    terms: &[EnergyTerm],
+    (terms, passed): (&[EnergyTerm], &[FlowTerm]),
     from: &Rational,
 ) -> Result<Rational, EvaluateError> {
+    if !passed.is_empty() {
+        return Ok(Rational::zero());
+    }
     let scale = Scale::of(network);
     let mut terms = terms.iter();
     terms.try_fold(from.clone(), |least, term| Ok(least.min(reach_of(&scale, term, from)?)))

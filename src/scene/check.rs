@@ -367,7 +367,7 @@ impl Check<'_> {
                     self.fault(mistake, parts);
                 }
                 let first = &seen.terms[0];
-                let energy = |seen: &Seen| seen.measure == Measure::Energy;
+                let energy = |seen: &Seen| seen.measure.is_energy();
                 let differ = part.dimension() != first.dimension();
                 if (scene.dimensional && differ) || energy(part) != energy(first) {
                     let parts = [here, Part::Term { observable, term: 0 }];
@@ -389,6 +389,9 @@ impl Check<'_> {
             && matches!(measure, Measure::Force | Measure::Strain | Measure::Stress)
         {
             return Some(Mistake::NoForceInRigid);
+        }
+        if bar.ideal.is_some() && *measure == Measure::Work {
+            return Some(Mistake::NoWorkInIdeal);
         }
         if matches!(place, Place::Element(_)) {
             return self.infinite_bar(seen).map(|_| Mistake::Infinite);
@@ -452,7 +455,7 @@ fn is_infinite(measure: Measure, bar: &Bar) -> bool {
 
 /// Whether an element as a whole, or a section of it, has a measure.
 fn is_measurable(measure: Measure, kind: &Kind, place: &Place) -> bool {
-    use Measure::{Compression, Displacement, Energy, Force, Momentum, Velocity};
+    use Measure::{Compression, Displacement, Energy, Force, Momentum, Velocity, Work};
     match (kind, place) {
         (Kind::Bar(_), Place::Element(_)) => matches!(measure, Energy | Momentum),
         (Kind::Bar(_), _) => !matches!(measure, Compression | Energy | Momentum),
@@ -460,12 +463,15 @@ fn is_measurable(measure: Measure, kind: &Kind, place: &Place) -> bool {
             matches!(measure, Velocity | Displacement | Energy | Momentum)
         }
         (Kind::Spring(_) | Kind::Hertz(_), Place::Element(_)) => {
-            matches!(measure, Force | Compression | Energy)
+            matches!(measure, Force | Compression | Energy | Work)
         }
         (Kind::Support(_), Place::Element(_)) => {
-            matches!(measure, Velocity | Displacement | Force | Energy)
+            matches!(measure, Velocity | Displacement | Force | Energy | Work)
         }
-        (Kind::Load(_), Place::Element(_)) => matches!(measure, Velocity | Displacement),
+        (Kind::Load(load), Place::Element(_)) => {
+            matches!(measure, Velocity | Displacement)
+                || measure == Work && load.drive == Drive::Force
+        }
         _ => false,
     }
 }

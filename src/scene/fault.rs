@@ -154,6 +154,9 @@ pub enum Mistake {
     /// The force in a rigid bar.
     #[error("the force in a rigid bar is unknown")]
     NoForceInRigid,
+    /// Work at a section of a bar without waves.
+    #[error("what passes a section of a bar without waves is unknown")]
+    NoWorkInIdeal,
     /// Energy or momentum of an endless bar that moves or is strained as a whole.
     #[error("this endless bar has infinite energy or momentum from the start")]
     Infinite,

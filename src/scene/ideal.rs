@@ -240,6 +240,8 @@ impl Scene {
                 Body::Impedance { .. } => Ok(vec![seen.clone()]),
             },
             Measure::Force | Measure::Compression => Ok(vec![at(Place::Element(spring))]),
+            // Refused before.
+            Measure::Work => Ok(vec![seen.clone()]),
         }
     }
 }

@@ -49,10 +49,13 @@ pub enum Measure {
     Energy,
     /// Of a bar, a mass, or of the whole line.
     Momentum,
+    /// The energy that has passed a section to the right since the start, `∫ X v dt`; of a spring, a local contact or a
+    /// support the work done on it, of a load the work that it has done.
+    Work,
 }
 
 impl Measure {
-    pub(crate) const ALL: [Measure; 8] = [
+    pub(crate) const ALL: [Measure; 9] = [
         Measure::Velocity,
         Measure::Force,
         Measure::Strain,
@@ -61,6 +64,7 @@ impl Measure {
         Measure::Compression,
         Measure::Energy,
         Measure::Momentum,
+        Measure::Work,
     ];
 
     const fn word_and_dimension(self) -> (&'static str, Dimension) {
@@ -73,6 +77,7 @@ impl Measure {
             Measure::Compression => ("compression", Dimension::LENGTH),
             Measure::Energy => ("energy", Dimension::ENERGY),
             Measure::Momentum => ("momentum", Dimension::MOMENTUM),
+            Measure::Work => ("work", Dimension::ENERGY),
         }
     }
 
@@ -83,6 +88,11 @@ impl Measure {
 
     pub const fn dimension(self) -> Dimension {
         self.word_and_dimension().1
+    }
+
+    /// Whether it is an energy, which is not linear in the motion.
+    pub const fn is_energy(self) -> bool {
+        matches!(self, Measure::Energy | Measure::Work)
     }
 }
 

@@ -2,12 +2,13 @@
 //! and their extrema are those of dense samples; where contacts stay closed and where they open.
 
 use wavestep::ball::Ball;
+use wavestep::expression::Fraction;
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
 use wavestep::planner::{Purpose, of_scene};
 use wavestep::signal::{
-    At, EvaluateError, Goal, Limit, Marched, MethodError, Near, Place, Root, Search, Signal,
-    Summation, Summed, Value, value,
+    At, Effort, EvaluateError, Goal, Limit, Marched, MethodError, Near, Place, Root, Search,
+    Signal, Summation, Summed, Value, value,
 };
 use wavestep_polynomial::Rational;
 
@@ -279,7 +280,8 @@ const HAMMER: &str = "scene \"Hammer\"\nload push { force = 3*sin(1000*pi*t) kN,
     load weight { force = (1 - 500*t) kN, from = 1/4 ms }\nmass ram { mass = 1 kg, velocity = 2 m/s }\n\
     bar rod { impedance = 3000 N*s/m, travel = 200 us }\nsupport toe { stiffness = 2 MN/m, damping = 1 kN*s/m }\n\
     line free - push - weight - ram JOINT rod - toe - free\n\
-    observe all = energy(line)\nobserve momentum = momentum(line)\n";
+    observe all = energy(line)\nobserve momentum = momentum(line)\n\
+    observe passed = work(rod.at(1/3)) + 2*work(toe) - energy(toe)\nobserve given = work(push)\n";
 
 /// What is searched, by its flow, is what is evaluated: values and derivatives agree, also with what is
 /// conserved.
@@ -295,8 +297,8 @@ fn what_flows_in_is_the_derivative() {
     let hammer = || network(&HAMMER.replace("JOINT", "-"));
     let struck = || network(&(HAMMER.replace("JOINT", "|") + "contacts open\n"));
     let scenes: [(Network, &[&str], Rational); 14] = [
-        (hammer(), &["all", "momentum"], rational(1, 500)),
-        (struck(), &["all", "momentum"], rational(1, 500)),
+        (hammer(), &["all", "momentum", "passed", "given"], rational(1, 500)),
+        (struck(), &["all", "momentum", "passed", "given"], rational(1, 500)),
         (weights(), &["all", "momentum"], rational(6, 1)),
         (falling(), &["all", "momentum"], rational(6, 1)),
         (network(&pulses("-", "force")), &["all", "momentum"], rational(6, 1)),
@@ -351,7 +353,7 @@ fn what_flows_in_is_the_derivative() {
             }
         }
     }
-    assert_eq!(compared, 1035 + (2 * 7 + 6) * 3 * 23);
+    assert_eq!(compared, 1035 + (2 * 7 + 6 + 4) * 3 * 23);
     assert!(flat >= 10, "{flat} derivatives");
 }
 
@@ -512,5 +514,57 @@ fn energies_that_come_in_fast_are_enclosed() {
         let off = known.subtract(&exact, BITS);
         assert!(off.contains_zero(), "{known} {exact}");
         assert!(*off.radius() <= exact.magnitude().scale(-120), "{first}: {known}");
+    }
+}
+
+/// Dampers, an open contact, a strained bar, a load and an endless bar.
+const WORKING: &str = "scene \"Working\"\nbar a { impedance = 2, travel = 1, velocity = 1 }\n\
+    spring k { stiffness = 1, damping = 1/2 }\nbar b { impedance = 1, travel = 3/2, strain = -1/4, velocity = 1/3 }\n\
+    mass m { mass = 1/2 }\nload p { force = t*exp(-t)/4, from = 1, until = 3 }\nbar c { impedance = 1/2 }\n\
+    support u { damping = 1/3, stiffness = 2 }\nline free - u - a JOINT k - b - m - p - c - endless\n";
+
+/// What enters a bar and does not leave it stays in it, and what no element holds was spent or not given yet.
+#[test]
+fn work_is_energy_that_has_passed() {
+    let observed = "observe in_b = energy(b) - work(b.left) + work(b.right)\n\
+        observe in_c = energy(c) - work(c.left)\n\
+        observe half = work(b.left) - work(b.at(1/2)) + work(b.at(1/2)) - work(b.right) - energy(b)\n\
+        observe all = energy(line) - work(p) + work(k) - energy(k) + work(u) - energy(u)\n";
+    for joint in ["-", "|"] {
+        let opens = if joint == "|" { "contacts open\n" } else { "" };
+        let network = network(&(WORKING.replace("JOINT", joint) + opens + observed));
+        for name in ["in_b", "in_c", "half", "all"] {
+            let work = signal(&network, name, &rational(6, 1));
+            let at_start = derivative(&*work, 0, &rational(1, 1 << 20));
+            for n in 1..12 {
+                let at = rational(12 * n + 1, 25);
+                assert_same(
+                    &derivative(&*work, 0, &at),
+                    &at_start,
+                    1.0,
+                    &format!("{name} at {at}"),
+                );
+            }
+        }
+    }
+}
+
+/// A mass on an endless bar gives it `M V²/2 (1 − exp(−2Zt/M))`, and so it does to a damper.
+#[test]
+fn work_has_exact_values() {
+    let text = "scene \"Ram\"\nmass m { mass = 2, velocity = 3 }\nREST\n";
+    let bar = "bar b { impedance = 4 }\nline free - m - b - endless\nobserve w = work(b.left)";
+    let damper = "support b { damping = 4 }\nline free - m - b - free\nobserve w = work(b)";
+    let spring = "spring b { damping = 4 }\nline free - m - b - fixed\nobserve w = work(b)";
+    for rest in [bar, damper, spring] {
+        let network = network(&text.replace("REST", rest));
+        let work = signal(&network, "w", &rational(3, 1));
+        assert_eq!(work.count().unwrap(), 1);
+        let half = Fraction::constant(&rational(1, 2));
+        assert!(work.exact_at(0, &half, Effort::Much).is_some());
+        let exp = Ball::from_integer(&(-2).into()).exp(BITS).unwrap();
+        let exact = Ball::from_integer(&1.into()).subtract(&exp, BITS);
+        let exact = exact.multiply_rational(&rational(9, 1), BITS);
+        assert_same(&derivative(&*work, 0, &rational(1, 2)), &exact, 1e-20, rest);
     }
 }

@@ -52,6 +52,8 @@ const MOST_CUTS: usize = 32;
 pub enum NotOverSymbol {
     #[error("local contacts are not supported over a symbol")]
     LocalContact,
+    #[error("the energy that has passed somewhere is not supported over a symbol")]
+    Work,
     #[error(
         "a contact that opens at the start, beside a load without mass between, or that closes between two masses is not supported over a symbol"
     )]
@@ -143,7 +145,7 @@ impl<'a> Over<'a> {
             let moments = loads.flat_map(|load| std::iter::once(&load.from).chain(&load.until));
             let terms = match &own.measured.value {
                 MeasuredValue::Linear(terms) => &terms[..],
-                MeasuredValue::Energy(_) => &[],
+                MeasuredValue::Energy { .. } => &[],
             };
             let delays = terms.iter().flat_map(|term| term.of.delays());
             let times = travels.chain(moments).chain(delays);
@@ -322,7 +324,10 @@ impl<'a> Over<'a> {
                     parts.extend(self.linear(term, grid)?);
                 }
             }
-            MeasuredValue::Energy(shares) => {
+            MeasuredValue::Energy { held: shares, passed } => {
+                if !passed.is_empty() {
+                    return Err(NotOverSymbol::Work);
+                }
                 let (model, layout) = (self.scaled.model(), &self.layout);
                 for (share, element) in shares {
                     let share = self.symbol.fraction(share)?;

@@ -237,6 +237,7 @@ impl Lowering<'_> {
                 ", or the end of a bar or a mass next to it"
             }
             (Kind::Mass(_), Measure::Force) => ", or the force at the end of a bar next to it",
+            (_, Measure::Work) => ", or the work at the end of a bar next to it",
             _ => "",
         };
         (
@@ -314,6 +315,10 @@ fn plain(mistake: Mistake) -> (&'static [&'static str], &'static str) {
         Mistake::NoForceInRigid => (
             &["of a rigid bar"],
             "observe its velocity, or the force in a spring or bar next to it",
+        ),
+        Mistake::NoWorkInIdeal => (
+            &["of a bar without waves"],
+            "observe the work at a bar with waves or on a spring, or remove `as`",
         ),
         Mistake::Infinite => (
             &["of an endless bar", "in motion or strained from the start"],

@@ -23,6 +23,9 @@ use std::ops::Range;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
+/// Over so many stretches since the start an integral is an exact sum: each of them adds its own exponentials.
+const MOST_EXACT: usize = 16;
+
 /// How often a stretch is halved at most.
 const MAX_DEPTH: usize = 40;
 
@@ -395,6 +398,9 @@ impl Rule for Integral<'_> {
             sum += &(&self.before * &(last - at)).into();
         }
         let first = places[LOWER].saturating_sub(1);
+        if self.last.is_none() && places[UPPER] - first > MOST_EXACT {
+            return None;
+        }
         for stretch in first..=places[UPPER] {
             let integrand = self.of.exact_at(stretch, &time, effort)?;
             if integrand.is_zero() {

@@ -65,6 +65,7 @@ fn compared(
     }
     if scene.has_energy() {
         *observables += "observe stored = energy(line)\nobserve carried = momentum(line)\n";
+        *observables += &spent(scene);
     }
     let text = scene.text() + observables;
     reads_back(&text, true)?;
@@ -171,6 +172,24 @@ fn compare_values(
     Ok(())
 }
 
+/// The work of all elements on what is outside: what dampers have taken less what loads have given.
+fn spent(scene: &Scene) -> String {
+    let mut terms = String::new();
+    for (element, own) in scene.elements.iter().enumerate() {
+        match own {
+            Element::Spring { .. } | Element::Support { .. } => {
+                terms += &format!(" + work(e{element}) - energy(e{element})");
+            }
+            Element::Load(_) => terms += &format!(" - work(e{element})"),
+            Element::Bar { .. } | Element::Mass { .. } => {}
+        }
+    }
+    match terms.strip_prefix(" + ").unwrap_or(&terms) {
+        "" => String::new(),
+        terms => format!("observe spent = {}\n", terms.trim_start()),
+    }
+}
+
 /// Energy and momentum change by what the solver says comes from outside.
 fn compare_balance(
     (scene, solver): (&Scene, &Solver),
@@ -182,7 +201,11 @@ fn compare_balance(
     for (name, measure, given, place) in [
         ("stored", Measure::Energy, work, ENERGY),
         ("carried", Measure::Momentum, impulse, MOMENTUM),
+        ("spent", Measure::Energy, -work, ENERGY),
     ] {
+        if comparison.problem.wanted(name).is_err() {
+            continue;
+        }
         let at = [(Rational::default(), Limit::Right), (user.clone(), Limit::Right)];
         let digits = comparison.digits(name, &at)?;
         let [Some(start), Some(told)] = &digits[..] else { continue };

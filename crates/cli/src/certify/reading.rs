@@ -10,7 +10,7 @@ use num_rational::BigRational;
 use serde_json::{Map, Value as Json, json};
 use wavestep::ball::{Bound, Decimal};
 use wavestep::expression::Fraction;
-use wavestep::network::{Contacts, Face, Field, Lump, MeasuredValue, Reading, Term};
+use wavestep::network::{Contacts, Face, Field, Lump, MeasuredValue, Passage, Reading, Term};
 use wavestep::problem::{Problem, number};
 use wavestep::scene::Kind;
 use wavestep::signal::{Place, Root, Value};
@@ -72,7 +72,7 @@ impl<'a> Read<'a> {
             let measures = &own.network.measures;
             let measured = measures.iter().find(|measured| measured.name == of.name);
             let Some(measured) = measured else { return Ok(None) };
-            let observed = rows(own, &measured.value, &mut writer);
+            let observed = rows(own, &measured.value, &mut writer)?;
             let mut document = own.document([&end, &until], digits, precision.bits, &mut writer)?;
             document.insert("observed".into(), observed);
             documents.push(document);
@@ -252,19 +252,43 @@ fn shares_event(own: &Map<String, Json>, other: &Map<String, Json>) -> bool {
 }
 
 /// What is read of the elements of a line.
-fn rows(line: &Line<'_>, value: &MeasuredValue, writer: &mut Writer) -> Json {
-    match value {
-        MeasuredValue::Linear(terms) => terms.iter().map(|term| read(line, term, writer)).collect(),
-        MeasuredValue::Energy(parts) => {
-            let elements = &line.network.scene().elements;
-            // Loads hold none.
-            let held = parts.iter().filter(|own| !matches!(elements[own.1].kind, Kind::Load(_)));
-            let row = |(c, own): &(Fraction, usize)| {
-                json!([writer.function(c), "energy", elements[*own].name])
-            };
-            held.map(row).collect()
+fn rows(line: &Line<'_>, value: &MeasuredValue, writer: &mut Writer) -> Result<Json, Failure> {
+    let (held, passed) = match value {
+        MeasuredValue::Linear(terms) => {
+            return Ok(terms.iter().map(|term| read(line, term, writer)).collect());
         }
+        MeasuredValue::Energy { held, passed } => (held, passed),
+    };
+    let (elements, layout) = (&line.network.scene().elements, &line.network.layout);
+    let is_load = |element: usize| matches!(elements[element].kind, Kind::Load(_));
+    let mut rows = Vec::new();
+    // Loads hold none.
+    for (c, own) in held.iter().filter(|own| !is_load(own.1)) {
+        rows.push(json!([writer.function(c), "energy", elements[*own].name]));
     }
+    for (c, passage) in passed {
+        let c = writer.function(c);
+        rows.push(match passage {
+            Passage::Section(section) => {
+                let delays = section
+                    .delays
+                    .each_ref()
+                    .map(|own| own.as_ref().map(|own| writer.function(own)));
+                let bar = layout.bars[section.bar];
+                json!([c, "work", elements[bar].name, delays[0], delays[1]])
+            }
+            Passage::Element(lump) => {
+                let element = layout.nodes[lump.node].elements[lump.place].element;
+                if is_load(element) {
+                    let message = "there are no certificates of the work of loads";
+                    let remedy = "observe the work at the end of a bar next to it";
+                    return Err(Failure::usage(message, remedy));
+                }
+                json!([c, "work", elements[element].name])
+            }
+        });
+    }
+    Ok(Json::Array(rows))
 }
 
 /// Whether a force at the end of a bar or in a damper is read.

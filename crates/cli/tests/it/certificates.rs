@@ -125,18 +125,22 @@ const NICE: &str = "scene \"Nice times\"\nload p { force = 1 - t, until = 3 }\n\
 /// Momenta and energies of moving and strained bars, of masses, springs and supports, with dampers, contacts and units.
 pub(super) const CONTENTS: &str = "scene \"Contents\"\nbar a { impedance = 1, travel = 1, velocity = 1, strain = 1/5 }\n\
     bar b { impedance = 2, travel = 3/2, velocity = -1/3 }\nmass m { mass = 2, velocity = -1/3 }\n\
-    spring k { stiffness = 3, damping = 1/4 }\nsupport u { stiffness = 1/2 }\nbar c { impedance = 3 }\n\
+    spring k { stiffness = 3, damping = 1/4 }\nsupport u { stiffness = 1/2, damping = 1/5 }\nbar c { impedance = 3 }\n\
     line free - a | b - m - k - u - c - endless\ncontacts open\n\
     observe in_bars = energy(a) - 2*energy(c)\nobserve in_others = energy(m) + energy(k) + energy(u)\n\
-    observe all = energy(line)\nobserve push = momentum(line)\nobserve other = momentum(a) - momentum(c)\n";
+    observe all = energy(line)\nobserve push = momentum(line)\nobserve other = momentum(a) - momentum(c)\n\
+    observe passed = work(a.at(1/3)) - work(b.right) + 2*work(c.left)\nobserve done = work(k) + work(u) - energy(m)\n";
 
-pub(super) const MORE_CONTENTS: [&str; 10] = [
+pub(super) const MORE_CONTENTS: [&str; 13] = [
     "contents.wave --quantity in_bars --at 29/8",
     "contents.wave --min in_others --to 3",
     "contents.wave --max all --to 2",
     "contents.wave --quantity push --at 4",
     "contents.wave --zero other --to 3",
     "contents.wave --quantity all --points 4 --to 3",
+    "contents.wave --quantity passed --at 7/2",
+    "contents.wave --max passed --to 3",
+    "contents.wave --min done --to 5/2",
     "blow.wave --max carried --to 6ms",
     "blow.wave --max given --to 6ms --digits 9",
     "mass-on-fixed-bar --set mu=1 --quantity energy --at 3",

@@ -115,7 +115,7 @@ pub fn energies(
     let teller = teller(problem);
     let mut rows = Vec::new();
     for Observed { wanted, signal } in observed {
-        if problem.measure(wanted) == Some(Measure::Energy) {
+        if problem.measure(wanted).is_some_and(Measure::is_energy) {
             let mut row = vec![wanted.name.clone()];
             for time in window {
                 let energy = digits(&**signal, time, Limit::Right, DIGITS, VALUE_BITS)?;
