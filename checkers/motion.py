@@ -15,6 +15,7 @@ from series import ONE, PRECISION, ZERO, Duration, Number, begins, interval, is_
 
 KEYS = {kind: {"is"} for kind in ("free", "fixed", "endless", "contact")}
 KEYS |= {kind: {"is", "name", "stiffness", "damping"} for kind in ("spring", "support")}
+KEYS["gap"] = {"is", "width"}
 KEYS["bar"] = {"is", "name", "travel", "impedance", "velocity", "force"}
 KEYS |= {"mass": {"is", "name", "mass", "velocity"}, "force": {"is", "name", "course", "from", "until"}}
 CLAIMS = {
@@ -155,7 +156,7 @@ class Line:
                 place = len(self.links) if kind in ("bar", "spring") else supports if kind == "support" else len(runs) - 1
                 self.places[element["name"]] = kind, place
                 supports += kind == "support"
-            if element["is"] in ("bar", "spring", "contact"):
+            if element["is"] in ("bar", "spring", "contact", "gap"):
                 self.links.append(self.link(element))
                 self.travels.append(element.get("travel"))
                 runs.append([])
@@ -244,7 +245,7 @@ class Line:
             return {"is": "bar", "travel": travel, **own}
         if element["is"] == "spring":
             return {"is": "spring", **{key: self.number(element[key]) for key in ("stiffness", "damping")}}
-        return {"is": "contact"}
+        return {"is": "contact", "gap": self.number(element["width"]) if element["is"] == "gap" else ZERO}
 
 
 class System:
@@ -393,13 +394,15 @@ class Motion:
         need(all(0 <= contact < len(line.contacts) for contact, *_ in self.claims), "an event without a contact")
         self.instants, self.now, self.marks, self.past, self.events = instants, START, [], [], []
         self.open = {i: {"flat": 0, "idle": None, "pressed": False} for i in line.contacts}
-        self.closed = set(line.contacts)
+        gaps = {i: line.links[i]["gap"] for i in line.contacts}
+        need(all(own is ZERO or own.sign() == 1 for own in gaps.values()), "a gap may be no gap")
+        self.closed = {i for i, own in gaps.items() if own is ZERO}
         springs = [i for i, link in enumerate(line.links) if link["is"] == "spring"]
         self.state = {
             "v": list(line.starts),
             "alpha": {i: ZERO for i in springs},
             "u": dict.fromkeys(range(len(line.supports)), ZERO),
-            "gap": {i: ZERO for i in line.contacts},
+            "gap": gaps,
         }
         self.system = System(line, self.closed)
         for own, fixed in zip(self.system.members, self.system.fixed):

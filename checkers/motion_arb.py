@@ -34,6 +34,7 @@ ELEMENTS = {
     **dict.fromkeys(("free", "fixed", "endless", "contact"), {"is"}),
     **dict.fromkeys(("spring", "support"), {"is", "name", "stiffness", "damping"}),
     "bar": {"is", "name", "impedance", "travel", "velocity", "force"},
+    "gap": {"is", "width"},
     "mass": {"is", "name", "mass", "velocity"},
     "force": {"is", "name", "course", "from", "until"},
 }
@@ -72,9 +73,11 @@ class Parts:
                 need(type(own["name"]) is str and own["name"] not in self.named, "two elements have one name")
                 places = {"bar": len(self.links), "spring": len(self.links), "support": len(self.supports)}
                 self.named[own["name"]] = own["is"], places.get(own["is"], run)
-            if own["is"] in ("bar", "spring", "contact"):
-                keys = {"bar": ("impedance", "velocity", "force"), "spring": ("stiffness", "damping"), "contact": ()}[own["is"]]
-                link = {"is": own["is"], **{key: self.number(own[key]) for key in keys}}
+            if own["is"] in ("bar", "spring", "contact", "gap"):
+                keys = {"bar": ("impedance", "velocity", "force"), "spring": ("stiffness", "damping"), "gap": ("width",)}
+                link = {"is": own["is"], **{key: self.number(own[key]) for key in keys.get(own["is"], ())}}
+                need(own["is"] != "gap" or sign(link["width"]) == 1, "a gap has no width")
+                link["is"] = "contact" if own["is"] == "gap" else own["is"]
                 if own["is"] == "bar":
                     link["travel"] = None if own["travel"] is None else self.length(own["travel"])
                     link["rows"] = own["travel"]
@@ -474,14 +477,14 @@ class Story:
             need(not before or before[-1] <= self.told[-1][2], "two events of a contact are in one interval")
         self.origins, self.now = origins, START
         self.begins, self.past, self.integrals, self.happened = [], [], {}, []
-        self.closed, self.idle, self.flush, self.pressed = set(parts.contacts), {}, {}, set()
+        self.gaps = {i: parts.links[i].get("width", NIL) for i in parts.contacts}
+        self.closed, self.idle, self.flush, self.pressed = {i for i in self.gaps if is_nil(self.gaps[i])}, {}, {}, set()
         heavy = [r for r, m in enumerate(parts.mass) if sign(m) == 1 and not parts.fixed[r]]
         self.state = {("v", r): short(parts.momentum[r] / parts.mass[r]) for r in heavy}
         self.state |= {("alpha", i): NIL for i, link in enumerate(parts.links) if link["is"] == "spring"}
         self.state |= {("u", n): NIL for n in range(len(parts.supports))}
-        self.gaps = {i: NIL for i in parts.contacts}
         self.laws = Laws(parts, self.closed)
-        for i in parts.contacts:  # what is rigid on both sides of a contact moves as one already
+        for i in self.closed:  # what is rigid on both sides of a contact moves as one already
             if self.laws.rigid(i):
                 known = [NIL if parts.fixed[r] else self.state["v", r] for r in (i, i + 1)]
                 need(is_nil(known[0] - known[1]), "two rigid bodies meet at the start")

@@ -379,7 +379,7 @@ fn remedy_of_network(error: &NetworkError) -> &'static str {
             "give the symbols values; or state the elements by their rates a and b, or sigma and omega, \
              as docs/scene-language.md shows"
         }
-        NetworkError::NotLinear(_) => "compute values",
+        NetworkError::NotLinear(_) | NetworkError::Apart(_) => "compute values",
         NetworkError::Massless(_) => {
             "a spring passes a force on unchanged: put the load behind it, or put a mass or a damper at the joint"
         }

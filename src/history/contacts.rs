@@ -52,6 +52,13 @@ pub(crate) struct Contact {
     pub pressed: bool,
 }
 
+impl Contact {
+    /// At the start.
+    pub fn begun(gap: Number) -> Contact {
+        Contact { closed: gap.is_zero(), gap, flat: 0, idle: None, pressed: false }
+    }
+}
+
 /// What keeps a contact as it is on a cell while it is not negative: its gap while it is open; its force while it
 /// is closed, of a local one its compression.
 pub(crate) struct Guard {

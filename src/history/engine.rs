@@ -341,15 +341,14 @@ impl Engine {
         Ok(())
     }
 
-    /// The nodes at the start, all contacts closed.
+    /// The nodes at the start, all contacts closed but those that begin apart.
     fn begin(&mut self) -> Outcome<()> {
         let start = Moment::at(Fraction::zero());
-        let contact =
-            || Contact { closed: true, gap: Number::zero(), flat: 0, idle: None, pressed: false };
-        self.open = self.layout.contacts.iter().map(|_| contact()).collect();
+        let gaps = self.layout.contacts.iter().map(|own| self.clock.number(&own.gap));
+        self.open = gaps.map(|gap| Ok(Contact::begun(gap?))).collect::<Outcome<_>>()?;
         for (number, node) in self.nodes.iter().enumerate() {
             let bits = self.cut.bits;
-            let system = self.system(number, |_| true)?;
+            let system = self.system(number, |contact| self.open[contact].closed)?;
             let still = vec![Number::zero(); node.elements.len()];
             let velocity = |run: usize| self.starting_velocity(node, run);
             let impact = |runs| self.impact(node, runs);

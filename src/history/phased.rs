@@ -203,15 +203,17 @@ impl<'a> FollowedSignal<'a> {
 
     /// The same with so many bits that enough are left at the ends of all stretches, if that can be: a light mass between
     /// long bars loses some at each return of a wave, and each event some more. How many are lost hardly depends on how many
-    /// there are.
+    /// there are. Where none is left however many there are, an instant was taken for another one.
     fn counted_with_enough(&self) -> Outcome<usize> {
         let is_local = self.follower.network.local_contact().is_some();
+        let mut before = i64::MIN;
         loop {
             let known = Rc::clone(&self.known.borrow());
             let pieces = known.pieces(self.follower.network, &self.window)?;
             let (bits, left) = (known.engine.cut.bits, known.bits_left(pieces));
             let more = (bits + ENOUGH_BITS.saturating_sub(left).max(0) as u64).min(2 * bits);
-            if is_local || left >= ENOUGH_BITS || more > COUNTED_BITS {
+            let is_in_vain = left <= std::mem::replace(&mut before, left);
+            if is_local || left >= ENOUGH_BITS || more > COUNTED_BITS || is_in_vain {
                 return Ok(pieces.len());
             }
             let engine = self.follower.engine(more);

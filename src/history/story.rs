@@ -100,8 +100,8 @@ impl Story<'_> {
     pub fn begin(network: &Network, digits: usize, bits: u64) -> Outcome<Story<'_>> {
         let engine = Engine::new(network, network.contacts_that_may_open(), bits)?;
         let start = Moment::at(Fraction::zero());
-        let course = || Course {
-            since: Some(start.clone()),
+        let course = |closed: &bool| Course {
+            since: closed.then(|| start.clone()),
             impulse: Number::zero(),
             counted: start.clone(),
             durations: Vec::new(),
@@ -109,7 +109,8 @@ impl Story<'_> {
             opened: None,
             restitution: None,
         };
-        let count = engine.layout.contacts.len();
+        let closed: Vec<bool> =
+            engine.layout.contacts.iter().map(|own| own.gap.is_zero()).collect();
         Ok(Story {
             network,
             engine,
@@ -119,8 +120,8 @@ impl Story<'_> {
             seen: 0,
             waiting: Vec::new(),
             events: Vec::new(),
-            closed: vec![true; count],
-            courses: (0..count).map(|_| course()).collect(),
+            courses: closed.iter().map(course).collect(),
+            closed,
             approaches: None,
         })
     }

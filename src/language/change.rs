@@ -155,14 +155,19 @@ impl<'a> Edits<'a> {
                 self.remove_observables(|term| {
                     let is_force = matches!(
                         term.measure.value,
-                        Measure::Force | Measure::Strain | Measure::Stress
+                        Measure::Force | Measure::Strain | Measure::Stress | Measure::Work
                     );
                     is_force && bars.contains(&&*term.place.value.element.value)
                 });
             }
             Change::Spring(name, share) => {
                 let share = share.as_ref().map(|share| format!(", share = {share}"));
-                self.idealise(name.as_deref(), &format!("spring{}", share.unwrap_or_default()))?;
+                let spring = format!("spring{}", share.unwrap_or_default());
+                let bars = self.idealise(name.as_deref(), &spring)?;
+                self.remove_observables(|term| {
+                    let is_bar = bars.contains(&&*term.place.value.element.value);
+                    term.measure.value == Measure::Work && is_bar
+                });
             }
             Change::Endless(name, beyond) => self.cut(name, *beyond)?,
             Change::Closed => {
@@ -273,13 +278,13 @@ impl<'a> Edits<'a> {
             Beyond::Left => {
                 line.elements.drain(..place);
                 line.joints.drain(..=place);
-                line.joints.insert(0, Joint::Bonded);
+                line.joints.insert(0, "-");
                 line.ends[0] = End::Endless;
             }
             Beyond::Right => {
                 line.elements.truncate(place + 1);
                 line.joints.truncate(place + 1);
-                line.joints.push(Joint::Bonded);
+                line.joints.push("-");
                 line.ends[1] = End::Endless;
             }
         });
@@ -297,12 +302,12 @@ impl<'a> Edits<'a> {
         Ok(())
     }
 
-    fn rewrite_line(&mut self, change: impl FnOnce(&mut Written)) {
+    fn rewrite_line(&mut self, change: impl FnOnce(&mut Written<'_>)) {
         let Some((line, span)) = self.tree.line() else { return };
         let mut written = Written {
             ends: [line.left.value, line.right.value],
             elements: line.elements.iter().map(|own| own.value.clone()).collect(),
-            joints: line.joints.iter().map(|joint| joint.value).collect(),
+            joints: line.joints.iter().map(|joint| self.tree.source.slice(joint.span)).collect(),
         };
         change(&mut written);
         self.all.push((span, written.to_string()));
@@ -346,33 +351,35 @@ fn has_property(bar: &Declaration, names: &[&str]) -> bool {
 }
 
 /// A line as it is written anew.
-struct Written {
+struct Written<'a> {
     ends: [End; 2],
     elements: Vec<String>,
-    joints: Vec<Joint>,
+    /// Their signs, of contacts that begin apart with the width.
+    joints: Vec<&'a str>,
 }
 
 /// Takes an element out of a line. Where it touched a neighbour, what is joined now touches.
-fn leave_out(line: &mut Written, name: &str) {
+fn leave_out(line: &mut Written<'_>, name: &str) {
     let Some(place) = line.elements.iter().position(|own| own == name) else { return };
     line.elements.remove(place);
-    if line.joints.remove(place) == Joint::Contact {
-        line.joints[place] = Joint::Contact;
+    let before = line.joints.remove(place);
+    if before.starts_with('|') {
+        line.joints[place] = before;
     }
     let last = line.elements.len();
     for (side, joint) in [(0, 0), (1, last)] {
         if joint == place && line.ends[side] != End::Fixed {
-            line.joints[joint] = Joint::Bonded;
+            line.joints[joint] = "-";
         }
     }
 }
 
-impl fmt::Display for Written {
+impl fmt::Display for Written<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "line {}", self.ends[0].word())?;
         let names = self.elements.iter().map(String::as_str).chain([self.ends[1].word()]);
         for (joint, name) in self.joints.iter().zip(names) {
-            write!(f, " {} {name}", joint.sign())?;
+            write!(f, " {joint} {name}")?;
         }
         Ok(())
     }

@@ -319,6 +319,8 @@ pub struct Line {
     pub elements: Vec<Name>,
     /// How they are joined, with the ends too: one more than there are elements.
     pub joints: Vec<Spanned<Joint>>,
+    /// How far apart contacts begin: the joint, and the width with its unit.
+    pub gaps: Vec<(usize, Expression, Option<Unit>)>,
     pub right: Spanned<End>,
 }
 

@@ -94,8 +94,12 @@ pub(super) fn of_scene(scene: &Scene) -> BTreeMap<String, String> {
 fn line(scene: &Scene) -> String {
     let mut text = scene.line.left.word().to_owned();
     let names = scene.line.elements.iter().map(|element| scene.elements[*element].name.as_str());
-    for (joint, name) in scene.line.joints.iter().zip(names.chain([scene.line.right.word()])) {
-        text += &format!(" {} {name}", joint.sign());
+    let names = names.chain([scene.line.right.word()]);
+    for ((place, joint), name) in scene.line.joints.iter().enumerate().zip(names) {
+        let metre = if scene.dimensional { " m" } else { "" };
+        let gap = scene.line.gaps.get(&place);
+        let gap = gap.map_or_else(String::new, |gap| format!("{}{metre}|", fraction(gap)));
+        text += &format!(" {}{gap} {name}", joint.sign());
     }
     text
 }

@@ -32,6 +32,8 @@ pub struct Law {
 pub struct Laws {
     /// The runs at the left of the contacts that open.
     pub contacts: Vec<usize>,
+    /// How far apart they begin.
+    gaps: Vec<f64>,
     /// The elements with a displacement, by their places.
     pub springs: Vec<usize>,
     /// By the closed contacts, a bit for each; none where something without mass is resisted by nothing.
@@ -49,7 +51,7 @@ pub struct NodeState {
 }
 
 impl Laws {
-    /// The laws of a node of a line in which velocities are about `speed`.
+    /// The laws of a node of a line in which velocities are about `speed`, with the gaps at the start of all contacts of the line.
     ///
     /// # Errors
     /// [`NotRepresented::Unresisted`], [`NotRepresented::TooManyContacts`].
@@ -57,7 +59,7 @@ impl Laws {
         number: usize,
         line: &Line,
         node: &Node<Fraction>,
-        numbers: &Numbers,
+        (numbers, gaps): (&Numbers, &[f64]),
         speed: f64,
     ) -> Result<Laws, ModelError> {
         let refused = |reason| ModelError::Refused { model: NAME, reason };
@@ -98,8 +100,9 @@ impl Laws {
         };
         let is_kept = |place: &usize| all.system.kept[*place].is_some();
         let springs = (0..own.elements.len()).filter(is_kept).collect();
+        let gaps = opening.iter().map(|(contact, _)| gaps[*contact]).collect();
         let contacts = opening.into_iter().map(|(_, run)| run).collect();
-        Ok(Laws { contacts, springs, by_closed })
+        Ok(Laws { contacts, gaps, springs, by_closed })
     }
 
     /// The law with these contacts closed.
@@ -107,15 +110,16 @@ impl Laws {
         self.by_closed[closed].as_ref()
     }
 
-    /// The node at the start, all contacts closed.
+    /// The node at the start, all contacts closed but those that begin apart.
     pub fn start(&self, node: &Node<f64>, speed: f64) -> Option<NodeState> {
-        let closed = self.by_closed.len() - 1;
+        let gaps = self.gaps.iter().enumerate();
+        let closed = gaps.map(|(place, gap)| usize::from(*gap == 0.0) << place).sum();
         let velocity = |run: usize| match node.mass_and_momentum(run) {
             (mass, momentum) if mass > 0.0 => Some(momentum / mass),
             _ => None,
         };
         let state = self.state(node, closed, velocity, |_| 0.0, speed)?;
-        Some(NodeState { closed, state, gaps: vec![0.0; self.contacts.len()] })
+        Some(NodeState { closed, state, gaps: self.gaps.clone() })
     }
 
     /// The node after one of its contacts has changed; `None` where rigid masses of different velocities meet.

@@ -121,8 +121,11 @@ impl Steps {
         };
         let line = Line::laid_out(scaled, layout)?;
         let numbers = Numbers::new(&scaled.model().constants);
+        let gaps = layout.contacts.iter().map(|own| double(&numbers, &own.gap));
+        let gaps = gaps.collect::<Result<Vec<f64>, _>>()?;
         let laws = layout.nodes.iter().enumerate();
-        let laws = laws.map(|(place, node)| Laws::of(place, &line, node, &numbers, line.speed()));
+        let known = (&numbers, &gaps[..]);
+        let laws = laws.map(|(place, node)| Laws::of(place, &line, node, known, line.speed()));
         let laws = laws.collect::<Result<_, _>>()?;
         let (mut times, mut loads) = (Vec::new(), Vec::new());
         let named = |element: ElementIndex, time: &Option<Fraction>| {

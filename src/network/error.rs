@@ -28,4 +28,7 @@ pub enum NetworkError {
          recurrence, and no exact solution after its first contact"
     )]
     NotLinear(String),
+    /// Of two bodies.
+    #[error("{} and {} do not touch at the start, so this scene has no recurrence", _0[0], _0[1])]
+    Apart([String; 2]),
 }

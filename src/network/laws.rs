@@ -84,13 +84,15 @@ impl Network {
         self.derived.get_or_init(derive).clone()
     }
 
-    /// Refuses a scene with a local contact, whose law is not linear.
-    pub(super) fn all_linear(&self) -> Result<(), NetworkError> {
-        match self.local_contact() {
-            Some(contact) => {
-                Err(NetworkError::NotLinear(self.scene().elements[contact].name.clone()))
+    /// Refuses a scene with a local contact, whose law is not linear, and one whose contacts begin apart.
+    pub(crate) fn all_linear(&self) -> Result<(), NetworkError> {
+        let scene = self.scene();
+        match (self.local_contact(), scene.line.gaps.keys().next()) {
+            (Some(contact), _) => {
+                Err(NetworkError::NotLinear(scene.elements[contact].name.clone()))
             }
-            None => Ok(()),
+            (None, Some(joint)) => Err(NetworkError::Apart(scene.names_beside(*joint))),
+            (None, None) => Ok(()),
         }
     }
 

@@ -33,6 +33,8 @@ pub struct Contact {
     pub run: usize,
     /// The joint of the line.
     pub joint: usize,
+    /// How far apart it begins.
+    pub gap: Fraction,
 }
 
 /// A line as nodes and bars in turn.
@@ -62,7 +64,7 @@ impl Layout {
         let mut open = side(line.left).map(|side| Node::beginning(side, Fraction::zero()));
         for (joint, element) in line.elements.iter().enumerate() {
             if let Some(node) = open.as_mut().filter(|_| is_link(joint)) {
-                layout.contact(scene, node, joint);
+                layout.contact(scene, model, node, joint);
             }
             if !matches!(scene.elements[*element].kind, Kind::Bar(_)) {
                 let node = open.as_mut().expect("an endless line begins with a bar");
@@ -82,7 +84,7 @@ impl Layout {
         }
         if let (Some(mut node), Some(right)) = (open, side(line.right)) {
             if is_link(line.elements.len()) {
-                layout.contact(scene, &mut node, line.elements.len());
+                layout.contact(scene, model, &mut node, line.elements.len());
             }
             layout.close(node, right, &Fraction::zero());
         }
@@ -90,8 +92,9 @@ impl Layout {
     }
 
     /// Adds a contact to the node that begins where the last one ended.
-    fn contact(&mut self, scene: &Scene, node: &mut Node<Fraction>, joint: usize) {
-        let number = self.number(scene, node.links.len(), joint);
+    fn contact(&mut self, scene: &Scene, model: &Model, node: &mut Node<Fraction>, joint: usize) {
+        let gap = model.gaps.get(&joint).cloned().unwrap_or_else(Fraction::zero);
+        let number = self.number(scene, (node.links.len(), joint), gap);
         node.links.push(Link::Contact(number));
     }
 
@@ -99,15 +102,15 @@ impl Layout {
     /// belongs to what is at its left, or to what is at its right where that is the wall.
     fn local_contact(&mut self, scene: &Scene, node: &mut Node<Fraction>, place: usize) {
         let joint = if place == 0 { 0 } else { place + 1 };
-        let contact = self.number(scene, node.links.len() - 1, joint);
+        let contact = self.number(scene, (node.links.len() - 1, joint), Fraction::zero());
         let link = node.links.last_mut().expect("a local contact is a link");
         *link = Link::Local { contact, place: node.elements.len() - 1 };
     }
 
     /// The number of one more contact, at the right of a run.
-    fn number(&mut self, scene: &Scene, run: usize, joint: usize) -> usize {
-        let names = scene.names_beside(joint);
-        self.contacts.push(Contact { names, node: self.nodes.len(), run, joint });
+    fn number(&mut self, scene: &Scene, (run, joint): (usize, usize), gap: Fraction) -> usize {
+        let (names, node) = (scene.names_beside(joint), self.nodes.len());
+        self.contacts.push(Contact { names, node, run, joint, gap });
         self.contacts.len() - 1
     }
 

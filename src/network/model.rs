@@ -71,6 +71,8 @@ pub struct Model {
     pub lumps: BTreeMap<ElementIndex, ElementLaw<Fraction>>,
     /// What those of them do that are loads.
     pub loads: BTreeMap<ElementIndex, ModelLoad>,
+    /// How far apart contacts begin, by their joints.
+    pub gaps: BTreeMap<usize, Fraction>,
 }
 
 type Outcome<T> = Result<T, NetworkError>;
@@ -128,11 +130,18 @@ impl Model {
             bars: BTreeMap::new(),
             lumps: BTreeMap::new(),
             loads: BTreeMap::new(),
+            gaps: BTreeMap::new(),
         };
         let second = one().over(&model.scale.time)?;
         model.slowness = model.number("nu", second);
         for index in &scene.line.elements {
             model.add(scene, *index)?;
+        }
+        let length = model.scale.unit(Dimension::LENGTH)?;
+        for (joint, gap) in &scene.line.gaps {
+            let name = format!("gap_{}", scene.names_beside(*joint).join("_"));
+            let gap = model.in_unit(&name, gap, &length)?;
+            model.gaps.insert(*joint, gap);
         }
         Ok(model)
     }

@@ -30,8 +30,8 @@ pub enum Checked {
         /// How many of the first echoes were derived.
         echoes: usize,
     },
-    /// A scene with a local contact of this name.
-    LocalContact(String),
+    /// A scene whose motion is followed without one, and why.
+    NoRecurrence(String),
     /// A scene that is derived only once its symbols have values.
     NeedsValues {
         /// Its symbols, with what is known of them.
@@ -92,7 +92,13 @@ impl Problem {
     pub fn check(&self) -> Result<Checked, ProblemError> {
         self.can_begin()?;
         if let Some(contact) = self.local_contact() {
-            return Ok(Checked::LocalContact(contact));
+            return Ok(Checked::NoRecurrence(format!("`{contact}` is a local contact")));
+        }
+        if let Err(NetworkError::Apart([left, right])) =
+            self.network().map_or(Ok(()), Network::all_linear)
+        {
+            let told = format!("{left} and {right} do not touch at the start");
+            return Ok(Checked::NoRecurrence(told));
         }
         match &self.kind {
             Kind::Line { network, .. } if self.on_lattice() => on_lattice(self, network),

@@ -69,9 +69,9 @@ pub(super) fn named_rates_of(
 #[doc(hidden)]
 pub fn constants_of(network: &Network, text: Option<&str>) -> Result<Vec<String>, ProblemError> {
     let (model, scene) = (network.model(), network.scene());
-    let unfolded = match network.local_contact() {
-        Some(_) => None,
-        None => Some(network.unfold(&vec![0; network.lattice().periods().len()])?),
+    let unfolded = match network.all_linear() {
+        Err(_) => None,
+        Ok(()) => Some(network.unfold(&vec![0; network.lattice().periods().len()])?),
     };
     let constants = unfolded.as_ref().map_or(&*model.constants, |own| own.recurrence().constants());
     let mut lines = Vec::new();

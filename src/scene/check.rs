@@ -21,6 +21,7 @@ impl Scene {
             return check.faults;
         }
         check.elements();
+        check.gaps();
         check.membership();
         if check.faults.iter().all(|fault| fault.mistake != Mistake::Repeated) {
             check.ends();
@@ -63,6 +64,7 @@ impl Check<'_> {
         let seen = observables.iter().flat_map(|observable| &observable.terms);
         !line.elements.is_empty()
             && line.joints.len() == line.elements.len() + 1
+            && line.gaps.keys().all(|joint| line.joints.get(*joint) == Some(&Joint::Contact))
             && line.elements.iter().all(exists)
             && seen.filter_map(|seen| seen.place.element()).all(|element| exists(&element))
     }
@@ -185,6 +187,18 @@ impl Check<'_> {
         {
             let parts = [Property::Until, Property::From].map(|at| Part::Property(index, at));
             self.fault(Mistake::EndsBeforeBegin, parts);
+        }
+    }
+
+    /// Gaps are wide, and may close.
+    fn gaps(&mut self) {
+        let scene = self.scene;
+        for (joint, gap) in &scene.line.gaps {
+            if !scene.assumptions.is_positive(gap) {
+                self.wrong_sign(Mistake::NoGap, Part::Joint(*joint), gap);
+            } else if !scene.contacts_open {
+                self.fault(Mistake::GapStaysClosed, [Part::Joint(*joint)]);
+            }
         }
     }
 

@@ -116,6 +116,12 @@ pub enum Mistake {
     /// A lumped element or a load at a place that is fixed.
     #[error("this place is fixed and cannot move")]
     Held,
+    /// The width of a gap that may be zero or negative.
+    #[error("a gap must be wider than zero")]
+    NoGap,
+    /// A gap in a scene whose contacts stay closed.
+    #[error("contacts that stay closed have no gaps")]
+    GapStaysClosed,
     /// A mass behind a contact at a fixed end, that moves at the start.
     #[error("a rigid mass at a wall has to begin at rest")]
     MovesAtWall,

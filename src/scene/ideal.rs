@@ -78,14 +78,18 @@ impl Scene {
         for index in 0..self.elements.len() {
             now.push(self.expand(index, &mut elements)?);
         }
-        let mut line = Line { elements: Vec::new(), joints: Vec::new(), ..self.line };
-        for (own, before) in self.line.elements.iter().zip(&self.line.joints) {
-            line.joints.push(*before);
+        let (left, right) = (self.line.left, self.line.right);
+        let (elements_now, joints, gaps) = Default::default();
+        let mut line = Line { left, elements: elements_now, joints, gaps, right };
+        for (place, joint) in self.line.joints.iter().enumerate() {
+            let gap = self.line.gaps.get(&place);
+            line.gaps.extend(gap.map(|gap| (line.joints.len(), gap.clone())));
+            line.joints.push(*joint);
+            let Some(own) = self.line.elements.get(place) else { break };
             let parts: Vec<_> = now[*own].elements().collect();
             line.joints.extend(parts.iter().skip(1).map(|_| Joint::Bonded));
             line.elements.extend(parts);
         }
-        line.joints.extend(self.line.joints.last());
         let observables = self.observables.iter().map(|observable| {
             let terms = observable.terms.iter().map(|seen| self.seen(seen, &now));
             let terms = terms.collect::<Result<Vec<_>, _>>()?.concat();

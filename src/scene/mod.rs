@@ -10,7 +10,8 @@ mod fault;
 mod ideal;
 mod observable;
 
-use crate::expression::Assumptions;
+use crate::expression::{Assumptions, Fraction};
+use std::collections::BTreeMap;
 use wavestep_polynomial::Symbol;
 
 pub use dimension::Dimension;
@@ -54,6 +55,8 @@ pub struct Line {
     /// How they are joined: `joints[0]` is between the left end and the first element, the last one
     /// between the last element and the right end; one more than there are elements.
     pub joints: Vec<Joint>,
+    /// How far apart contacts begin that do not touch at the start, by their joints.
+    pub gaps: BTreeMap<usize, Fraction>,
     pub right: End,
 }
 

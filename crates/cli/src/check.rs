@@ -29,11 +29,8 @@ pub fn run(options: &Check) -> Result<String, Failure> {
         return Ok(report);
     }
     match checked {
-        Checked::LocalContact(contact) => {
-            let _ = writeln!(
-                report,
-                "  `{contact}` is a local contact: no recurrence; events and values are proven"
-            );
+        Checked::NoRecurrence(why) => {
+            let _ = writeln!(report, "  {why}: no recurrence; events and values are proven");
         }
         Checked::Lattice { echoes } => {
             let _ = writeln!(report, "  waves: {}", problem.waves().join(", "));
@@ -60,7 +57,7 @@ pub fn run(options: &Check) -> Result<String, Failure> {
 fn verdict(checked: &Checked, problem: &Problem) -> String {
     let observed = plural(problem.observables().len(), "observable");
     match checked {
-        Checked::LocalContact(_) => {
+        Checked::NoRecurrence(_) => {
             format!("consistent; proven events and values of {observed}")
         }
         Checked::Lattice { .. } => {

@@ -262,7 +262,7 @@ fn for_network(error: &NetworkError) -> Option<&'static str> {
             "compute values with `eval`, which works with any rates; or state the elements by their rates a \
              and b, or sigma and omega, as docs/scene-language.md shows"
         }
-        NetworkError::NotLinear(_) => {
+        NetworkError::NotLinear(_) | NetworkError::Apart(_) => {
             "compute values with `eval`: its methods certified, compiled and steps support such scenes"
         }
         NetworkError::Division(_) => VALUES,

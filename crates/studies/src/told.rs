@@ -61,20 +61,23 @@ impl Teller<'_> {
     /// The events in their order, what became of each contact, and how it ends: a sentence each, with the
     /// lines below it.
     pub fn history(&self, history: &History) -> Vec<(String, Vec<String>)> {
-        let events = history.events.iter().map(|event| self.event(event));
+        let events = history.events.iter().enumerate().map(|(place, event)| {
+            let before = &history.events[..place];
+            self.event(event, before.iter().any(|own| own.contact == event.contact))
+        });
         let contacts = history.contacts.iter().map(|contact| self.contact(contact));
         let ending = (self.ending(&history.ending), Vec::new());
         events.chain(contacts).chain([ending]).collect()
     }
 
-    fn event(&self, event: &Event) -> (String, Vec<String>) {
+    fn event(&self, event: &Event, again: bool) -> (String, Vec<String>) {
         let [left, right] = &event.between;
         let exact = event.exact.as_ref().map(|exact| format!(" = {}", expression_text(exact)));
         let happens = match event.kind {
-            EventKind::Impact => "make contact",
+            EventKind::Closing if again => "make contact again",
+            EventKind::Impact | EventKind::Closing => "make contact",
             EventKind::Opening => "separate",
             EventKind::Release => "touch without force from here on",
-            EventKind::Closing => "make contact again",
         };
         let time = self.value(&event.time, Dimension::TIME) + &exact.unwrap_or_default();
         let mut lines = vec![format!("force    {}", self.pair(&event.forces, Dimension::FORCE))];

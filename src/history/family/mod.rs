@@ -55,7 +55,7 @@ pub enum NotOverSymbol {
     #[error("the energy that has passed somewhere is not supported over a symbol")]
     Work,
     #[error(
-        "a contact that opens at the start, beside a load without mass between, or that closes between two masses is not supported over a symbol"
+        "a contact that is apart or opens at the start, that is beside a load without mass between, or that closes between two masses is not supported over a symbol"
     )]
     BesideContact,
     #[error("it is not decided when contacts open and close")]
@@ -136,8 +136,12 @@ impl<'a> Over<'a> {
     /// open, steps are cut instead, and once more, since a cut may be left out.
     ///
     /// # Errors
-    /// [`NotOverSymbol::NoCommonMeasure`]; else as [`Over::follow`].
+    /// [`NotOverSymbol::NoCommonMeasure`]; [`NotOverSymbol::BesideContact`] for one that begins apart; else as
+    /// [`Over::follow`].
     pub fn grid(all: &[&Over<'_>]) -> Outcome<Grid> {
+        if all.iter().any(|own| !own.scaled.model().gaps.is_empty()) {
+            return Err(NotOverSymbol::BesideContact);
+        }
         let times = all.iter().flat_map(|own| {
             let model = own.scaled.model();
             let travels = model.bars.values().filter_map(|bar| bar.travel.as_ref());

@@ -131,7 +131,7 @@ fn unit_power(input: &mut Input<'_>) -> Outcome<i8> {
     }
 }
 
-/// What follows `line`: `free - ram | rod - fixed`
+/// What follows `line`: `free - ram | rod |1/5 mm| fixed`
 fn line(input: &mut Input<'_>) -> Outcome<Line> {
     let before = *input;
     let first = input.word().and_then(|word| Some((end_of_line(word.value)?, word.span)));
@@ -139,7 +139,7 @@ fn line(input: &mut Input<'_>) -> Outcome<Line> {
         return Err(complaint::expected_left_end(before));
     };
     let left = Spanned::new(end, span);
-    let (mut elements, mut joints) = (Vec::<Name>::new(), Vec::new());
+    let (mut elements, mut joints, mut gaps) = (Vec::<Name>::new(), Vec::new(), Vec::new());
     loop {
         let signs = [("-", Joint::Bonded), ("−", Joint::Bonded), ("|", Joint::Contact)];
         let Some(joint) = input.one_of(&signs) else {
@@ -148,7 +148,13 @@ fn line(input: &mut Input<'_>) -> Outcome<Line> {
                 _ => complaint::expected(*input, "`-` or `|`"),
             });
         };
-        joints.push(joint);
+        joints.push(match next_gap(input, joint)? {
+            None => joint,
+            Some((width, unit)) => {
+                gaps.push((joints.len(), width, unit));
+                Spanned::new(joint.value, Span::new(joint.span.start, input.offset))
+            }
+        });
         let name = input.name("the name of an element")?;
         let Some(end) = end_of_line(&name.value) else {
             elements.push(name);
@@ -158,8 +164,22 @@ fn line(input: &mut Input<'_>) -> Outcome<Line> {
             return Err(plain(*input, name.span, complaint::EMPTY_LINE)
                 .with_secondary(left.span, "the left end"));
         }
-        return Ok(Line { left, elements, joints, right: Spanned::new(end, name.span) });
+        return Ok(Line { left, elements, joints, gaps, right: Spanned::new(end, name.span) });
     }
+}
+
+/// What follows the first bar of `|0.2 mm|`, where a number or a parenthesis does.
+fn next_gap(
+    input: &mut Input<'_>,
+    joint: Spanned<Joint>,
+) -> Outcome<Option<(Expression, Option<Unit>)>> {
+    let is_value = |c: char| c.is_ascii_digit() || "(+-−".contains(c);
+    if joint.value != Joint::Contact || !input.after_blanks().text.starts_with(is_value) {
+        return Ok(None);
+    }
+    let width = with_unit(input)?;
+    input.demand("|")?;
+    Ok(Some(width))
 }
 
 fn end_of_line(word: &str) -> Option<End> {

@@ -19,9 +19,9 @@ use super::diagnostic::Diagnostic;
 use super::parameters;
 use super::scope::{Scope, symbol, with_likely};
 use super::syntax::{self, Declaration, Declared, Name, SceneStatementKind, Section, Span};
-use crate::expression::PI;
+use crate::expression::{Fraction, PI};
 use crate::limits::MAX_MISTAKES;
-use crate::scene::{self, ElementIndex, Kind};
+use crate::scene::{self, Dimension, ElementIndex, Kind};
 use element::Material;
 use value::NEEDS_UNIT;
 
@@ -271,12 +271,28 @@ impl<'a> Lowering<'a> {
             let outcome = self.element(name);
             elements.push(self.keep(outcome));
         }
+        let gaps = self.gaps(line);
         Some(scene::Line {
             left: line.left.value,
             elements: elements.into_iter().collect::<Option<_>>()?,
             joints: line.joints.iter().map(|joint| joint.value).collect(),
+            gaps: gaps?,
             right: line.right.value,
         })
+    }
+
+    /// How far apart contacts begin.
+    fn gaps(&mut self, line: &syntax::Line) -> Option<BTreeMap<usize, Fraction>> {
+        let mut gaps = Some(BTreeMap::new());
+        for (joint, width, unit) in &line.gaps {
+            let outcome = self.quantity(width, unit.as_ref(), Dimension::LENGTH, "a gap");
+            match (self.keep(outcome), &mut gaps) {
+                (Some(width), Some(gaps)) => drop(gaps.insert(*joint, width)),
+                (None, _) => gaps = None,
+                (_, None) => {}
+            }
+        }
+        gaps
     }
 
     /// The element of a name.
@@ -328,6 +344,10 @@ fn first_unit(tree: &syntax::Scene) -> Option<Span> {
                 Some(Section::At { unit, .. }) => unit.as_ref().map(|unit| unit.span),
                 _ => None,
             })
+        }
+        SceneStatementKind::Line(line) => {
+            let mut units = line.gaps.iter().filter_map(|(_, _, unit)| unit.as_ref());
+            units.next().map(|unit| unit.span)
         }
         _ => None,
     })

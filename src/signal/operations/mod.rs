@@ -190,6 +190,13 @@ impl<'m> Mark<'m> {
             return Ok(own.cmp(other));
         }
         let [first, most] = ORDER_BITS;
+        // Where instants were taken for one on the way, so many bits have not told them apart, and an answer says so.
+        let assumed = |mark: &Mark<'_>| {
+            let event = mark.instant.as_ref().and_then(|own| own.event);
+            event.map(|(bits, _)| bits).filter(|bits| *bits > 0)
+        };
+        let tried = assumed(self).max(assumed(other));
+        let most = tried.map_or(most, |tried| tried.clamp(first, most));
         let attempt = |bits| {
             let difference = self.ball(bits)?.subtract(&other.ball(bits)?, bits);
             Ok::<_, EvaluateError>(match difference.sign() {
@@ -198,15 +205,8 @@ impl<'m> Mark<'m> {
             })
         };
         let order = Precisions::doubling(first, most).raise(attempt).and_then(Attempt::done);
-        // Where instants were taken for one on the way, an answer says so.
-        let assumes = |mark: &Mark<'_>| {
-            let event = mark.instant.as_ref().and_then(|own| own.event);
-            event.is_some_and(|(bits, _)| bits > 0)
-        };
         match order {
-            Err(EvaluateError::InstantsUndecided { .. }) if assumes(self) || assumes(other) => {
-                Ok(Ordering::Equal)
-            }
+            Err(EvaluateError::InstantsUndecided { .. }) if tried.is_some() => Ok(Ordering::Equal),
             order => order,
         }
     }

@@ -1,6 +1,7 @@
 //! What scenes are drawn from.
 
 use crate::scene::{Element, End, Load, Quotient, Scene, Size, UNITS};
+use std::collections::BTreeMap;
 
 /// Numbers without an end (splitmix64).
 pub struct Chance(u64);
@@ -97,7 +98,14 @@ impl Chance {
     /// A line of two to five elements whose contacts open, which may make no sense.
     pub fn open_scene(&mut self) -> Scene {
         let count = 2 + self.below(4);
-        self.scene(count)
+        let mut scene = self.scene(count);
+        for joint in 0..=count {
+            if scene.joints[joint] && self.is(4) {
+                let gap = self.one_of(&[(1, 4), (1, 10), (1, 1), (2, 3), (1, 50)]);
+                scene.gaps.insert(joint, gap);
+            }
+        }
+        scene
     }
 
     fn scene(&mut self, count: usize) -> Scene {
@@ -117,7 +125,8 @@ impl Chance {
         let left = end(&mut elements[0], may_hold_left);
         let right = end(&mut elements[count - 1], may_hold_right);
         let ends = [left, right];
-        Scene { ends, elements, joints, opens: true, units: None, symbols: Vec::new() }
+        let gaps = BTreeMap::new();
+        Scene { ends, elements, joints, gaps, opens: true, units: None, symbols: Vec::new() }
     }
 
     /// A line whose contacts stay closed, with numbers of all sizes.

@@ -207,6 +207,33 @@ impl Node {
         [push, power]
     }
 
+    /// The first and last point of each group that nothing but undamped supports holds, with their force on it.
+    pub fn pushes_alone(&self, closed: &[bool], state: &[f64]) -> Vec<([usize; 2], f64)> {
+        let (groups, last) = (self.groups(closed), self.points.len() - 1);
+        let mut alone = Vec::new();
+        for group in 0..=groups[last] {
+            let points = (0..=last).filter(|point| groups[*point] == group);
+            let points: Vec<usize> = points.collect();
+            let ends = [points[0], points[points.len() - 1]];
+            let is_bare = |point: &usize| {
+                let own = &self.points[*point];
+                let damped = own.supports.iter().any(|[_, damping]| *damping != 0.0);
+                !own.is_wall && own.mass == 0.0 && own.loads.is_empty() && !damped
+            };
+            let is_barred =
+                ends[0] == 0 && self.bars[0].is_some() || ends[1] == last && self.bars[1].is_some();
+            let is_spring = |link: usize| matches!(self.links.get(link), Some(Link::Spring { .. }));
+            let is_sprung = is_spring(ends[1]) || ends[0].checked_sub(1).is_some_and(is_spring);
+            if !points.iter().all(is_bare) || is_barred || is_sprung {
+                continue;
+            }
+            let supports = self.supports().zip(&state[self.points.len() + self.links.len()..]);
+            let own = supports.filter(|((point, _), _)| points.contains(point));
+            alone.push((ends, own.map(|((_, [stiffness, _]), moved)| -stiffness * moved).sum()));
+        }
+        alone
+    }
+
     /// The points that move together where these contacts are closed.
     pub fn groups(&self, closed: &[bool]) -> Vec<usize> {
         let mut groups = vec![0];

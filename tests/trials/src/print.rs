@@ -125,9 +125,11 @@ fn line(line: &Line) -> String {
         [line.left, line.right].map(|end| format!("{:?}", end.value).to_lowercase());
     let mut out = format!("line {left}");
     let names = line.elements.iter().map(|name| &name.value).chain([&right]);
-    for (joint, name) in line.joints.iter().zip(names) {
+    for ((place, joint), name) in line.joints.iter().enumerate().zip(names) {
         let sign = if joint.value == Joint::Contact { '|' } else { '-' };
-        write!(out, " {sign} {name}").unwrap();
+        let gap = line.gaps.iter().find(|(joint, ..)| *joint == place);
+        let gap = gap.map(|(_, width, unit)| with_unit(width, unit.as_ref()) + "|");
+        write!(out, " {sign}{} {name}", gap.unwrap_or_default()).unwrap();
     }
     out
 }

@@ -1,5 +1,6 @@
 //! Scenes as data, in numbers that are exact as text and close enough as doubles.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// A quotient of integers.
@@ -172,6 +173,8 @@ pub struct Scene {
     pub elements: Vec<Element>,
     /// Which joints are contacts: before each element, and behind the last.
     pub joints: Vec<bool>,
+    /// How far apart contacts begin, by their joints.
+    pub gaps: BTreeMap<usize, Quotient>,
     /// Whether contacts open.
     pub opens: bool,
     pub units: Option<&'static Units>,
@@ -327,7 +330,12 @@ impl Scene {
             End::Fixed => "fixed",
             End::Endless => "endless",
         };
-        let joint = |is_contact| if is_contact { " | " } else { " - " };
+        let long = self.unit(Measure::Displacement);
+        let metre = if self.units.is_some() { " m" } else { "" };
+        let joint = |number: usize, is_contact: bool| match self.gaps.get(&number) {
+            Some(gap) => format!(" |{long}*{gap}{metre}| "),
+            None => if is_contact { " | " } else { " - " }.to_owned(),
+        };
         text += "line ";
         text += end(self.ends[0]);
         for (number, is_contact) in self.joints.iter().enumerate() {
@@ -335,7 +343,7 @@ impl Scene {
                 true => format!("e{number}"),
                 false => end(self.ends[1]).to_owned(),
             };
-            text += &format!("{}{name}", joint(*is_contact));
+            text += &format!("{}{name}", joint(number, *is_contact));
         }
         text + "\n"
     }

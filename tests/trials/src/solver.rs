@@ -111,16 +111,29 @@ impl Solver {
             _ => None,
         };
         let bars = scene.elements.iter().zip(&places).map(bar).collect();
-        let joints = scene.joints.iter().filter(|is_contact| **is_contact && scene.opens);
-        let count = joints.count();
-        let contact = || Contact { is_closed: true, was_clear: false, idle: None, since: 0.0 };
+        let joints = scene.joints.iter().enumerate();
+        let joints = joints.filter(|(_, is_contact)| **is_contact && scene.opens);
+        let gaps: Vec<f64> = joints
+            .map(|(joint, _)| scene.gaps.get(&joint).map_or(0.0, |gap| gap.value()))
+            .collect();
+        let is_closed = |gap: &f64| *gap == 0.0;
+        let contact = |gap: &f64| Contact {
+            is_closed: is_closed(gap),
+            was_clear: false,
+            idle: None,
+            since: 0.0,
+        };
+        let closed: Vec<bool> = gaps.iter().map(is_closed).collect();
         let mut traces = Vec::new();
         for node in &nodes {
-            let state = vec![0.0; node.states()];
-            let law = node.law(&vec![true; count])?;
+            let mut state = vec![0.0; node.states()];
+            for (contact, link) in node.contacts() {
+                state[node.points.len() + link] = gaps[contact];
+            }
+            let law = node.law(&closed)?;
             traces.push(Trace { now: 0.0, state, law, cells: Vec::new(), breaks: vec![0.0] });
         }
-        let contacts = (0..count).map(|_| contact()).collect();
+        let contacts = gaps.iter().map(contact).collect();
         let mut solver = Solver {
             nodes,
             places,
@@ -292,6 +305,7 @@ impl Solver {
                 trial = self.trial(node, trial.cell.length / 2.0);
             }
             let (at_once, first) = self.decide(node, &trial);
+            let at_once = self.yielding(node, at_once);
             if at_once.is_empty() {
                 break match first {
                     Some((contact, time)) => (self.trial(node, time - now), Some(contact)),
@@ -368,6 +382,22 @@ impl Solver {
         }
         self.doubt = doubt;
         (at_once, crossings.first().copied())
+    }
+
+    /// Without a contact beside what supports alone would hold, if they press it.
+    fn yielding(&self, node: usize, at_once: Vec<usize>) -> Vec<usize> {
+        let own = &self.nodes[node];
+        let is_closed =
+            |(contact, own): (usize, &Contact)| own.is_closed != at_once.contains(&contact);
+        let closed: Vec<bool> = self.contacts.iter().enumerate().map(is_closed).collect();
+        let pushes = own.pushes_alone(&closed, &self.traces[node].state);
+        let is_pressed = |contact: &usize| {
+            let (_, link) = own.contacts().find(|(own, _)| own == contact).expect("its own");
+            pushes.iter().any(|([first, last], push)| {
+                *push < 0.0 && *first == link + 1 || *push > 0.0 && *last == link
+            })
+        };
+        at_once.iter().copied().filter(|contact| !is_pressed(contact)).collect()
     }
 
     /// Opens closed contacts and closes open ones, now.

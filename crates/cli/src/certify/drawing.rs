@@ -87,7 +87,13 @@ impl<'a> Drawing<'a> {
             node.attached(run).for_each(|own| self.element(own));
             match node.links.get(run) {
                 Some(Link::Element(spring)) => self.element(&node.elements[*spring]),
-                Some(Link::Contact(_)) => self.drawn.push(json!({ "is": "contact" })),
+                Some(Link::Contact(contact)) => {
+                    let gap = &self.layout.contacts[*contact].gap;
+                    self.drawn.push(match gap.is_zero() {
+                        true => json!({ "is": "contact" }),
+                        false => json!({ "is": "gap", "width": self.writer.function(gap) }),
+                    });
+                }
                 Some(Link::Local { .. }) | None => {}
             }
         }
