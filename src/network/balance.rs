@@ -406,8 +406,8 @@ pub(super) fn at_start(
             sum = &sum + &(&term.coefficient * &reading_at_start(scaled, &term.of)?);
         }
     }
-    if let ObservedValue::Energy { held, .. } = parts {
-        for part in held {
+    if let ObservedValue::Energy(energies) = parts {
+        for part in &energies.held {
             let square = match (&part.window, &part.squared) {
                 (Window::Last(travel), _) => &part.before.pow(2) * travel,
                 // A local contact is not compressed.

@@ -107,7 +107,7 @@ impl Network {
             ObservedValue::Linear(observation) => {
                 Some(Observable { name: observed.name.clone(), observation: observation.clone() })
             }
-            ObservedValue::Energy { .. } => None,
+            ObservedValue::Energy(_) => None,
         };
         Statement {
             period: self.lattice().periods()[0].clone(),

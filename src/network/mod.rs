@@ -48,7 +48,7 @@ pub use measures::{Measured, MeasuredValue};
 pub use model::{Model, ModelBar, ModelLoad, Scale};
 pub use node::ElementLaw;
 pub use node::{Acting, Link, Lumped, Node, Side};
-pub(crate) use observed::{Balance, EnergyTerm, Extent, FieldBar, FlowTerm, Squared};
+pub(crate) use observed::{Balance, EnergySum, EnergyTerm, Extent, FieldBar, FlowTerm, Squared};
 pub use observed::{Observed, ObservedValue, Window};
 pub use reading::{Elements, Energy, Face, Field, Lump, Reading, Section, Term};
 pub use scaled::ScaledScene;

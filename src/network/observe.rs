@@ -11,7 +11,7 @@ use crate::network::error::NetworkError;
 use crate::network::measures::MeasuredValue;
 use crate::network::node::{ElementLaw, Node, Side};
 use crate::network::observed::{
-    Balance, EnergyTerm, FlowTerm, Observed, ObservedValue, Squared, Window,
+    Balance, EnergySum, EnergyTerm, FlowTerm, Observed, ObservedValue, Squared, Window,
 };
 use crate::network::reading::{Elements, Energy, Face, Field, Lump, Reading, Section, section};
 use crate::recurrence::{Observation, ObservedWave, WaveIndex};
@@ -40,7 +40,8 @@ impl Network {
                         .iter()
                         .flat_map(|(coefficient, own)| times(work(&self.scaled, own), coefficient));
                     let works = works.collect();
-                    ObservedValue::Energy { held, passed: self.flowing(works) }
+                    let (start, passed) = (Fraction::zero(), self.flowing(works));
+                    ObservedValue::Energy(EnergySum { start, held, passed })
                 }
             };
             let at_start = at_start(&self.scaled, &measured.value, &value);
@@ -48,6 +49,14 @@ impl Network {
             let balance = flow
                 .zip(at_start)
                 .map(|(flow, at_start)| Balance { at_start, flow: self.flowing(flow) });
+            // Of what is summed up since the start anyway, all that cancels is left out.
+            let value = match (value, &balance) {
+                (ObservedValue::Energy(sum), Some(known)) if !sum.passed.is_empty() => {
+                    let (start, passed) = (known.at_start.clone(), known.flow.clone());
+                    ObservedValue::Energy(EnergySum { start, held: Vec::new(), passed })
+                }
+                (value, _) => value,
+            };
             let readings = match measured.value {
                 MeasuredValue::Linear(terms) => terms,
                 MeasuredValue::Energy { .. } => Vec::new(),

@@ -29,7 +29,7 @@ impl Observed {
     fn energies(&self) -> (&[EnergyTerm], &[FlowTerm]) {
         match &self.value {
             ObservedValue::Linear(_) => (&[], &[]),
-            ObservedValue::Energy { held, passed } => (held, passed),
+            ObservedValue::Energy(sum) => (&sum.held, &sum.passed),
         }
     }
 
@@ -61,8 +61,16 @@ impl Observed {
 pub enum ObservedValue {
     /// Linear in the waves.
     Linear(Observation),
-    /// A sum of energies: what elements hold, and the integral since the start of what flows past.
-    Energy { held: Vec<EnergyTerm>, passed: Vec<FlowTerm> },
+    /// A sum of energies.
+    Energy(EnergySum),
+}
+
+/// What there is at the start, what elements hold, and the integral since the start of what has flowed.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct EnergySum {
+    pub(crate) start: Fraction,
+    pub(crate) held: Vec<EnergyTerm>,
+    pub(crate) passed: Vec<FlowTerm>,
 }
 
 /// What an energy is the square of.

@@ -24,9 +24,7 @@ pub(super) fn of_sources<'a>(
     }
     let one = Root::from(Fraction::one());
     let of: Box<dyn Signal + 'a> = match &observed.value {
-        ObservedValue::Energy { held, passed } => {
-            energy::of_sources(sources, (held, passed), &one, window)?
-        }
+        ObservedValue::Energy(sum) => energy::of_sources(sources, sum, &one, window)?,
         ObservedValue::Linear(value) => sources.signal(value, &observed.readings, window)?,
     };
     let flow = Box::new(energy::power(sources, flow, window)?);

@@ -4,7 +4,7 @@
 use super::SignalError;
 use super::together::Sources;
 use crate::expression::{Fraction, Root};
-use crate::network::{EnergyTerm, FlowTerm, Network, Squared, Window};
+use crate::network::{EnergySum, EnergyTerm, FlowTerm, Network, Squared, Window};
 use crate::signal::{
     ClosedSignal, Combination, Constant, EvaluateError, Integral, Operation, Product, Scale, Signal,
 };
@@ -18,7 +18,7 @@ const REACH_BITS: u64 = 64;
 /// An energy of a scene, the sum of its terms, on a window of the user's time, of sources that are known until its end.
 pub(super) fn of_sources<'a>(
     sources: &Sources<'a>,
-    (terms, passed): (&[EnergyTerm], &[FlowTerm]),
+    EnergySum { start, held: terms, passed }: &EnergySum,
     unit: &Root,
     [from, to]: [&Rational; 2],
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
@@ -61,6 +61,12 @@ pub(super) fn of_sources<'a>(
         let work = Integral::new(&scale, Rc::new(power), None, Fraction::zero(), [from, to]);
         let (coefficient, factors) = (Fraction::one(), vec![operands.len()]);
         operands.push(Rc::new(Operation::new(&scale, work, one_root(), [from, to])));
+        products.push(Product { coefficient, factors });
+    }
+    if !start.is_zero() || products.is_empty() {
+        let (coefficient, factors) = (Fraction::one(), vec![operands.len()]);
+        let start = Constant::new(&scale, start.clone());
+        operands.push(Rc::new(Operation::new(&scale, start, one_root(), [from, to])));
         products.push(Product { coefficient, factors });
     }
     let sum = combination(&scale, operands, products);
@@ -113,7 +119,7 @@ pub(super) fn power<'a>(
 /// A time before which no term is asked for its quantity.
 pub(super) fn reach(
     network: &Network,
-    (terms, passed): (&[EnergyTerm], &[FlowTerm]),
+    EnergySum { held: terms, passed, .. }: &EnergySum,
     from: &Rational,
 ) -> Result<Rational, EvaluateError> {
     if !passed.is_empty() {

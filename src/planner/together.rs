@@ -91,8 +91,8 @@ impl<'a, 'o> Together<'a, 'o> {
         {
             return balance::of_sources(&sources()?, observed, known, window);
         }
-        if let ObservedValue::Energy { held, passed } = &observed.value {
-            return energy::of_sources(&sources()?, (held, passed), &observed.unit, window);
+        if let ObservedValue::Energy(sum) = &observed.value {
+            return energy::of_sources(&sources()?, sum, &observed.unit, window);
         }
         if let Some(follower) = sources()?.follower {
             let followed = FollowedSignal::observable(&follower, observed, window)?;
@@ -141,8 +141,8 @@ impl<'a, 'o> Together<'a, 'o> {
         let (mut reach, mut digits) = (from.clone(), self.purpose.digits());
         for own in observed {
             // Integrals of squares cost digits.
-            if let ObservedValue::Energy { held, passed } = &own.value {
-                reach = reach.min(energy::reach(self.network, (held, passed), from)?);
+            if let ObservedValue::Energy(sum) = &own.value {
+                reach = reach.min(energy::reach(self.network, sum, from)?);
                 digits = None;
             }
         }

@@ -423,7 +423,7 @@ impl Problem {
     fn refuse_quadratic(&self, name: &str) -> Result<(), ProblemError> {
         let name = language::normalise_name(name);
         let is_energy = |observed: &Observed| {
-            observed.name == name && matches!(observed.value, ObservedValue::Energy { .. })
+            observed.name == name && matches!(observed.value, ObservedValue::Energy(_))
         };
         match &self.kind {
             Kind::Equations(solution) if solution.recurrence().quadratic(&name).is_some() => {

@@ -129,7 +129,7 @@ impl Problem {
         }
         let linear = network.observables().iter().find_map(|observed| match &observed.value {
             ObservedValue::Linear(observation) => Some((observation, observed.unit.clone())),
-            ObservedValue::Energy { .. } => None,
+            ObservedValue::Energy(_) => None,
         });
         let (observation, unit) = linear.ok_or(ProblemError::NoEnd)?;
         let form = ClosedForm::of_scene(network, observation, unit, &Rational::default())?;
@@ -203,7 +203,7 @@ fn travel_time(network: &Network) -> Result<f64, ProblemError> {
 fn delays(network: &Network) -> impl Iterator<Item = &Fraction> {
     let waves = network.observables().iter().flat_map(|observed| match &observed.value {
         ObservedValue::Linear(observation) => observation.waves.iter(),
-        ObservedValue::Energy { .. } => [].iter(),
+        ObservedValue::Energy(_) => [].iter(),
     });
     waves.map(|wave| &wave.delay)
 }

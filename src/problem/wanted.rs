@@ -29,7 +29,7 @@ impl Wanted {
     pub fn observation(&self) -> Option<&Observation> {
         match &self.observed.as_ref()?.value {
             ObservedValue::Linear(observation) => Some(observation),
-            ObservedValue::Energy { .. } => None,
+            ObservedValue::Energy(_) => None,
         }
     }
 

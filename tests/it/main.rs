@@ -17,6 +17,7 @@ mod facade;
 mod field;
 mod find;
 mod formulas;
+mod gaps;
 mod general;
 mod hertz_element;
 mod history;

@@ -55,7 +55,7 @@ pub enum NotOverSymbol {
     #[error("the energy that has passed somewhere is not supported over a symbol")]
     Work,
     #[error(
-        "a contact that is apart or opens at the start, that is beside a load without mass between, or that closes between two masses is not supported over a symbol"
+        "a contact that opens or is open at the start, one beside a load without mass between, and one that closes between two masses are not supported over a symbol"
     )]
     BesideContact,
     #[error("it is not decided when contacts open and close")]

@@ -38,6 +38,10 @@ pub(super) const EMPTY_LINE: Plain = [
     "name elements between the ends: `line free - rod - fixed`",
 ];
 
+/// `one |1/2 two`
+pub(super) const OPEN_GAP: Plain =
+    ["this gap has no end", "a gap begins", "write `|` behind its width, too: `|0.2 mm|`"];
+
 /// `force(a)*velocity(a)`
 pub(super) const TWO_MEASURES: Plain = [
     "a product of measures cannot be observed",

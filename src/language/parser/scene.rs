@@ -177,9 +177,14 @@ fn next_gap(
     if joint.value != Joint::Contact || !input.after_blanks().text.starts_with(is_value) {
         return Ok(None);
     }
-    let width = with_unit(input)?;
-    input.demand("|")?;
-    Ok(Some(width))
+    let text = input.after_blanks().text;
+    let is_open = text.find('|').is_none_or(|end| text[..end].contains(" - "));
+    let before = *input;
+    let width = if is_open { None } else { Some(with_unit(input)?) };
+    match width.filter(|_| input.symbol("|").is_some()) {
+        None => Err(plain(before, joint.span, complaint::OPEN_GAP)),
+        width => Ok(width),
+    }
 }
 
 fn end_of_line(word: &str) -> Option<End> {

@@ -275,9 +275,6 @@ fn plain(mistake: Mistake) -> (&'static [&'static str], &'static str) {
             &["this bar", "endless here", "and here"],
             "end the line with `free` or `fixed` on one side, or join something to the bar",
         ),
-        Mistake::NoGap => {
-            (&["may be zero or negative"], "write `|` for bodies that touch at the start")
-        }
         Mistake::GapStaysClosed => (
             &["apart at the start"],
             "add the statement `contacts open`, or write `|` for bodies that touch",

@@ -128,7 +128,14 @@ fn line(line: &Line) -> String {
     for ((place, joint), name) in line.joints.iter().enumerate().zip(names) {
         let sign = if joint.value == Joint::Contact { '|' } else { '-' };
         let gap = line.gaps.iter().find(|(joint, ..)| *joint == place);
-        let gap = gap.map(|(_, width, unit)| with_unit(width, unit.as_ref()) + "|");
+        // A width begins with a number or a parenthesis.
+        let gap = gap.map(|(_, width, unit)| {
+            let (value, all) = (width.value.to_string(), with_unit(width, unit.as_ref()));
+            match value.starts_with(|c: char| c.is_ascii_digit()) {
+                true => all + "|",
+                false => format!("({value}){}|", &all[value.len()..]),
+            }
+        });
         write!(out, " {sign}{} {name}", gap.unwrap_or_default()).unwrap();
     }
     out
