@@ -245,7 +245,9 @@ class Line:
             return {"is": "bar", "travel": travel, **own}
         if element["is"] == "spring":
             return {"is": "spring", **{key: self.number(element[key]) for key in ("stiffness", "damping")}}
-        return {"is": "contact", "gap": self.number(element["width"]) if element["is"] == "gap" else ZERO}
+        gap = self.number(element["width"]) if element["is"] == "gap" else ZERO
+        need(element["is"] != "gap" or gap.sign() == 1, "a gap may be no gap")
+        return {"is": "contact", "gap": gap}
 
 
 class System:
@@ -395,8 +397,7 @@ class Motion:
         self.instants, self.now, self.marks, self.past, self.events = instants, START, [], [], []
         self.open = {i: {"flat": 0, "idle": None, "pressed": False} for i in line.contacts}
         gaps = {i: line.links[i]["gap"] for i in line.contacts}
-        need(all(own is ZERO or own.sign() == 1 for own in gaps.values()), "a gap may be no gap")
-        self.closed = {i for i, own in gaps.items() if own is ZERO}
+        self.closed = {i for i, own in gaps.items() if own.is_zero()}
         springs = [i for i, link in enumerate(line.links) if link["is"] == "spring"]
         self.state = {
             "v": list(line.starts),

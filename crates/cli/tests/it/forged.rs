@@ -80,7 +80,19 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let [apart, more, without] = APART.map(ask);
     std::fs::write(folder.join("between.wave"), BETWEEN).unwrap();
     let between = ask("between.wave --quantity x --at 32/25");
-    let cases: [(&serde_json::Value, Change, &str); 148] = [
+    let text = "scene \"Gap\"\nbar a { impedance = 1, travel = 1, velocity = 1 }\n\
+        bar b { impedance = 2, travel = 3/2 }\nline free - a |1/4| b - free\ncontacts open\n";
+    std::fs::write(folder.join("gap.wave"), text).unwrap();
+    let (passed, gap) = (ask(MORE_CONTENTS[6]), ask("gap.wave --events --to 3"));
+    let cases: [(&serde_json::Value, Change, &str); 156] = [
+        (&passed, |own| own["observed"][0][3] = number("1/7"), "do not add up to the travel time"),
+        (&passed, |own| own["observed"][0] = json!([one(), "work", "a"]), "cannot be read"),
+        (&passed, |own| own["observed"][0][0] = number("2"), "the value is between"),
+        (&passed, |own| own["observed"][0][1] = "force".into(), "the value is between"),
+        (&gap, |own| own["line"][2]["width"] = number("1/7"), "no event is claimed"),
+        (&gap, |own| own["line"][2]["width"] = number("-1/4"), "a gap may be no gap"),
+        (&gap, |own| own["line"][2]["width"] = json!([]), "a gap may be no gap"),
+        (&gap, |own| own["line"][2] = json!({ "is": "contact" }), "is between"),
         (
             &between,
             |own| {
