@@ -538,3 +538,40 @@ fn join_undecided(places: &mut Vec<Place>, from: Rational) -> Rational {
     places.truncate(places.len() - touching);
     first
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rational(numerator: i64, denominator: i64) -> Rational {
+        Rational::new(numerator.into(), denominator.into())
+    }
+
+    /// What touches is one interval, with an arrival between that neither is told apart from; anything between keeps them apart.
+    #[test]
+    fn undecided_intervals_that_touch_are_one() {
+        let interval = |from, to| Place::Undecided { from: rational(from, 2), to: rational(to, 2) };
+        let arrival = |time| {
+            let time = Value::Exact(rational(time, 2));
+            Place::Arrival { time, before: true, after: true }
+        };
+        for (mut places, from, joined, left) in [
+            (vec![interval(0, 2)], 2, 0, 0),
+            (vec![interval(0, 2)], 1, 0, 0),
+            (vec![interval(0, 2)], 3, 3, 1),
+            (vec![interval(0, 2), arrival(2)], 2, 0, 0),
+            (vec![interval(0, 2), arrival(3)], 3, 3, 2),
+            (vec![interval(0, 2), arrival(2)], 3, 3, 2),
+            (vec![arrival(2)], 2, 2, 1),
+            (vec![interval(0, 1), interval(2, 3)], 3, 2, 1),
+        ] {
+            let what = format!("{places:?}, {from}");
+            assert_eq!(
+                join_undecided(&mut places, rational(from, 2)),
+                rational(joined, 2),
+                "{what}"
+            );
+            assert_eq!(places.len(), left, "{what}");
+        }
+    }
+}

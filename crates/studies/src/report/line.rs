@@ -23,6 +23,7 @@ const LUMP: f64 = 26.0;
 const ENDLESS: f64 = 130.0;
 const MASS: f64 = 44.0;
 const GAP: f64 = 7.0;
+const APART: f64 = 3.0 * GAP;
 
 /// Signs about the place on the axis where they begin; springs and dampers are 52 wide, a local contact 30.
 const SPRING: &str = "M0 0h5l3-7l6 14l6-14l6 14l6-14l6 14l6-14l3 7h5";
@@ -41,8 +42,13 @@ pub fn drawn(scaled: &ScaledScene) -> String {
     let (lengths, dimension) = figure.lengths(&elements);
     let sizes: Vec<f64> = scene.line.elements.iter().map(|place| figure.size(*place)).collect();
     let stoutest = sizes.iter().copied().fold(0.0, f64::max);
-    let gaps = scene.line.joints.iter().filter(|joint| **joint == Joint::Contact).count();
-    let taken = elements.iter().map(|element| width(element)).sum::<f64>() + GAP * gaps as f64;
+    let gap = |joint: usize| match scene.line.joints[joint] {
+        Joint::Bonded => 0.0,
+        Joint::Contact if scene.line.gaps.contains_key(&joint) => APART,
+        Joint::Contact => GAP,
+    };
+    let gaps: f64 = (0..scene.line.joints.len()).map(gap).sum();
+    let taken = elements.iter().map(|element| width(element)).sum::<f64>() + gaps;
     let wide = (2.0 * MARGIN + taken + BARS).max(WIDTH);
     let room = wide - 2.0 * MARGIN - taken;
     let total: f64 = lengths.iter().sum();
@@ -52,7 +58,6 @@ pub fn drawn(scaled: &ScaledScene) -> String {
     if scene.line.left == End::Fixed {
         out += &sign("wire", WALL, x, AXIS, "scale(-1 1)");
     }
-    let gap = |joint: usize| if scene.line.joints[joint] == Joint::Contact { GAP } else { 0.0 };
     for (i, element) in elements.iter().enumerate() {
         x += gap(i);
         let long = width(element) + lengths[i] * scale;
@@ -89,12 +94,13 @@ pub fn drawn(scaled: &ScaledScene) -> String {
     });
     let label =
         format!("The line from left to right: {left} end, {}, {right} end.", words.join(", "));
+    let apart = if scene.line.gaps.is_empty() { "" } else { ", a wide one is open at the start" };
     let least = if wide > WIDTH { format!(" style=\"min-width:{wide}px\"") } else { String::new() };
     format!(
         "<figure><div class=\"wide\" role=\"group\" aria-label=\"The line\" tabindex=\"0\">\
          <svg class=\"line-of-scene\"{least} viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">{out}</svg></div>\
          <figcaption>{note} Masses, springs and ends are symbols, not to scale; an arrow is a velocity at the start or a load; \
-         a gap is a contact.</figcaption></figure>\n",
+         a gap is a contact{apart}.</figcaption></figure>\n",
         px(wide),
         px(y + 10.0),
         escape(&label)
