@@ -516,7 +516,8 @@ class Motion:
         loosened = [("alpha", i) for i in self.system.loose - before.loose]
         loosened += [("u", n) for n in self.system.resting - before.resting]
         for what, n in loosened:
-            need(self.state[what][n].sign() in (0, None), "a spring or a support comes loose while it is compressed")
+            is_slack = what == "u" and self.line.supports[n][1].is_zero()
+            need(is_slack or self.state[what][n].sign() in (0, None), "a spring or a support comes loose while it is compressed")
             self.state[what][n] = ZERO
         for i in self.closed & set(changes):
             need(was_flush[i] or not self.is_rigid_impact(i), "rigid bodies meet")

@@ -13,7 +13,7 @@ READS, HALF = {"quantity", "observed"}, Fraction(1, 2)
 
 # What can be read of elements, and how much more has to be said: delays of both waves, a side.
 READINGS = {("bar", what): 2 for what in ("velocity", "displacement", "force")}
-READINGS |= {("bar", "work"): 2, ("spring", "work"): 0, ("support", "work"): 0, ("bar", "momentum"): 0} | {(kind, "energy"): 0 for kind in ("bar", "mass", "spring", "support")}
+READINGS |= {("bar", "work"): 2, ("spring", "loss"): 0, ("support", "loss"): 0, ("bar", "momentum"): 0} | {(kind, "energy"): 0 for kind in ("bar", "mass", "spring", "support")}
 READINGS |= {("spring", what): 1 for what in ("velocity", "displacement")}
 READINGS |= {(kind, what): 0 for kind in ("mass", "support", "force") for what in ("velocity", "displacement")}
 READINGS |= {(kind, what): 0 for kind in ("spring", "support") for what in ("compression", "force")}
@@ -111,11 +111,12 @@ class Reader:
                 continue
             read = known(("alpha", n) if kind == "spring" else ("u", n), None)
             stiffness, damping = (link["stiffness"], link["damping"]) if link else line.supports[n][1:]
-            if what in ("energy", "work"):
+            if what == "energy":
                 sums.append(scaled((factor * stiffness).times(HALF), squared(read)))
-                if what == "work" and not damping.is_zero():  # and what its damper has taken
-                    key = ("rate", n) if link else ("v", line.supports[n][0])
-                    sums.append(scaled(factor * damping, known(key, None, squared)))
+                continue
+            if what == "loss":  # what its damper has taken
+                key = ("rate", n) if link else ("v", line.supports[n][0])
+                sums.append(scaled(factor * damping, known(key, None, squared)))
                 continue
             if what == "compression":
                 sums.append(scaled(factor, read))

@@ -110,16 +110,17 @@ class Place:
             elif kind == "bar" and what == "work":
                 need(len(of) == 2, "the section is missing")
                 read = self.passed(n, *of)
-            elif what in ("energy", "work"):
-                need(kind in ("mass", "spring", "support")[what == "work" :] and not of, "this has no energy, or takes none")
+            elif what == "loss":
+                need(kind in ("spring", "support") and not of, "this has no damper")
+                key = ("rate", n) if kind == "spring" else ("speed", parts.supports[n][0])
+                damping = parts.links[n]["damping"] if kind == "spring" else parts.supports[n][2]
+                read = times(damping, self.series(key, now, square))
+            elif what == "energy":
+                need(kind in ("mass", "spring", "support") and not of, "this has no energy")
                 key = {"mass": "speed", "spring": "alpha", "support": "u"}[kind]
                 own = {"mass": parts.masses.get(name), "support": parts.supports[n][1] if kind == "support" else None}
                 own = parts.links[n]["stiffness"] if kind == "spring" else own[kind]
                 read = times(own / 2, square(self.series((key, n), now)))
-                if what == "work":
-                    key = ("rate", n) if kind == "spring" else ("speed", parts.supports[n][0])
-                    damping = parts.links[n]["damping"] if kind == "spring" else parts.supports[n][2]
-                    read = plus(read, times(damping, self.series(key, now, square)))
             elif kind == "bar":
                 need(what in ("velocity", "force", "displacement") and len(of) == 2, "a bar is read in another way")
                 self.check_section(n, *of)

@@ -186,9 +186,15 @@ impl Value {
                 _ => decimal.to_string(),
             },
             (Value::Certified { .. }, _) => self.to_string(),
+            (Value::Enclosed(ball), _) if ball.contains_zero() => around_zero(ball),
             (Value::Enclosed(ball), _) => ball.to_decimal(digits).to_string(),
         }
     }
+}
+
+/// A ball of which no midpoint tells anything.
+fn around_zero(ball: &Ball) -> String {
+    format!("0 ± {:e}", Ball::zero().widened(&ball.magnitude()).to_decimal(1).radius())
 }
 
 /// A rational number as a fraction, else the digits that are proven.
@@ -197,8 +203,9 @@ impl fmt::Display for Value {
         match self {
             Value::Exact(value) => value.fmt(f),
             Value::Certified { decimal, ball } if decimal.is_zero() => {
-                write!(f, "0 ± {:e}", ball.to_decimal(1).radius())
+                f.write_str(&around_zero(ball))
             }
+            Value::Enclosed(ball) if ball.contains_zero() => f.write_str(&around_zero(ball)),
             Value::Certified { decimal, .. } => decimal.fmt(f),
             Value::Enclosed(ball) => ball.fmt(f),
         }

@@ -498,16 +498,14 @@ impl Engine {
             });
         }
         let rates = self.loads_of(node).map(|load| load.course.rate());
+        // Where hardly anything has a rate and nothing arrives, a cell is as long as all before it, and a unit of time at least.
+        let so_long = || Rational::from_float(state.about.max(1.0).floor()).expect("a finite time");
+        let by_rate = |top| Rational::from(&Magnitude::power_of_two(LONGEST_CELL - top));
         let longest = match (most, rates.fold(rate, Magnitude::max).top(), &first) {
             (Some(most), ..) => most.clone(),
-            (_, Some(top), _) => {
-                Rational::from(&Magnitude::power_of_two(LONGEST_CELL - top)) * share
-            }
-            // Where nothing has a rate and nothing arrives, a cell is as long as all before it, and a unit of time at least.
-            (None, None, None) => {
-                share
-                    * Rational::from_float(state.about.max(1.0).floor()).expect("a time is finite")
-            }
+            (_, Some(top), Some(_)) => by_rate(top) * share,
+            (_, Some(top), None) => by_rate(top).min(so_long()) * share,
+            (None, None, None) => so_long() * share,
             (None, None, Some(first)) => return Ok((first.clone(), false)),
         };
         let step = Clock::step(&state.now, &longest);

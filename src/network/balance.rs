@@ -14,7 +14,9 @@ use crate::network::node::{ElementLaw, Lumped};
 use crate::network::observed::{ObservedValue, Squared, Window};
 use crate::network::reading::{Face, Field, Lump, Reading, Section, section};
 use crate::network::scaled::ScaledScene;
-use crate::scene::{Drive, ElementIndex, End, Joint, Kind, Measure, Observable, Scene, Seen};
+use crate::scene::{
+    Drive, ElementIndex, End, Joint, Kind, Measure, Observable, Place, Scene, Seen,
+};
 
 /// A coefficient times the product of one or two readings.
 pub(super) struct Flow {
@@ -48,20 +50,25 @@ pub(super) fn flow(
             all.extend(times(work(scaled, passage), coefficient));
         }
     }
-    let held: Vec<&Seen> =
-        observable.terms.iter().filter(|seen| seen.measure != Measure::Work).collect();
     if all.is_empty() {
-        return into_elements(scaled, &held);
+        return into_elements(scaled, &observable.terms.iter().collect::<Vec<_>>());
     }
     // What the line loses apart from what its elements hold, so that what is counted twice cancels.
-    let (line, own) =
-        held.into_iter().partition::<Vec<&Seen>, _>(|seen| seen.place.element().is_none());
-    all.extend(into_elements(scaled, &line)?);
-    for seen in own {
-        let element = seen.place.element()?;
-        let balance = Balance { scaled, measure: Measure::Energy };
-        let into = balance.through_bar(element, [false; 2]);
-        all.extend(times(into.or_else(|| balance.into_lump(element))?, &seen.coefficient));
+    let in_element = |seen: &&Seen| seen.place.element().is_some();
+    let line = observable.terms.iter().filter(|seen| !in_element(seen));
+    all.extend(into_elements(scaled, &line.collect::<Vec<_>>())?);
+    for seen in observable.terms.iter().filter(in_element) {
+        let (element, balance) =
+            (seen.place.element()?, Balance { scaled, measure: Measure::Energy });
+        let into = match (seen.measure, &seen.place) {
+            // It passes, and is told by the measure.
+            (Measure::Work, Place::Left(_) | Place::Right(_) | Place::At(..)) => continue,
+            (Measure::Work, _) => balance.through_lump(element)?,
+            _ => balance
+                .through_bar(element, [false; 2])
+                .or_else(|| balance.through_lump(element))?,
+        };
+        all.extend(times(into, &seen.coefficient));
     }
     Some(joined(all))
 }
@@ -85,37 +92,29 @@ fn joined(terms: Vec<Flow>) -> Vec<Flow> {
 /// The power of the work that is done somewhere.
 pub(super) fn work(scaled: &ScaledScene, passage: &Passage) -> Vec<Flow> {
     let balance = Balance { scaled, measure: Measure::Work };
-    let lump = match passage {
+    match passage {
         Passage::Section(section) => {
-            return balance.through(section, &POWER, Fraction::one()).into_iter().collect();
+            balance.through(section, &POWER, Fraction::one()).into_iter().collect()
         }
-        Passage::Element(lump) => *lump,
-    };
-    let power = |sign, face| Flow::new(sign, vec![Reading::Force(lump), Reading::Velocity(face)]);
-    let (left, right) = (Face::Left(lump), Face::Right(lump));
-    match &balance.layout().nodes[lump.node].elements[lump.place].law {
-        ElementLaw::Load(drive) => {
+        Passage::Damper(lump) => times(balance.damper(*lump), &-&Fraction::one()),
+        Passage::Load(lump) => {
             let own = &balance.layout().nodes[lump.node];
-            let beside = own.attached(own.elements[lump.place].run);
-            let force =
-                match beside.filter(|own| matches!(own.law, ElementLaw::Load(_))).count() == 1 {
-                    true => balance.pushed(lump, *drive),
-                    false => None,
-                };
-            Balance::supplied(force.unwrap_or_else(|| vec![balance.given(lump)]), lump)
+            let Lumped { run, law, .. } = &own.elements[lump.place];
+            let ElementLaw::Load(drive) = law else { return Vec::new() };
+            let loads = own.attached(*run).filter(|own| matches!(own.law, ElementLaw::Load(_)));
+            let force = if loads.count() == 1 { balance.pushed(*lump, *drive) } else { None };
+            Balance::supplied(force.unwrap_or_else(|| vec![balance.given(*lump)]), *lump)
         }
-        law if law.is_link() => {
-            vec![power(Fraction::one(), left), power(-&Fraction::one(), right)]
-        }
-        _ => vec![power(Fraction::one(), left)],
     }
 }
 
 /// The flow into what elements hold: terms of one measure.
 fn into_elements(scaled: &ScaledScene, terms: &[&Seen]) -> Option<Vec<Flow>> {
     let scene = &scaled.scene;
-    let Some(measure) = terms.first().map(|seen| seen.measure) else { return Some(Vec::new()) };
-    if terms.iter().any(|seen| seen.measure != measure) {
+    // The work on a spring without damping is its energy.
+    let kind = |seen: &&Seen| if seen.measure.is_energy() { Measure::Energy } else { seen.measure };
+    let Some(measure) = terms.first().map(kind) else { return Some(Vec::new()) };
+    if terms.iter().any(|seen| kind(seen) != measure) {
         return None;
     }
     let coefficient = |element: &ElementIndex| {
@@ -220,14 +219,20 @@ impl Balance<'_> {
     }
 
     /// What flows into the energy of a spring, a local contact or a support; a load has none.
-    fn into_lump(&self, element: ElementIndex) -> Option<Vec<Flow>> {
+    fn through_lump(&self, element: ElementIndex) -> Option<Vec<Flow>> {
         let node = self.layout().node_of(element)?;
         let lump = Lump { node, place: self.layout().nodes[node].place(element)? };
         match self.layout().nodes[node].elements[lump.place].law {
             ElementLaw::Mass { .. } => None,
             ElementLaw::Load(_) => Some(Vec::new()),
-            _ => {
-                let mut into = work(self.scaled, &Passage::Element(lump));
+            ref law => {
+                let power = |sign, face| {
+                    Flow::new(sign, vec![Reading::Force(lump), Reading::Velocity(face)])
+                };
+                let mut into = vec![power(Fraction::one(), Face::Left(lump))];
+                if law.is_link() {
+                    into.push(power(-&Fraction::one(), Face::Right(lump)));
+                }
                 into.extend(self.damper(lump));
                 Some(into)
             }

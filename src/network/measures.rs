@@ -15,6 +15,7 @@ use crate::scene::{
     Body, Dimension, Drive, ElementIndex, Joint, Kind, Measure, Mistake, Observable, Place,
     Position, Scene, Seen,
 };
+use std::collections::BTreeMap;
 use wavestep_polynomial::Rational;
 
 /// What an observable is.
@@ -31,13 +32,15 @@ pub enum MeasuredValue {
     },
 }
 
-/// Where work is done, `∫ X v dt` since the start.
+/// Where energy passes, since the start.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Passage {
-    /// What has passed a section to the right.
+    /// A section, to the right: `∫ X v dt`.
     Section(Section),
-    /// What a spring, a local contact or a support has taken up, or what a load has given.
-    Element(Lump),
+    /// What the damping of a spring or a support has taken.
+    Damper(Lump),
+    /// What a load has given.
+    Load(Lump),
 }
 
 /// An observable of a scene as a sum of readings.
@@ -105,24 +108,44 @@ impl<'a> Table<'a> {
 
     /// A sum of energies.
     fn energies(&mut self, name: &str, terms: &[Seen]) -> Result<Measured, NetworkError> {
-        let (mut held, mut passed) = (Vec::new(), Vec::new());
-        for seen in terms {
-            let own = |element| (seen.coefficient.clone(), element);
-            match (seen.measure, seen.place.element()) {
-                (Measure::Work, Some(element)) => {
-                    let passage = match self.section(name, &seen.place)? {
-                        Some(section) => Ok(Passage::Section(section)),
-                        None => self.elements().lump(element).map(Passage::Element),
-                    };
-                    let name = || name.to_owned();
-                    let passage = passage
-                        .map_err(|reason| NetworkError::Unobservable { name: name(), reason })?;
-                    passed.push((seen.coefficient.clone(), passage));
+        let (mut held, mut passed) = (BTreeMap::new(), Vec::new());
+        let mut hold = |element: ElementIndex, coefficient: &Fraction| {
+            let known = held.entry(element).or_insert_with(Fraction::zero);
+            *known = &*known + coefficient;
+        };
+        for Seen { coefficient, measure, place, .. } in terms {
+            let pass = |passage| (coefficient.clone(), passage);
+            let Some(element) = place.element() else {
+                self.scene.line.elements.iter().for_each(|element| hold(*element, coefficient));
+                continue;
+            };
+            if *measure != Measure::Work {
+                hold(element, coefficient);
+                continue;
+            }
+            if let Some(section) = self.section(name, place)? {
+                let vanishes = |field| vanishes(self.scene, self.layout, field, &section);
+                if ![Field::Force, Field::Velocity].into_iter().any(vanishes) {
+                    passed.push(pass(Passage::Section(section)));
                 }
-                (_, Some(element)) => held.push(own(element)),
-                (_, None) => held.extend(self.scene.line.elements.iter().copied().map(own)),
+                continue;
+            }
+            let refused = |reason| NetworkError::Unobservable { name: name.to_owned(), reason };
+            let lump = self.elements().lump(element).map_err(refused)?;
+            match &self.layout.nodes[lump.node].elements[lump.place].law {
+                ElementLaw::Load(_) => passed.push(pass(Passage::Load(lump))),
+                // What its spring stores, and what its damper takes.
+                law => {
+                    hold(element, coefficient);
+                    let damping = law.resistance().map(|[_, damping]| damping);
+                    if damping.is_some_and(|damping| !damping.is_zero()) {
+                        passed.push(pass(Passage::Damper(lump)));
+                    }
+                }
             }
         }
+        let held = held.into_iter().filter(|(_, coefficient)| !coefficient.is_zero());
+        let held = held.map(|(element, coefficient)| (coefficient, element)).collect();
         let dimension = if self.scene.dimensional { Dimension::ENERGY } else { Dimension::NONE };
         let (name, unit) = (name.to_owned(), unit(&self.model.scale, Measure::Energy, None)?);
         let value = MeasuredValue::Energy { held, passed };

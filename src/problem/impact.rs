@@ -4,7 +4,7 @@ use super::{Problem, ProblemError};
 use crate::enclosure::Numbers;
 use crate::export::{self, Formula};
 use crate::expression::{Expression, Fraction};
-use crate::network::{Impact, NoClosedForm};
+use crate::network::{Impact, NetworkError, NoClosedForm};
 use crate::scene::ElementIndex;
 use std::cmp::Ordering;
 
@@ -19,6 +19,9 @@ impl Problem {
         let (scene, model) = (scaled.scene(), scaled.model());
         let name = |index: ElementIndex| scene.elements[index].name.clone();
         let refused = |why| ProblemError::NoClosedForm { contact: name(contact), why };
+        if let Some(joint) = scene.line.gaps.keys().next() {
+            return Err(NetworkError::Apart(scene.names_beside(*joint)).into());
+        }
         let impact = Impact::of(scaled, contact).map_err(refused)?;
         let numbers = Numbers::new(&model.constants);
         let by_number = numbers.compare(&impact.approach, &Fraction::zero());

@@ -115,7 +115,7 @@ impl Problem {
             }
             Kind::Line { network, .. } => network,
         };
-        if self.on_lattice() {
+        if self.on_lattice() || network.all_linear().is_err() {
             let passages = travel_time(network)? * PASSAGES as f64;
             return two_figures(passages);
         }

@@ -78,9 +78,9 @@ impl Problem {
         }
     }
 
-    /// How long forms with closed contacts are true; `None` where there are no contacts.
+    /// How long forms with closed contacts are true; `None` where there are no contacts, or no such forms.
     pub fn holds(&self, digits: usize) -> Option<Holds> {
-        let network = self.with_contacts()?;
+        let network = self.with_contacts().filter(|network| network.all_linear().is_ok())?;
         Some(match Validity::of(network, None, digits, CELLS) {
             Ok(Validity::Until { time, between }) => match self.has_periods() {
                 true => Holds::UntilItPulls(time, between),

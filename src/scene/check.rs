@@ -324,6 +324,7 @@ impl Check<'_> {
             }
             if let (Some(end), Kind::Mass(mass)) = (fixed.first(), self.kind_at(position))
                 && !mass.velocity.is_zero()
+                && !self.is_apart(position, *end)
             {
                 self.fault(Mistake::MovesAtWall, [Part::Position(position), *end]);
             }
@@ -351,6 +352,12 @@ impl Check<'_> {
         let is_imposed =
             matches!(self.kind_at(position), Kind::Load(load) if load.drive == Drive::Velocity);
         self.scene.contacts_open && !is_imposed && between.any(|joint| *joint == Joint::Contact)
+    }
+
+    /// Whether a gap is between an element and an end.
+    fn is_apart(&self, position: usize, end: Part) -> bool {
+        let mut gaps = self.scene.line.gaps.keys();
+        gaps.any(|joint| (*joint <= position) == (end == Part::Left))
     }
 
     /// Something sets the line in motion.

@@ -118,3 +118,14 @@ fn the_method_of_steps_closes_gaps() {
         }
     }
 }
+
+/// What flies with one velocity that is no rational number flies on without a force between its parts.
+#[test]
+fn a_flight_at_an_irrational_velocity_ends() {
+    let text = "scene \"A\"\nmass i { mass = 1, velocity = sqrt(15) }\nspring k { stiffness = 3 }\n\
+        mass c { mass = 5, velocity = sqrt(15) }\nspring b { stiffness = 10 }\n\
+        line free - i - k - c |1| b - fixed\ncontacts open\nobserve f = force(k)";
+    let history = problem(text).events_until(1, 12).unwrap();
+    let times: Vec<String> = history.events.iter().map(|event| event.time.to_text(12)).collect();
+    assert_eq!(times, ["0.258198889747"]);
+}

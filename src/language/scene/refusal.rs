@@ -212,6 +212,12 @@ impl Lowering<'_> {
         let is_section = !matches!(seen.place, Place::Element(_));
         let what = match is_section {
             true => "a section of a bar".to_owned(),
+            false
+                if seen.measure == Measure::Work
+                    && matches!(scene.elements[element].kind, Kind::Load(_)) =>
+            {
+                "an imposed velocity".to_owned()
+            }
             false => format!("a {}", kind.noun()),
         };
         let instead = match (&scene.elements[element].kind, seen.measure) {

@@ -277,14 +277,14 @@ fn rows(line: &Line<'_>, value: &MeasuredValue, writer: &mut Writer) -> Result<J
                 let bar = layout.bars[section.bar];
                 json!([c, "work", elements[bar].name, delays[0], delays[1]])
             }
-            Passage::Element(lump) => {
+            Passage::Damper(lump) => {
                 let element = layout.nodes[lump.node].elements[lump.place].element;
-                if is_load(element) {
-                    let message = "there are no certificates of the work of loads";
-                    let remedy = "observe the work at the end of a bar next to it";
-                    return Err(Failure::usage(message, remedy));
-                }
-                json!([c, "work", elements[element].name])
+                json!([c, "loss", elements[element].name])
+            }
+            Passage::Load(_) => {
+                let message = "there are no certificates of the work of loads";
+                let remedy = "observe the work at the end of a bar next to it";
+                return Err(Failure::usage(message, remedy));
             }
         });
     }
