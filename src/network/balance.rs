@@ -50,24 +50,21 @@ pub(super) fn flow(
             all.extend(times(work(scaled, passage), coefficient));
         }
     }
+    // What passes a section is told by the measure.
+    let is_held =
+        |seen: &&Seen| seen.measure != Measure::Work || matches!(seen.place, Place::Element(_));
+    let terms: Vec<&Seen> = observable.terms.iter().filter(is_held).collect();
     if all.is_empty() {
-        return into_elements(scaled, &observable.terms.iter().collect::<Vec<_>>());
+        return into_elements(scaled, &terms);
     }
     // What the line loses apart from what its elements hold, so that what is counted twice cancels.
-    let in_element = |seen: &&Seen| seen.place.element().is_some();
-    let line = observable.terms.iter().filter(|seen| !in_element(seen));
-    all.extend(into_elements(scaled, &line.collect::<Vec<_>>())?);
-    for seen in observable.terms.iter().filter(in_element) {
-        let (element, balance) =
-            (seen.place.element()?, Balance { scaled, measure: Measure::Energy });
-        let into = match (seen.measure, &seen.place) {
-            // It passes, and is told by the measure.
-            (Measure::Work, Place::Left(_) | Place::Right(_) | Place::At(..)) => continue,
-            (Measure::Work, _) => balance.through_lump(element)?,
-            _ => balance
-                .through_bar(element, [false; 2])
-                .or_else(|| balance.through_lump(element))?,
-        };
+    let (line, own) = terms.into_iter().partition::<Vec<_>, _>(|seen| seen.place == Place::Line);
+    all.extend(into_elements(scaled, &line)?);
+    let balance = Balance { scaled, measure: Measure::Energy };
+    for seen in own {
+        let element = seen.place.element()?;
+        let through_bar = balance.through_bar(element, [false; 2]);
+        let into = through_bar.or_else(|| balance.through_lump(element))?;
         all.extend(times(into, &seen.coefficient));
     }
     Some(joined(all))

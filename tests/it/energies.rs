@@ -579,6 +579,29 @@ fn work_is_energy_that_has_passed() {
     }
 }
 
+/// Nothing passes a free end or a wall, whatever the bar there holds; searches by what flows tell the same.
+#[test]
+fn nothing_passes_an_end() {
+    let text = "scene \"Ends\"\nbar a { impedance = 1, travel = 1, velocity = 1 }\n\
+        bar b { impedance = 2, travel = 1/2 }\nline free - a - b - fixed\nobserve at_ends = work(a.left) - 2*work(b.right)\n\
+        observe with_b = work(b.right) + energy(b)\nobserve b = energy(b)\n"
+        .replace("observe b =", "observe held =");
+    let network = network(&text);
+    let last = rational(3, 1);
+    let search = |name: &str| {
+        let observed = network.observables().iter().find(|own| own.name == name).unwrap();
+        of_scene(&network, observed, [&Rational::default(), &last], Purpose::Search).unwrap()
+    };
+    for n in 1..12 {
+        let at = rational(6 * n + 1, 25);
+        let value = |name: &str, order: usize| derivative(&*search(name), order, &at);
+        for order in 0..2 {
+            assert_same(&value("at_ends", order), &Ball::zero(), 1.0, "ends");
+            assert_same(&value("with_b", order), &value("held", order), 1.0, "bar");
+        }
+    }
+}
+
 /// A mass on an endless bar gives it `M V²/2 (1 − exp(−2Zt/M))`, and so it does to a damper.
 #[test]
 fn work_has_exact_values() {
