@@ -8,7 +8,7 @@ use crate::expression::{Expression, Fraction, Root};
 use crate::network::balance::{Flow, at_start, flow, times, work};
 use crate::network::equations::{Network, Role};
 use crate::network::error::NetworkError;
-use crate::network::measures::MeasuredValue;
+use crate::network::measures::{MeasuredValue, Passage};
 use crate::network::node::{ElementLaw, Node, Side};
 use crate::network::observed::{
     Balance, EnergySum, EnergyTerm, FlowTerm, Observed, ObservedValue, Squared, Window,
@@ -36,11 +36,9 @@ impl Network {
                     for (coefficient, element) in elements {
                         held.extend(self.energy(&measured.name, coefficient, *element)?);
                     }
-                    let works = passed
-                        .iter()
-                        .flat_map(|(coefficient, own)| times(work(&self.scaled, own), coefficient));
-                    let works = works.collect();
-                    let (start, passed) = (Fraction::zero(), self.flowing(works));
+                    let power = |(c, own): &(Fraction, Passage)| times(work(&self.scaled, own), c);
+                    let power = passed.iter().flat_map(power).collect();
+                    let (start, passed) = (Fraction::zero(), self.flowing(power));
                     ObservedValue::Energy(EnergySum { start, held, passed })
                 }
             };

@@ -78,9 +78,8 @@ impl Scene {
         for index in 0..self.elements.len() {
             now.push(self.expand(index, &mut elements)?);
         }
-        let (left, right) = (self.line.left, self.line.right);
-        let (elements_now, joints, gaps) = Default::default();
-        let mut line = Line { left, elements: elements_now, joints, gaps, right };
+        let (of_line, joints, gaps) = Default::default();
+        let mut line = Line { elements: of_line, joints, gaps, ..self.line };
         for (place, joint) in self.line.joints.iter().enumerate() {
             let gap = self.line.gaps.get(&place);
             line.gaps.extend(gap.map(|gap| (line.joints.len(), gap.clone())));

@@ -214,3 +214,25 @@ fn stated_equations_are_compared() {
     // s = 1/5 is where 1 + s - 5/2 s² is largest.
     assert_eq!(largest.to_string(), "11/10");
 }
+
+/// Work is continuous, and so is its difference from that without a trap: a plateau is attained at both ends, and is one place.
+#[test]
+fn a_difference_of_what_is_continuous_is_attained() {
+    let bars = "scene \"A\"\nbar a { impedance = 1, travel = 1/5, velocity = 2 }\nbar b { impedance = 1, travel = 1 }\n";
+    let [trapped, bare] = ["| b |1/10| c", "| b"].map(|line| {
+        let trap = if line.contains('c') { "bar c { impedance = 1, travel = 3/10 }\n" } else { "" };
+        let text = format!(
+            "{bars}{trap}line free - a {line} - free\ncontacts open\nobserve w = work(b.at(1/50))"
+        );
+        Problem::read("test.wave", text).unwrap()
+    });
+    ask([&trapped, &bare], "w", whole(3), |signal| {
+        let search = Search::new(signal).unwrap();
+        let found = search.extremum(Goal::Largest, 12, 1 << 12).unwrap();
+        let [Place::Plateau { from, to, closed: true }] = &found.places[..] else {
+            panic!("{:?}", found.places)
+        };
+        let told = [from, to].map(|time| time.to_text(4));
+        assert_eq!(told, ["2.07 = 207/100", "2.38 = 119/50"]);
+    });
+}

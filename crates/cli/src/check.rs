@@ -58,7 +58,14 @@ fn verdict(checked: &Checked, problem: &Problem) -> String {
     let observed = plural(problem.observables().len(), "observable");
     match checked {
         Checked::NoRecurrence(_) => {
-            format!("consistent; proven events and values of {observed}")
+            let set = |name: &&str| format!("--set {name}=…");
+            let needed = match &problem.symbols()[..] {
+                [] => String::new(),
+                symbols => {
+                    format!(" (with {})", symbols.iter().map(set).collect::<Vec<_>>().join(" "))
+                }
+            };
+            format!("consistent; proven events and values of {observed}{needed}")
         }
         Checked::Lattice { .. } => {
             format!("consistent; echoes in order of arrival, values of {observed}")

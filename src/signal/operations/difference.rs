@@ -106,6 +106,10 @@ impl Rule for Difference<'_> {
         self.operands[operand].is_instant(place)
     }
 
+    fn is_continuous(&self) -> bool {
+        self.operands.iter().all(|own| own.is_continuous())
+    }
+
     fn is_zero(&self, places: &[usize]) -> bool {
         // Until the last arrival that counts both are one function.
         self.arrivals.is_some() && places[0] == places[1]
