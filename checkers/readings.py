@@ -13,10 +13,10 @@ READS, HALF = {"quantity", "observed"}, Fraction(1, 2)
 
 # What can be read of elements, and how much more has to be said: delays of both waves, a side.
 READINGS = {("bar", what): 2 for what in ("velocity", "displacement", "force")}
-READINGS |= {("bar", "work"): 2, ("spring", "loss"): 0, ("support", "loss"): 0, ("bar", "momentum"): 0} | {(kind, "energy"): 0 for kind in ("bar", "mass", "spring", "support")}
+READINGS |= {("bar", "work"): 2, ("bar", "momentum"): 0} | {(kind, "energy"): 0 for kind in ("bar", "mass", "spring", "support")}
 READINGS |= {("spring", what): 1 for what in ("velocity", "displacement")}
 READINGS |= {(kind, what): 0 for kind in ("mass", "support", "force") for what in ("velocity", "displacement")}
-READINGS |= {(kind, what): 0 for kind in ("spring", "support") for what in ("compression", "force")}
+READINGS |= {(kind, what): 0 for kind in ("spring", "support") for what in ("compression", "force", "loss")}
 
 class Reader:
     """Reads a motion that has been followed."""

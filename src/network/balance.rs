@@ -19,6 +19,7 @@ use crate::scene::{
 };
 
 /// A coefficient times the product of one or two readings.
+#[derive(Clone)]
 pub(super) struct Flow {
     pub coefficient: Fraction,
     pub factors: Vec<Reading>,
@@ -38,25 +39,20 @@ impl Flow {
 const POWER: [Field; 2] = [Field::Force, Field::Velocity];
 
 /// The terms of the derivative of an observable with respect to time, in the scales of the scene, where it
-/// is an energy or a momentum whose balance is known.
+/// is an energy or a momentum whose balance is known; `power` is that of the work in it.
 pub(super) fn flow(
     scaled: &ScaledScene,
     observable: &Observable,
-    value: &MeasuredValue,
+    power: &[Flow],
 ) -> Option<Vec<Flow>> {
-    let mut all = Vec::new();
-    if let MeasuredValue::Energy { passed, .. } = value {
-        for (coefficient, passage) in passed {
-            all.extend(times(work(scaled, passage), coefficient));
-        }
-    }
-    // What passes a section is told by the measure.
+    // The work at a section is in the power.
     let is_held =
         |seen: &&Seen| seen.measure != Measure::Work || matches!(seen.place, Place::Element(_));
     let terms: Vec<&Seen> = observable.terms.iter().filter(is_held).collect();
-    if all.is_empty() {
+    if power.is_empty() {
         return into_elements(scaled, &terms);
     }
+    let mut all = power.to_vec();
     // What the line loses apart from what its elements hold, so that what is counted twice cancels.
     let (line, own) = terms.into_iter().partition::<Vec<_>, _>(|seen| seen.place == Place::Line);
     all.extend(into_elements(scaled, &line)?);
@@ -86,23 +82,12 @@ fn joined(terms: Vec<Flow>) -> Vec<Flow> {
     sum
 }
 
-/// The power of the work that is done somewhere.
-pub(super) fn work(scaled: &ScaledScene, passage: &Passage) -> Vec<Flow> {
+/// The power of the work that is done at these places.
+pub(super) fn power(scaled: &ScaledScene, passed: &[(Fraction, Passage)]) -> Vec<Flow> {
     let balance = Balance { scaled, measure: Measure::Work };
-    match passage {
-        Passage::Section(section) => {
-            balance.through(section, &POWER, Fraction::one()).into_iter().collect()
-        }
-        Passage::Damper(lump) => times(balance.damper(*lump), &-&Fraction::one()),
-        Passage::Load(lump) => {
-            let own = &balance.layout().nodes[lump.node];
-            let Lumped { run, law, .. } = &own.elements[lump.place];
-            let ElementLaw::Load(drive) = law else { return Vec::new() };
-            let loads = own.attached(*run).filter(|own| matches!(own.law, ElementLaw::Load(_)));
-            let force = if loads.count() == 1 { balance.pushed(*lump, *drive) } else { None };
-            Balance::supplied(force.unwrap_or_else(|| vec![balance.given(*lump)]), *lump)
-        }
-    }
+    let power =
+        |(coefficient, passage): &(Fraction, Passage)| times(balance.power(passage), coefficient);
+    passed.iter().flat_map(power).collect()
 }
 
 /// The flow into what elements hold: terms of one measure.
@@ -153,7 +138,7 @@ fn into_elements(scaled: &ScaledScene, terms: &[&Seen]) -> Option<Vec<Flow>> {
     Some(all)
 }
 
-pub(super) fn times(terms: Vec<Flow>, coefficient: &Fraction) -> Vec<Flow> {
+fn times(terms: Vec<Flow>, coefficient: &Fraction) -> Vec<Flow> {
     let times = |own: Flow| Flow { coefficient: &own.coefficient * coefficient, ..own };
     terms.into_iter().map(times).collect()
 }
@@ -192,6 +177,24 @@ impl Balance<'_> {
             }
         }
         Some(terms)
+    }
+
+    /// The power that passes a place, or that a damper takes, or a load gives.
+    fn power(&self, passage: &Passage) -> Vec<Flow> {
+        match passage {
+            Passage::Section(section) => {
+                self.through(section, &POWER, Fraction::one()).into_iter().collect()
+            }
+            Passage::Damper(lump) => times(self.damper(*lump), &-&Fraction::one()),
+            Passage::Load(lump) => {
+                let own = &self.layout().nodes[lump.node];
+                let Lumped { run, law, .. } = &own.elements[lump.place];
+                let ElementLaw::Load(drive) = law else { return Vec::new() };
+                let loads = own.attached(*run).filter(|own| matches!(own.law, ElementLaw::Load(_)));
+                let force = if loads.count() == 1 { self.pushed(*lump, *drive) } else { None };
+                Balance::supplied(force.unwrap_or_else(|| vec![self.given(*lump)]), *lump)
+            }
+        }
     }
 
     /// The power of a force that acts at a place.

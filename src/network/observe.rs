@@ -5,10 +5,10 @@
 //! the start.
 
 use crate::expression::{Expression, Fraction, Root};
-use crate::network::balance::{Flow, at_start, flow, times, work};
+use crate::network::balance::{self, Flow, at_start, flow};
 use crate::network::equations::{Network, Role};
 use crate::network::error::NetworkError;
-use crate::network::measures::{MeasuredValue, Passage};
+use crate::network::measures::MeasuredValue;
 use crate::network::node::{ElementLaw, Node, Side};
 use crate::network::observed::{
     Balance, EnergySum, EnergyTerm, FlowTerm, Observed, ObservedValue, Squared, Window,
@@ -23,6 +23,7 @@ impl Network {
     /// Forms all observables of the scene.
     pub(crate) fn set_observables(&mut self) -> Result<(), NetworkError> {
         for (place, measured) in self.scaled.measures.clone().into_iter().enumerate() {
+            let mut power = Vec::new();
             let value = match &measured.value {
                 MeasuredValue::Linear(terms) => {
                     let mut sum = Observation::default();
@@ -36,14 +37,13 @@ impl Network {
                     for (coefficient, element) in elements {
                         held.extend(self.energy(&measured.name, coefficient, *element)?);
                     }
-                    let power = |(c, own): &(Fraction, Passage)| times(work(&self.scaled, own), c);
-                    let power = passed.iter().flat_map(power).collect();
-                    let (start, passed) = (Fraction::zero(), self.flowing(power));
+                    power = balance::power(&self.scaled, passed);
+                    let (start, passed) = (Fraction::zero(), self.flowing(power.clone()));
                     ObservedValue::Energy(EnergySum { start, held, passed })
                 }
             };
             let at_start = at_start(&self.scaled, &measured.value, &value);
-            let flow = flow(&self.scaled, &self.scaled.scene.observables[place], &measured.value);
+            let flow = flow(&self.scaled, &self.scaled.scene.observables[place], &power);
             let balance = flow
                 .zip(at_start)
                 .map(|(flow, at_start)| Balance { at_start, flow: self.flowing(flow) });

@@ -56,19 +56,18 @@ pub(super) fn of_sources<'a>(
         operands.push(Rc::new(Operation::new(&scale, integral, one_root(), [from, to])));
         products.push(Product { coefficient, factors: vec![place] });
     }
+    let held = operands.len();
     if !passed.is_empty() {
         let power = power(sources, passed, [&Rational::zero(), to])?;
         let work = Integral::new(&scale, Rc::new(power), None, Fraction::zero(), [from, to]);
-        let (coefficient, factors) = (Fraction::one(), vec![operands.len()]);
         operands.push(Rc::new(Operation::new(&scale, work, one_root(), [from, to])));
-        products.push(Product { coefficient, factors });
     }
-    if !start.is_zero() || products.is_empty() {
-        let (coefficient, factors) = (Fraction::one(), vec![operands.len()]);
+    if !start.is_zero() || operands.is_empty() {
         let start = Constant::new(&scale, start.clone());
         operands.push(Rc::new(Operation::new(&scale, start, one_root(), [from, to])));
-        products.push(Product { coefficient, factors });
     }
+    let alone = |place| Product { coefficient: Fraction::one(), factors: vec![place] };
+    products.extend((held..operands.len()).map(alone));
     let sum = combination(&scale, operands, products);
     Ok(Box::new(Operation::new(&scale, sum, unit.clone(), [from, to])))
 }

@@ -91,14 +91,17 @@ impl Problem {
     /// Checks the problem: its laws are solved and the first periods derived in two ways.
     pub fn check(&self) -> Result<Checked, ProblemError> {
         self.can_begin()?;
-        if let Some(contact) = self.local_contact() {
-            return Ok(Checked::NoRecurrence(format!("`{contact}` is a local contact")));
-        }
-        if let Err(NetworkError::Apart([left, right])) =
-            self.network().map_or(Ok(()), Network::all_linear)
-        {
-            let told = format!("{left} and {right} do not touch at the start");
-            return Ok(Checked::NoRecurrence(told));
+        let why = match self.network().map(Network::all_linear) {
+            Ok(Err(NetworkError::NotLinear(contact))) => {
+                Some(format!("`{contact}` is a local contact"))
+            }
+            Ok(Err(NetworkError::Apart([left, right]))) => {
+                Some(format!("{left} and {right} do not touch at the start"))
+            }
+            _ => None,
+        };
+        if let Some(why) = why {
+            return Ok(Checked::NoRecurrence(why));
         }
         match &self.kind {
             Kind::Line { network, .. } if self.on_lattice() => on_lattice(self, network),
