@@ -11,7 +11,7 @@ from math import comb, factorial, isqrt
 from exact import MINUS, ROOTS, Ball, accumulate, add, alike, coefficients, frozen, is_zero, put, rational, read, read_function, thawed
 from exact import slope as derivative
 from reading import Undecided, decided, need
-from series import ONE, PRECISION, ZERO, Duration, Number, begins, interval, is_positive, shifted, slope, total, value
+from series import ONE, PRECISION, ZERO, Duration, Number, ball, begins, dot, interval, is_positive, shifted, slope, total, value
 
 KEYS = {kind: {"is"} for kind in ("free", "fixed", "endless", "contact")}
 KEYS |= {kind: {"is", "name", "stiffness", "damping"} for kind in ("spring", "support")}
@@ -96,8 +96,8 @@ class Load:
         function = {below: top for below, top in function.items() if top}
         if not function.keys() - {()} and not function.get((), {}).keys() - {()}:
             return Number(function.get((), {}).get((), Fraction(0)))
-        ball = self.complex(function)
-        return Number(None, ball.real, ball.off)
+        own = self.complex(function)
+        return ball(own.real, own.off)
 
     def smooth(self, exponent, factors, terms):
         """A polynomial times an exponential; of the highest derivative a bound for -1 <= x <= 2."""
@@ -108,7 +108,7 @@ class Load:
         decided(x.size() >> bits < 64, "a step is too long for a load")
         for k in range(terms):
             powers.append((powers[-1] * x).over(k + 1))
-        real = lambda own: Number(None, own.real, own.off)
+        real = lambda own: ball(own.real, own.off)
         sums = [total(real(factors[i] * powers[k - i]) for i in range(min(k + 1, len(factors)))) for k in range(terms)]
         growth = (Ball(bits, 2 * x.size()).exp()).size()  # of the exponential, from the start on
         bound = Fraction(0)
@@ -129,7 +129,7 @@ def pi(bits):
             power, k = power // (n * n), k + 2
         return sum_
 
-    return Number(None, (16 * arctan(5) - 4 * arctan(239)) >> 16, 2)
+    return ball((16 * arctan(5) - 4 * arctan(239)) >> 16, 2)
 
 
 class Line:
@@ -231,7 +231,7 @@ class Line:
                 if symbol not in self.constants:
                     need(ROOTS.get(symbol, -1) > 0, f"{symbol} has no value")
                     low = isqrt(int(ROOTS[symbol]) << 2 * PRECISION["bits"])
-                    self.constants[symbol] = Number(None, low, 1)
+                    self.constants[symbol] = ball(low, 1)
                 for _ in range(power):
                     product = product * self.constants[symbol]
             sums.append(product)
@@ -275,6 +275,7 @@ class System:
         self.endless = [any(line.endless[r] for r in own) for own in self.members]
         self.free = [g for g in range(self.count) if not self.fixed[g] and not self.moved[g] and not self.endless[g]]
         self.mover = [next((r for r in own if line.masses[r].sign()), own[0]) for own in self.members]
+        self.rows = self.balances()
         self.inverse = self.inverted()
 
     def is_loose(self, i, rigid):
@@ -302,38 +303,37 @@ class System:
             and all(damping.is_zero() for r, _, damping in line.supports if r in own)
         )
 
-    def forces(self, v, alpha, u, incoming, loads, order):
-        """The forces on each run, of one order of the series, by bars, springs, supports and loads; velocities that are not
-        known yet count as zero."""
-        line, one = self.line, [ZERO] * self.line.count
-        speed = lambda r: v.get(self.group[r], ZERO)
+    def balances(self):
+        """The forces on each run: factors, what they belong to, and how often it counts. At the start bars have a velocity V and a
+        force X besides, so that their ends are pressed with X + Z (2 f - v + V) and X + Z (v - V - 2 g)."""
+        line, speed = self.line, lambda r: ("v", self.group[r])
+        rows = [[] for _ in range(line.count)]
         for i, link in enumerate(line.links):
             if link["is"] == "bar":
-                base = lambda key: link[key] if order == 0 else ZERO
-                if not line.endless[i + 1]:  # compression at the right end, X + Z (2 f - v + V)
-                    f = incoming[i, "right"]
-                    one[i + 1] = one[i + 1] + base("force") + link["impedance"] * (f + f - speed(i + 1) + base("velocity"))
-                if not line.endless[i]:  # at the left end, X + Z (v - V - 2 g)
-                    g = incoming[i, "left"]
-                    one[i] = one[i] - base("force") - link["impedance"] * (speed(i) - base("velocity") - g - g)
+                z, at_rest = link["impedance"], link["impedance"] * link["velocity"]
+                if not line.endless[i]:
+                    rows[i] += [(z, (i, "left"), 2), (-z, speed(i), 1), (at_rest - link["force"], "start", 1)]
+                if not line.endless[i + 1]:
+                    rows[i + 1] += [(z, (i, "right"), 2), (-z, speed(i + 1), 1), (at_rest + link["force"], "start", 1)]
             elif link["is"] == "spring" and i not in self.loose:
-                force = link["stiffness"] * alpha[i] + link["damping"] * (speed(i) - speed(i + 1))
-                one[i], one[i + 1] = one[i] - force, one[i + 1] + force
-        for j, (r, stiffness, damping) in enumerate(line.supports):
-            one[r] = one[r] - stiffness * u[j] - (ONE if j in self.resting else damping) * speed(r)
-        for (r, _), load in zip(line.loads, loads):
-            one[r] = one[r] + load
-        return one
+                force = (link["stiffness"], ("alpha", i)), (link["damping"], speed(i)), (-link["damping"], speed(i + 1))
+                rows[i] += [(-factor, key, 1) for factor, key in force]
+                rows[i + 1] += [(factor, key, 1) for factor, key in force]
+        for n, (r, stiffness, damping) in enumerate(line.supports):
+            rows[r] += [(-stiffness, ("u", n), 1), (-(ONE if n in self.resting else damping), speed(r), 1)]
+        for n, (r, _) in enumerate(line.loads):
+            rows[r].append((ONE, ("load", n), 1))
+        return rows
+
+    def forces(self, known):
+        """The forces on each run, of one order of the series; velocities that are not known yet count as zero."""
+        return [dot((factor, known[key], count) for factor, key, count in row if key in known) for row in self.rows]
 
     def inverted(self):
         """The inverse of the matrix of velocities that follow from the balance of forces alone."""
-        size, line = len(self.free), self.line
-        still = {(i, way): ZERO for i in range(len(line.links)) for way in ("left", "right")}
-        alpha, u, loads = {i: ZERO for i in range(len(line.links))}, [ZERO] * len(line.supports), [ZERO] * len(line.loads)
-        columns = []
+        size, columns = len(self.free), []
         for g in self.free:
-            v = {g: ONE}
-            one = self.forces(v, alpha, u, still, loads, 1)
+            one = self.forces({("v", g): ONE})
             columns.append([total(one[r] for r in self.members[own]) for own in self.free])
         rows = [[columns[c][r] for c in range(size)] + [ONE if c == r else ZERO for c in range(size)] for r in range(size)]
         for c in range(size):
@@ -354,17 +354,21 @@ class System:
         now["v"] = {g: start["v"][self.mover[g]] if self.moved[g] else ZERO for g in groups if g not in self.free}
         series = {**{key: [own] for key, own in now.items()}, "forces": []}
         for k in range(orders):
-            v, alpha, u = (series[key][k] for key in ("v", "alpha", "u"))
-            arriving = {key: own[k] for key, own in incoming.items()}, [own[k] for own in loads]
-            forces = self.forces(v, alpha, u, *arriving, k)
-            open_ = [total(forces[r] for r in self.members[g]) for g in self.free]
-            v |= {g: -total(a * b for a, b in zip(row, open_)) for g, row in zip(self.free, self.inverse)}
-            forces = self.forces(v, alpha, u, *arriving, k)
+            v = series["v"][k]
+            known = {(key, n): own for key in ("v", "alpha", "u") for n, own in series[key][k].items()}
+            known |= {key: own[k] for key, own in incoming.items()} | {("load", n): own[k] for n, own in enumerate(loads)}
+            known["start"] = ZERO if k else ONE
+            forces = self.forces(known)
+            if self.free:
+                open_ = [total(forces[r] for r in self.members[g]) for g in self.free]
+                v |= {g: -dot((a, b, 1) for a, b in zip(row, open_)) for g, row in zip(self.free, self.inverse)}
+                forces = self.forces(known | {("v", g): v[g] for g in self.free})
             pushed = {g: total(forces[r] for r in self.members[g]) / self.mass[g] for g in groups if self.moved[g]}
-            later = lambda rate: rate.times(step / (k + 1))
+            share = step / (k + 1)
+            later = lambda rate: rate.times(share)
             run = lambda r: v[self.group[r]]
             series["v"].append({g: later(pushed[g]) if self.moved[g] else ZERO for g in groups if g not in self.free})
-            series["alpha"].append({i: ZERO if i in self.loose else later(run(i) - run(i + 1)) for i in alpha})
+            series["alpha"].append({i: ZERO if i in self.loose else later(run(i) - run(i + 1)) for i in now["alpha"]})
             series["u"].append({n: later(run(r)) for n, (r, _, _) in enumerate(line.supports)})
             series["gap"].append({i: later(run(i + 1) - run(i)) for i in line.contacts})
             # Less inertia.
@@ -556,7 +560,7 @@ class Motion:
         span = Number.between(Fraction(0), reach)
         waves, loads = {key: shifted(own, span) for key, own in waves.items()}, [shifted(own, span) for own in loads]
         start, box, system = self.state, self.state, self.system
-        widened = lambda own: own if own.is_zero() else Number(None, own.units()[0], own.units()[1] * 5 // 4 + 1)
+        widened = lambda own: own if own.is_zero() else ball(own.units()[0], own.units()[1] * 5 // 4 + 1)
         for _ in range(40):
             rates = {key: own[1] for key, own in system.solve(box, waves, loads, self.step, 1).items() if key != "forces"}
             speeds = [rates["v"].get(system.group[r], ZERO) for r in range(self.line.count)]

@@ -6,7 +6,7 @@ c_N x^N, by Lagrange's remainder.
 """
 
 from fractions import Fraction
-from math import comb
+from math import comb, gcd
 
 from exact import rational
 from reading import decided, need
@@ -16,15 +16,18 @@ PRECISION = {"bits": 256}
 
 
 class Number:
-    """A rational number, exact as long as its denominator is short; or a ball, whose midpoint and radius are in units of 2^-bits."""
+    """A rational number top/below, exact as long as its denominator is short; or a ball, of which below is 0, whose midpoint top and
+    radius off are in units of 2^-bits."""
 
-    __slots__ = ("exact", "mid", "off")
+    __slots__ = ("top", "below", "off")
 
-    def __init__(self, exact, mid=0, off=0):
-        if exact is not None and exact.denominator.bit_length() > EXACT:
-            bits = PRECISION["bits"]
-            exact, mid, off = None, (exact.numerator << bits) // exact.denominator, 1
-        self.exact, self.mid, self.off = exact, mid, off
+    def __init__(self, exact):
+        self.top, self.below, self.off = exact.numerator, exact.denominator, 0
+        self.shorten()
+
+    def shorten(self):
+        if self.below.bit_length() > EXACT:
+            self.top, self.below, self.off = (self.top << PRECISION["bits"]) // self.below, 0, 1
 
     @staticmethod
     def between(low, high):
@@ -33,73 +36,111 @@ class Number:
             return Number(low)
         bits = PRECISION["bits"]
         low, high = (low.numerator << bits) // low.denominator, -((-high.numerator << bits) // high.denominator)
-        return Number(None, (low + high) >> 1, (high - low + 2) >> 1)
+        return ball((low + high) >> 1, (high - low + 2) >> 1)
 
     def units(self):
-        if self.exact is None:
-            return self.mid, self.off
-        top, below = self.exact.numerator << PRECISION["bits"], self.exact.denominator
-        return top // below, int(top % below > 0)
+        if not self.below:
+            return self.top, self.off
+        mid, rest = divmod(self.top << PRECISION["bits"], self.below)
+        return mid, int(rest > 0)
 
     def __add__(self, other):
-        if self.exact is not None and other.exact is not None:
-            return Number(self.exact + other.exact)
+        if self.below and not self.top:
+            return other
+        if other.below and not other.top:
+            return self
+        if self.below and other.below:
+            return quotient(self.top * other.below + other.top * self.below, self.below * other.below)
         (a, i), (b, j) = self.units(), other.units()
-        return Number(None, a + b, i + j)
+        return ball(a + b, i + j)
 
     def __neg__(self):
-        return Number(-self.exact) if self.exact is not None else Number(None, -self.mid, self.off)
+        own = Number.__new__(Number)
+        own.top, own.below, own.off = -self.top, self.below, self.off
+        return own
 
     def __sub__(self, other):
         return self + -other
 
     def times(self, factor):
         """Times a rational number."""
-        if self.exact is not None:
-            return Number(self.exact * factor)
         top, below = factor.numerator, factor.denominator
+        if self.below:
+            return quotient(self.top * top, self.below * below) if self.top else ZERO
         if below == 1:
-            return Number(None, self.mid * top, self.off * abs(top)) if top else ZERO
-        return Number(None, self.mid * top // below, self.off * abs(top) // below + 2)
+            return ball(self.top * top, self.off * abs(top)) if top else ZERO
+        return ball(self.top * top // below, self.off * abs(top) // below + 2)
 
     def __mul__(self, other):
-        if self.exact is not None:
-            return other.times(self.exact) if self.exact else ZERO
-        if other.exact is not None:
-            return self.times(other.exact) if other.exact else ZERO
-        off = (abs(self.mid) + self.off) * other.off + self.off * abs(other.mid)
-        return Number(None, self.mid * other.mid >> PRECISION["bits"], (off >> PRECISION["bits"]) + 2)
+        return dot([(self, other, 1)])
 
     def __truediv__(self, other):
         decided(other.sign(), "a divisor may be zero")
+        if other.below:
+            return self.times(1 / other.exact())
         if self.is_zero():
             return ZERO
-        if other.exact is not None:
-            return self.times(1 / other.exact)
         (a, i), (b, j) = self.units(), other.units()
         mid = (a << PRECISION["bits"]) // b
-        return Number(None, mid, ((i << PRECISION["bits"]) + (abs(mid) + 1) * j) // (abs(b) - j) + 2)
+        return ball(mid, ((i << PRECISION["bits"]) + (abs(mid) + 1) * j) // (abs(b) - j) + 2)
+
+    def exact(self):
+        return Fraction(self.top, self.below)
 
     def is_zero(self):
-        return self.exact is not None and not self.exact
+        return self.below and not self.top
 
     def sign(self):
         """1, -1, or 0 where it is exactly zero; None where it is not decided."""
-        if self.exact is not None:
-            return (self.exact > 0) - (self.exact < 0)
-        return None if abs(self.mid) <= self.off else 1 if self.mid > 0 else -1
+        if abs(self.top) > self.off:
+            return 1 if self.top > 0 else -1
+        return 0 if self.below else None
 
     def holds(self, other):
-        if self.exact is not None:
-            return self.exact == other.exact
+        if self.below:
+            return (self.top, self.below) == (other.top, other.below)
         (a, i), (b, j) = self.units(), other.units()
         return abs(a - b) + j <= i
 
     def ends(self):
-        if self.exact is not None:
-            return self.exact, self.exact
+        if self.below:
+            return self.exact(), self.exact()
         unit = 1 << PRECISION["bits"]
-        return Fraction(self.mid - self.off, unit), Fraction(self.mid + self.off, unit)
+        return Fraction(self.top - self.off, unit), Fraction(self.top + self.off, unit)
+
+
+def ball(mid, off):
+    own = Number.__new__(Number)
+    own.top, own.below, own.off = mid, 0, off
+    return own
+
+
+def quotient(top, below):
+    """One integer over another, which is positive."""
+    own, common = Number.__new__(Number), gcd(top, below)
+    own.top, own.below, own.off = top // common, below // common, 0
+    own.shorten()
+    return own
+
+
+def dot(terms):
+    """A sum of products of two numbers and an integer; of balls, in units of 2^-bits squared."""
+    sum_, bits, mid, off = ZERO, PRECISION["bits"], 0, 0
+    for a, b, count in terms:
+        if a.below and not a.top or b.below and not b.top:
+            continue
+        if a.below and b.below:
+            sum_ = sum_ + quotient(a.top * b.top * count, a.below * b.below)
+            continue
+        if b.below:
+            a, b = b, a
+        if a.below:
+            mid += (a.top * b.top * count << bits) // a.below
+            off += (abs(a.top) * b.off * count << bits) // a.below + 2
+        else:
+            mid += a.top * b.top * count
+            off += ((abs(a.top) + a.off) * b.off + a.off * abs(b.top)) * count
+    return sum_ + ball(mid >> bits, (off >> bits) + 2) if mid or off else sum_
 
 
 ZERO, ONE = Number(Fraction(0)), Number(Fraction(1))
@@ -157,14 +198,14 @@ def shifted(series, x):
     powers = [ONE]
     for _ in range(some[-1]):
         powers.append(powers[-1] * x)
-    part = lambda k: total((series[j] * powers[j - k]).times(comb(j, k)) for j in some if j >= k)
+    part = lambda k: dot((series[j], powers[j - k], comb(j, k)) for j in some if j >= k)
     return [part(k) if k <= some[-1] else ZERO for k in range(count)]
 
 
 def squared(series):
     """The last coefficient encloses what the derivative of that order is on a whole step, by those of all orders."""
     last, on_step = len(series) - 1, shifted(series, Number.between(Fraction(0), Fraction(1)))
-    return [total(a[j] * a[k - j] for j in range(k + 1)) for k, a in enumerate([series] * last + [on_step])]
+    return [dot((a[j], a[k - j], 1 + (2 * j < k)) for j in range(k // 2 + 1)) for k, a in enumerate([series] * last + [on_step])]
 
 
 def value(series, x):

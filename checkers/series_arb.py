@@ -6,7 +6,7 @@ A function on a step is a list of Taylor coefficients, the last one enclosed for
 import re
 from fractions import Fraction
 
-from flint import arb, fmpq
+from flint import arb, arb_poly, fmpq
 
 from reading import need
 
@@ -28,7 +28,7 @@ def short(x):
 
 
 def is_nil(x):
-    return x == 0 if isinstance(x, fmpq) else bool(x.is_zero())
+    return not x if isinstance(x, fmpq) else x.is_zero()
 
 
 def sign(x):
@@ -90,10 +90,22 @@ class Length:
 # Functions on a step: Taylor coefficients, the last one enclosed for the whole step.
 
 
+def are_exact(numbers):
+    return all(isinstance(own, fmpq) for own in numbers)
+
+
+def padded(polynomial, count):
+    """The coefficients of a polynomial of Arb, and zeros behind them."""
+    found = polynomial.coeffs()
+    return found + [NIL] * (count - len(found))
+
+
 def moved(series, x):
     """The coefficients about another place, or about all places of an interval."""
     if is_nil(x) or all(map(is_nil, series)):
         return series
+    if not are_exact([x, *series]):
+        return padded(arb_poly(series)(arb_poly([x, 1])), len(series))
     result = list(series)
     for start in range(len(series) - 1):  # Horner's scheme, repeated
         for i in range(len(series) - 2, start - 1, -1):
@@ -110,9 +122,10 @@ def horner(series, x):
 
 def square(series):
     """Its last coefficient is enclosed for the whole step by the coefficients about all of its places."""
-    everywhere = moved(series, span(NIL, fmpq(1)))
-    times = lambda c, k: sum((short(product(c[i], c[k - i])) for i in range(k + 1)), NIL)
-    return [short(times(series, k)) for k in range(len(series) - 1)] + [short(times(everywhere, len(series) - 1))]
+    count, everywhere = len(series), moved(series, span(NIL, fmpq(1)))
+    here, there = (padded(arb_poly(c) * arb_poly(c), 2 * count) for c in (series, everywhere))
+    exact = next((k for k in range(count) if not are_exact(series[: k + 1])), count)
+    return [dot(series[: k + 1], series[k::-1]) for k in range(exact)] + here[exact : count - 1] + [there[count - 1]]
 
 
 def derivative(series):

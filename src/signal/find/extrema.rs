@@ -270,7 +270,10 @@ impl<'s> Search<'s> {
                 left.push(Candidate::Plateau { stretch, side: Limit::Right });
                 continue;
             }
-            left.push(Candidate::Limit { stretch, side: Limit::Right });
+            // Without jumps it is the limit from earlier times.
+            if stretch == 0 || !self.function.is_continuous() {
+                left.push(Candidate::Limit { stretch, side: Limit::Right });
+            }
             if !instant {
                 left.push(Candidate::Limit { stretch, side: Limit::Left });
                 moving.push(stretch);
@@ -452,7 +455,9 @@ impl Contenders<'_, '_> {
         let zero = Rational::default();
         let target = Target { order: 1, level: &zero, limit_bits: self.limit_bits };
         let exact = |time: &Rational| Value::Exact(time.clone());
-        let last = search.count - 1;
+        let (last, continuous) = (search.count - 1, search.function.is_continuous());
+        // Whether what is taken on a stretch is taken at its end, too.
+        let is_closed = |stretch| if stretch == last { !search.open } else { continuous };
         let end = |stretch: usize| match stretch == last {
             true => Ok(exact(search.function.window()[1])),
             false => search.beginning(stretch + 1, digits, self.limit_bits),
@@ -470,10 +475,9 @@ impl Contenders<'_, '_> {
                 }
                 Candidate::Limit { stretch, side: Limit::Left } => {
                     let time = end(*stretch)?;
-                    let at_end = *stretch == last && !search.open;
-                    let place = match at_end {
-                        true => Place::End(time),
-                        false => Place::Arrival { time, before: true, after: false },
+                    let place = match is_closed(*stretch) {
+                        true if *stretch == last => Place::End(time),
+                        after => Place::Arrival { time, before: true, after },
                     };
                     (*stretch, 2, place)
                 }
@@ -482,8 +486,8 @@ impl Contenders<'_, '_> {
                 }
                 Candidate::Plateau { stretch, .. } => {
                     let from = search.beginning(*stretch, digits, self.limit_bits)?;
-                    let closed = *stretch == last && !search.open;
-                    (*stretch, 1, Place::Plateau { from, to: end(*stretch)?, closed })
+                    let (to, closed) = (end(*stretch)?, is_closed(*stretch));
+                    (*stretch, 1, Place::Plateau { from, to, closed })
                 }
                 Candidate::Open { stretch, from, to } => {
                     (*stretch, 1, Place::Undecided { from: from.clone(), to: to.clone() })
@@ -502,9 +506,7 @@ impl Contenders<'_, '_> {
                     *after = true;
                     true
                 }
-                (Some(last), place) => {
-                    (is_one || search.function.is_continuous()) && last.go_on(place)
-                }
+                (Some(last), place) => (is_one || continuous) && last.go_on(place),
                 (None, _) => false,
             };
             if joined {

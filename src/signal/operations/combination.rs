@@ -10,6 +10,8 @@ use crate::signal::{
     EchoCount, Effort, Enclosure, Known, Limit, MAX_FLATNESS, Near, Signal, Taylor,
 };
 use num_traits::{One as _, Zero as _};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::rc::Rc;
 use wavestep_polynomial::{Rational, binomial};
@@ -43,12 +45,8 @@ impl Combination<'_> {
             (0..=order).map(|order| factor(operand, order)).collect()
         };
         let mut known = derivatives(product.factors[0])?;
-        for (place, operand) in product.factors.iter().enumerate().skip(1) {
-            // Squares are common.
-            let others = match *operand == product.factors[0] && place == 1 {
-                true => known.clone(),
-                false => derivatives(*operand)?,
-            };
+        for operand in &product.factors[1..] {
+            let others = derivatives(*operand)?;
             let leibniz = |n: usize| {
                 let mut sum = Taylor::polynomial(Vec::new());
                 for k in 0..=n {
@@ -66,6 +64,21 @@ impl Combination<'_> {
     }
 }
 
+/// Derivatives of operands, by operand and order, each of which is formed once.
+fn remembered(
+    form: impl Fn(usize, usize) -> Outcome<Taylor>,
+) -> impl Fn(usize, usize) -> Outcome<Taylor> {
+    let known = RefCell::new(BTreeMap::<_, Taylor>::new());
+    move |operand, order| {
+        if let Some(own) = known.borrow().get(&(operand, order)) {
+            return Ok(own.clone());
+        }
+        let own = form(operand, order)?;
+        known.borrow_mut().insert((operand, order), own.clone());
+        Ok(own)
+    }
+}
+
 impl Rule for Combination<'_> {
     fn ranges(&self) -> Outcome<Vec<Range<usize>>> {
         self.operands.iter().map(|operand| Ok(0..operand.count()?)).collect()
@@ -77,6 +90,10 @@ impl Rule for Combination<'_> {
 
     fn is_instant(&self, operand: usize, place: usize) -> bool {
         self.operands.get(operand).is_some_and(|operand| operand.is_instant(place))
+    }
+
+    fn is_continuous(&self) -> bool {
+        self.operands.iter().all(|operand| operand.is_continuous())
     }
 
     fn is_zero(&self, places: &[usize]) -> bool {
@@ -97,25 +114,25 @@ impl Rule for Combination<'_> {
         at: &Mark<'_>,
         bits: u64,
     ) -> Outcome<Vec<Ball>> {
-        let factor = |operand: usize, order: usize| {
+        let factor = remembered(|operand: usize, order: usize| {
             let value = value_at(&*self.operands[operand], places[operand], order, at, bits)?;
             Ok(Taylor::polynomial(vec![value]))
-        };
+        });
         let term = |product| {
-            let mut derivative = self.derivative(product, order, bits, factor)?;
+            let mut derivative = self.derivative(product, order, bits, &factor)?;
             Ok(derivative.coefficients.remove(0))
         };
         self.products.iter().map(term).collect()
     }
 
     fn taylor(&self, places: &[usize], near: Near<'_>) -> Outcome<Taylor> {
-        let factor = |operand: usize, order: usize| {
+        let factor = remembered(|operand: usize, order: usize| {
             self.operands[operand].taylor(places[operand], Near { order, ..near })
-        };
+        });
         let Near { order, terms, bits, .. } = near;
         let mut sum = Taylor::polynomial(vec![Ball::zero(); terms]);
         for product in &self.products {
-            sum = sum.add(&self.derivative(product, order, bits, factor)?, bits);
+            sum = sum.add(&self.derivative(product, order, bits, &factor)?, bits);
         }
         Ok(sum)
     }

@@ -47,6 +47,8 @@ pub(crate) struct Integral<'a> {
     before: Fraction,
     window: [Rational; 2],
     primitives: RefCell<BTreeMap<(u64, usize), Rc<Primitive>>>,
+    /// Whether half as many terms have been enough so far.
+    few: std::cell::Cell<bool>,
     /// The integrals of whole stretches, in the time of the scene.
     wholes: RefCell<BTreeMap<(u64, usize), Ball>>,
 }
@@ -96,7 +98,8 @@ impl<'a> Integral<'a> {
     ) -> Integral<'a> {
         let (scale, window) = (Rc::clone(scale), window.map(Clone::clone));
         let (primitives, wholes) = Default::default();
-        Integral { scale, of, last, before, window, primitives, wholes }
+        let few = true.into();
+        Integral { scale, of, last, before, window, primitives, few, wholes }
     }
 
     /// The places of both ends at a time: the stretch of the upper one, and one more than that of the lower
@@ -157,17 +160,26 @@ impl<'a> Integral<'a> {
         let two = Rational::from_integer(2.into());
         let slack = Rational::new((SLACK + 1).into(), SLACK.into());
         let (middle, half) = ((&from + &to) / &two, (&to - &from) / two * slack);
-        let near = Near { order: 0, place: (&middle, &half), terms: terms(bits), bits };
-        let taylor = self.of.taylor(stretch, near)?;
-        let rounding =
-            taylor.coefficients.iter().map(|c| *c.radius()).max().unwrap_or(Magnitude::ZERO);
-        let size = taylor.coefficients.iter().map(Ball::magnitude).max().unwrap_or(Magnitude::ZERO);
         let start = Ball::from_rational(&from, bits);
         let so_far = cells.last().map_or_else(Ball::zero, |cell| cell.until(&start, bits));
-        let left_out = taylor.remainder.multiply(&Magnitude::from_rational(&half)).scale(1);
-        let small = rounding.max(size.scale(-(bits as i64)));
-        let matters = left_out > so_far.magnitude().scale(-(bits as i64));
-        if taylor.remainder > small && matters && depth > 0 {
+        let expand = |terms| -> Outcome<(Taylor, bool)> {
+            let near = Near { order: 0, place: (&middle, &half), terms, bits };
+            let taylor = self.of.taylor(stretch, near)?;
+            let largest = |sizes: &mut dyn Iterator<Item = Magnitude>| sizes.max();
+            let rounding = largest(&mut taylor.coefficients.iter().map(|c| *c.radius()));
+            let size = largest(&mut taylor.coefficients.iter().map(Ball::magnitude));
+            let size = size.unwrap_or(Magnitude::ZERO).scale(-(bits as i64));
+            let left_out = taylor.remainder.multiply(&Magnitude::from_rational(&half)).scale(1);
+            let matters = left_out > so_far.magnitude().scale(-(bits as i64));
+            let is_short = taylor.remainder > rounding.unwrap_or(Magnitude::ZERO).max(size);
+            Ok((taylor, is_short && matters))
+        };
+        let most = terms(bits);
+        let (mut taylor, mut is_rough) = expand(if self.few.get() { most / 2 } else { most })?;
+        if is_rough && self.few.replace(false) {
+            (taylor, is_rough) = expand(most)?;
+        }
+        if is_rough && depth > 0 {
             self.add_cells(cells, stretch, (from, middle.clone()), depth - 1, bits)?;
             return self.add_cells(cells, stretch, (middle, to), depth - 1, bits);
         }
@@ -345,6 +357,10 @@ impl Rule for Integral<'_> {
             }
             _ => Mark::of(&*self.of, place),
         }
+    }
+
+    fn is_continuous(&self) -> bool {
+        true
     }
 
     fn is_zero(&self, places: &[usize]) -> bool {

@@ -45,6 +45,9 @@ const ORDER_BITS: [u64; 2] = [64, 1 << 12];
 /// A value that is zero but for as many bits is suspected to be zero.
 const SUSPICION_BITS: u64 = 64;
 
+/// The precision at which it is seen that a derivative does not vanish.
+const FLAT_BITS: u64 = 128;
+
 /// The lowest precision of values and integrals, and the step between two.
 const FIRST_BITS: u64 = 192;
 const STEP_BITS: u64 = 64;
@@ -661,6 +664,10 @@ impl<R: Rule> Signal for Operation<'_, R> {
     }
 
     fn flatness(&self, stretch: usize, end: Limit, order: usize) -> Outcome<usize> {
+        // Enclosures are cheaper than the exact values that tell how many derivatives vanish.
+        if !self.enclose(stretch, order, At::End(end), FLAT_BITS)?.contains_zero() {
+            return Ok(0);
+        }
         let is_zero =
             order == 0 && self.exact(stretch, At::End(end))?.is_some_and(|value| value.is_zero());
         let at = self.mark(stretch, At::End(end));

@@ -131,7 +131,7 @@ pub(super) const CONTENTS: &str = "scene \"Contents\"\nbar a { impedance = 1, tr
     observe all = energy(line)\nobserve push = momentum(line)\nobserve other = momentum(a) - momentum(c)\n\
     observe passed = work(a.at(1/3)) - work(b.right) + 2*work(c.left)\nobserve done = work(k) + work(u) - energy(m)\n";
 
-pub(super) const MORE_CONTENTS: [&str; 12] = [
+const MORE_CONTENTS: [&str; 12] = [
     "contents.wave --quantity in_bars --at 29/8",
     "contents.wave --min in_others --to 3",
     "contents.wave --max all --to 2",
