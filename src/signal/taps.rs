@@ -17,9 +17,6 @@ use crate::signal::closed::ClosedForm;
 use crate::solution::{EchoTemplate, Family, GeneralForm, Solution};
 use wavestep_polynomial::Rational;
 
-/// The most echoes that stand before a general form.
-const MAX_FIRST: usize = 4;
-
 /// `weight · Y(T − delay)`, from a time on.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Tap {
@@ -139,9 +136,6 @@ impl Taps {
         delay: &Fraction,
         local: &wavestep_polynomial::Symbol,
     ) -> Option<()> {
-        if template.first.len() > MAX_FIRST {
-            return None;
-        }
         let periods = |count: isize| self.period.scale(&Rational::from_integer(count.into()));
         let mut taps = Vec::new();
         let mut extras = Vec::new();

@@ -77,6 +77,22 @@ fn a_scene_is_no_distance_from_itself() {
     assert_eq!(counts, [4; 2]);
 }
 
+/// A gap is closed in both scenes at one time, a root that no name shows to be one: the instants are taken for one.
+#[test]
+fn instants_of_two_scenes_may_be_one_root() {
+    let text = "scene \"Pushed across a gap\"\nload push { force = 1 }\nmass m { mass = 1 }\n\
+        bar rod { impedance = 1, travel = 1 }\nline free - push - m |1/3| rod - free\ncontacts open\n\
+        observe v = velocity(m)";
+    let stiff = text.replace("impedance = 1", "impedance = 2");
+    let problems = [text, &stiff].map(|text| Problem::read("test.wave", text).unwrap());
+    let [_, most] = extremes([&problems[0], &problems[1]], "v", whole(2)).map(|own| own.to_f64());
+    // From v = t there it is drawn to 1/Z.
+    let closed = (2.0_f64 / 3.0).sqrt();
+    let [own, other] =
+        [1.0_f64, 2.0].map(|z| (closed - 1.0 / z) * (-z * (2.0 - closed)).exp() + 1.0 / z);
+    assert!((most - (own - other)).abs() < 1e-12, "{most} {own} {other}");
+}
+
 /// With units the times of echoes are no rational numbers; those of the same bars are still one break.
 #[test]
 fn breaks_of_the_same_bars_are_one() {

@@ -142,6 +142,27 @@ fn values_stretches_and_polynomials_agree() {
     }
 }
 
+/// The work of a constant load, as far as it moves a mass, `t − 1 + e^(−t)`, goes on before and beyond its time.
+#[test]
+fn integrals_go_on_beyond_their_stretches() {
+    let network = network(
+        "scene \"Pushed\"\nload push { force = 1, until = 2 }\nmass m { mass = 1 }\nbar rod { impedance = 1 }\n\
+         line free - push - m - rod - endless\nobserve u = work(push)\n",
+    );
+    let signal = signal(&network, "u", &rational(5, 1));
+    assert_eq!(signal.count().unwrap(), 2);
+    for (at, expected) in [
+        (-1.0_f64, -2.0 + 1_f64.exp()),
+        (0.5, -0.5 + (-0.5_f64).exp()),
+        (3.0, 2.0 + (-3_f64).exp()),
+    ] {
+        let (middle, half) = (Rational::from_float(at).unwrap(), rational(1, 16));
+        let near = Near { order: 0, place: (&middle, &half), terms: 20, bits: BITS };
+        let value = signal.taylor(0, near).unwrap().coefficients[0].to_double().0;
+        assert!((value - expected).abs() < 1e-14, "{at}: {value} {expected}");
+    }
+}
+
 /// Where nothing is spent the sum stays; where all is known exactly that is proven on whole stretches.
 #[test]
 fn the_sum_of_energies_stays() {
