@@ -304,36 +304,36 @@ class System:
         )
 
     def balances(self):
-        """The forces on each run: factors, what they belong to, and how often it counts. At the start bars have a velocity V and a
-        force X besides, so that their ends are pressed with X + Z (2 f - v + V) and X + Z (v - V - 2 g)."""
+        """The forces on each run: factors times sums, of what is counted how often. At the start bars have a velocity V and a force X
+        besides, so that their ends are pressed with X + Z (2 f - v + V) and X + Z (v - V - 2 g)."""
         line, speed = self.line, lambda r: ("v", self.group[r])
         rows = [[] for _ in range(line.count)]
         for i, link in enumerate(line.links):
             if link["is"] == "bar":
-                z, at_rest = link["impedance"], link["impedance"] * link["velocity"]
-                if not line.endless[i]:
-                    rows[i] += [(z, (i, "left"), 2), (-z, speed(i), 1), (at_rest - link["force"], "start", 1)]
-                if not line.endless[i + 1]:
-                    rows[i + 1] += [(z, (i, "right"), 2), (-z, speed(i + 1), 1), (at_rest + link["force"], "start", 1)]
+                for r, way, pressed in ((i, "left", -link["force"]), (i + 1, "right", link["force"])):
+                    if not line.endless[r]:
+                        rows[r] += [(pressed, [("start", 1)])]
+                        rows[r] += [(link["impedance"], [((i, way), 2), (speed(r), -1), (("velocity", i), 1)])]
             elif link["is"] == "spring" and i not in self.loose:
-                force = (link["stiffness"], ("alpha", i)), (link["damping"], speed(i)), (-link["damping"], speed(i + 1))
-                rows[i] += [(-factor, key, 1) for factor, key in force]
-                rows[i + 1] += [(factor, key, 1) for factor, key in force]
+                force = [(link["stiffness"], [(("alpha", i), 1)]), (link["damping"], [(speed(i), 1), (speed(i + 1), -1)])]
+                rows[i] += [(-factor, parts) for factor, parts in force]
+                rows[i + 1] += force
         for n, (r, stiffness, damping) in enumerate(line.supports):
-            rows[r] += [(-stiffness, ("u", n), 1), (-(ONE if n in self.resting else damping), speed(r), 1)]
+            rows[r] += [(-stiffness, [(("u", n), 1)]), (-(ONE if n in self.resting else damping), [(speed(r), 1)])]
         for n, (r, _) in enumerate(line.loads):
-            rows[r].append((ONE, ("load", n), 1))
+            rows[r].append((ONE, [(("load", n), 1)]))
         return rows
 
     def forces(self, known):
-        """The forces on each run, of one order of the series; velocities that are not known yet count as zero."""
-        return [dot((factor, known[key], count) for factor, key, count in row if key in known) for row in self.rows]
+        """The forces on each run, of one order of the series."""
+        sum_of = lambda parts: total(known[key] if way == 1 else known[key].times(way) for key, way in parts)
+        return [dot((factor, sum_of(parts), 1) for factor, parts in row) for row in self.rows]
 
     def inverted(self):
         """The inverse of the matrix of velocities that follow from the balance of forces alone."""
         size, columns = len(self.free), []
         for g in self.free:
-            one = self.forces({("v", g): ONE})
+            one = [total(c.times(way) for c, parts in row for key, way in parts if key == ("v", g)) for row in self.rows]
             columns.append([total(one[r] for r in self.members[own]) for own in self.free])
         rows = [[columns[c][r] for c in range(size)] + [ONE if c == r else ZERO for c in range(size)] for r in range(size)]
         for c in range(size):
@@ -357,7 +357,8 @@ class System:
             v = series["v"][k]
             known = {(key, n): own for key in ("v", "alpha", "u") for n, own in series[key][k].items()}
             known |= {key: own[k] for key, own in incoming.items()} | {("load", n): own[k] for n, own in enumerate(loads)}
-            known["start"] = ZERO if k else ONE
+            known |= {("velocity", i): ZERO if k else own["velocity"] for i, own in enumerate(line.links) if own["is"] == "bar"}
+            known |= {("v", g): ZERO for g in self.free} | {"start": ZERO if k else ONE}
             forces = self.forces(known)
             if self.free:
                 open_ = [total(forces[r] for r in self.members[g]) for g in self.free]

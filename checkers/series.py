@@ -124,7 +124,7 @@ def quotient(top, below):
 
 
 def dot(terms):
-    """A sum of products of two numbers and an integer; of balls, in units of 2^-bits squared."""
+    """A sum of products of two numbers and a natural number; of balls, in units of 2^-bits squared."""
     sum_, bits, mid, off = ZERO, PRECISION["bits"], 0, 0
     for a, b, count in terms:
         if a.below and not a.top or b.below and not b.top:

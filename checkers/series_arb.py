@@ -104,13 +104,12 @@ def moved(series, x):
     """The coefficients about another place, or about all places of an interval."""
     if is_nil(x) or all(map(is_nil, series)):
         return series
-    if not are_exact([x, *series]):
-        return padded(arb_poly(series)(arb_poly([x, 1])), len(series))
-    result = list(series)
-    for start in range(len(series) - 1):  # Horner's scheme, repeated
-        for i in range(len(series) - 2, start - 1, -1):
+    result, count = list(series), len(series)
+    exact = next(k for k in range(count + 1) if are_exact(series[k:]))
+    for start in range(count - 1):  # Horner's scheme, repeated, so that what is exact stays so
+        for i in range(count - 2, max(start, exact) - 1, -1):
             result[i] = short(result[i] + product(result[i + 1], x))
-    return result
+    return padded(arb_poly(series)(arb_poly([x, 1])), count)[:exact] + result[exact:]
 
 
 def horner(series, x):
@@ -124,7 +123,7 @@ def square(series):
     """Its last coefficient is enclosed for the whole step by the coefficients about all of its places."""
     count, everywhere = len(series), moved(series, span(NIL, fmpq(1)))
     here, there = (padded(arb_poly(c) * arb_poly(c), 2 * count) for c in (series, everywhere))
-    exact = next((k for k in range(count) if not are_exact(series[: k + 1])), count)
+    exact = next(k for k in range(count) if k == count - 1 or not are_exact(series[: k + 1]))
     return [dot(series[: k + 1], series[k::-1]) for k in range(exact)] + here[exact : count - 1] + [there[count - 1]]
 
 

@@ -162,17 +162,18 @@ impl<'a> Integral<'a> {
         let (middle, half) = ((&from + &to) / &two, (&to - &from) / two * slack);
         let start = Ball::from_rational(&from, bits);
         let so_far = cells.last().map_or_else(Ball::zero, |cell| cell.until(&start, bits));
+        // What is expanded, and whether it leaves out more than its rounding, and more than the integral so far.
         let expand = |terms| -> Outcome<(Taylor, bool)> {
             let near = Near { order: 0, place: (&middle, &half), terms, bits };
             let taylor = self.of.taylor(stretch, near)?;
-            let largest = |sizes: &mut dyn Iterator<Item = Magnitude>| sizes.max();
-            let rounding = largest(&mut taylor.coefficients.iter().map(|c| *c.radius()));
-            let size = largest(&mut taylor.coefficients.iter().map(Ball::magnitude));
-            let size = size.unwrap_or(Magnitude::ZERO).scale(-(bits as i64));
+            let sizes = taylor.coefficients.iter().map(Ball::magnitude).max();
+            let small = sizes.unwrap_or(Magnitude::ZERO).scale(-(bits as i64));
+            let rounding = taylor.coefficients.iter().map(|c| *c.radius()).max();
+            let small = rounding.unwrap_or(Magnitude::ZERO).max(small);
             let left_out = taylor.remainder.multiply(&Magnitude::from_rational(&half)).scale(1);
             let matters = left_out > so_far.magnitude().scale(-(bits as i64));
-            let is_short = taylor.remainder > rounding.unwrap_or(Magnitude::ZERO).max(size);
-            Ok((taylor, is_short && matters))
+            let is_rough = taylor.remainder > small && matters;
+            Ok((taylor, is_rough))
         };
         let most = terms(bits);
         let (mut taylor, mut is_rough) = expand(if self.few.get() { most / 2 } else { most })?;

@@ -1,4 +1,4 @@
-//! Certificates with wrong claims: each is refused, and it is said what is wrong.
+//! Certificates with wrong claims: each is refused, and it is said what is wrong. Right ones are not.
 
 use super::certificates::{
     APART, CONTENTS, DISTANCES, DOUBLES, EVENTS, EXTREMES, READINGS, VALUES, WINDOWS, ZEROS,
@@ -10,6 +10,20 @@ use serde_json::json;
 /// A section of a bar is read, behind a load.
 const BETWEEN: &str = "scene \"Between\"\nload push { force = 1 }\nbar rod { impedance = 1, travel = 1 }\n\
     line free - push - rod - free\nobserve x = displacement(rod.at(4/5))\n";
+
+/// What is read is a polynomial, of which exact numbers tell all.
+const POLYNOMIAL: &str = "scene \"Polynomial\"\nload push { force = t*t }\nbar rod { impedance = 1, travel = 10 }\n\
+    line free - push - rod - free\nobserve w = work(rod.left)\n";
+
+/// Exactly without force after an event at an irrational time.
+const SILENT: &str = "scene \"Silent\"\nbar c { impedance = 1, travel = 1, velocity = 2/3 }\nbar d { impedance = 1, travel = 10 }\n\
+    spring s { stiffness = 3, damping = 1/7 }\nmass m { mass = 1, velocity = -1/3 }\n\
+    line free - c | d | s - m - free\ncontacts open\n";
+
+/// Exactly without force before a wave arrives, beside a bar of irrational impedance.
+const TURNING: &str = "scene \"Turning\"\nmass ram { mass = 1, velocity = 1 }\n\
+    bar a { impedance = pi, travel = 1, velocity = 1 }\nbar b { impedance = 1, travel = 5 }\n\
+    line free - ram - a | b - free\ncontacts open\n";
 
 /// The function c x of a symbol x.
 fn of(coefficient: &str, symbol: &str) -> serde_json::Value {
@@ -86,7 +100,14 @@ fn wrong_claims_are_told_by_what_is_wrong() {
         bar b { impedance = 2, travel = 3/2 }\nline free - a |1/4| b - free\ncontacts open\n";
     std::fs::write(folder.join("gap.wave"), text).unwrap();
     let gap = ask("gap.wave --events --to 3");
-    let cases: [(&serde_json::Value, Change, &str); 156] = [
+    std::fs::write(folder.join("polynomial.wave"), POLYNOMIAL).unwrap();
+    let polynomial = ask("polynomial.wave --quantity w --at 2");
+    let cases: [(&serde_json::Value, Change, &str); 157] = [
+        (
+            &polynomial,
+            |own| (own["terms"], own["value"]) = (4.into(), "11.73333333333333".into()),
+            "the value is between",
+        ),
         (&passed, |own| own["observed"][0][3] = number("1/7"), "do not add up to the travel time"),
         (&passed, |own| own["observed"][0] = json!([one(), "work", "a"]), "cannot be read"),
         (&passed, |own| own["observed"][0][0] = number("2"), "the value is between"),
@@ -358,5 +379,39 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     }
     if let Some((_, told)) = with_flint(&folder, "check_arb.py", &files) {
         assert_eq!(told.matches(": NOT proven").count(), cases.len(), "{told}");
+    }
+}
+
+/// What is exactly zero or known is so to both checkers, whatever is beside it.
+#[test]
+fn exact_numbers_stay_exact() {
+    let folder = folder("exact-certificates");
+    for (name, text) in [("polynomial", POLYNOMIAL), ("silent", SILENT), ("turning", TURNING)] {
+        std::fs::write(folder.join(format!("{name}.wave")), text).unwrap();
+    }
+    let ask = |line: &str, change: fn(&mut serde_json::Value)| {
+        let file = format!("{}.json", line.split('.').next().unwrap());
+        certify(&folder, line, &file);
+        let mut certificate =
+            serde_json::from_slice(&std::fs::read(folder.join(&file)).unwrap()).unwrap();
+        change(&mut certificate);
+        std::fs::write(folder.join(&file), certificate.to_string()).unwrap();
+        file
+    };
+    let files = [
+        ask("polynomial.wave --quantity w --at 2", |own| own["terms"] = 4.into()),
+        ask("silent.wave --events --to 9/2", |_| {}),
+        // A second mass that touches the first one, as fast, has no force.
+        ask("turning.wave --events --to 3/4", |own| {
+            let mass = json!({ "is": "mass", "name": "cap", "mass": one(), "velocity": one() });
+            let line = own["line"].as_array_mut().unwrap();
+            line.insert(1, mass);
+            line.insert(2, json!({ "is": "contact" }));
+            own["events"][0][0] = 1.into();
+        }),
+    ];
+    let both = [checked(&folder, &files), with_flint(&folder, "check_arb.py", &files)];
+    for (proven, told) in both.into_iter().flatten() {
+        assert!(proven, "{told}");
     }
 }
