@@ -47,8 +47,6 @@ pub(crate) struct Integral<'a> {
     before: Fraction,
     window: [Rational; 2],
     primitives: RefCell<BTreeMap<(u64, usize), Rc<Primitive>>>,
-    /// Whether half as many terms have been enough so far.
-    few: std::cell::Cell<bool>,
     /// The integrals of whole stretches, in the time of the scene.
     wholes: RefCell<BTreeMap<(u64, usize), Ball>>,
 }
@@ -98,8 +96,7 @@ impl<'a> Integral<'a> {
     ) -> Integral<'a> {
         let (scale, window) = (Rc::clone(scale), window.map(Clone::clone));
         let (primitives, wholes) = Default::default();
-        let few = true.into();
-        Integral { scale, of, last, before, window, primitives, few, wholes }
+        Integral { scale, of, last, before, window, primitives, wholes }
     }
 
     /// The places of both ends at a time: the stretch of the upper one, and one more than that of the lower
@@ -175,11 +172,11 @@ impl<'a> Integral<'a> {
             let is_rough = taylor.remainder > small && matters;
             Ok((taylor, is_rough))
         };
-        let most = terms(bits);
-        let (mut taylor, mut is_rough) = expand(if self.few.get() { most / 2 } else { most })?;
-        if is_rough && self.few.replace(false) {
-            (taylor, is_rough) = expand(most)?;
-        }
+        // Half the terms cost a fourth, and are often enough.
+        let (taylor, is_rough) = match expand(terms(bits) / 2)? {
+            (taylor, false) => (taylor, false),
+            _ => expand(terms(bits))?,
+        };
         if is_rough && depth > 0 {
             self.add_cells(cells, stretch, (from, middle.clone()), depth - 1, bits)?;
             return self.add_cells(cells, stretch, (middle, to), depth - 1, bits);
