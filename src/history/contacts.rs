@@ -49,13 +49,23 @@ pub(crate) struct Contact {
     pub flat: usize,
     /// Since when the force is exactly zero, after it was positive.
     pub idle: Option<Moment>,
+    /// The last stretch without force that ended because the contact pushes again: since when, and until when.
+    pub rested: Option<[Moment; 2]>,
     pub pressed: bool,
 }
 
 impl Contact {
     /// At the start.
     pub fn begun(gap: Number) -> Contact {
-        Contact { closed: gap.is_zero(), gap, flat: 0, idle: None, pressed: false }
+        Contact { closed: gap.is_zero(), gap, flat: 0, idle: None, rested: None, pressed: false }
+    }
+
+    /// The contact pushes from now on.
+    pub fn push(&mut self, now: &Moment) {
+        self.pressed = true;
+        if let Some(since) = self.idle.take() {
+            self.rested = Some([since, now.clone()]);
+        }
     }
 }
 
@@ -534,6 +544,13 @@ impl Engine {
     /// Since when a closed contact has had no force.
     pub fn idle_since(&self, contact: usize) -> Option<&Moment> {
         self.open[contact].idle.as_ref()
+    }
+
+    /// Since when a contact had had no force until an instant, where it pushes again from then on.
+    pub fn rested_until(&self, contact: usize, end: &Moment) -> Outcome<Option<&Moment>> {
+        let Some([since, until]) = &self.open[contact].rested else { return Ok(None) };
+        let ends = self.clock.compare(until, end)? == Ordering::Equal;
+        Ok(ends.then_some(since))
     }
 
     /// Whether a closed contact has no force now.

@@ -726,9 +726,7 @@ impl Engine {
             if contact.closed {
                 match guard.has_no_force() {
                     true if !contact.pressed => {}
-                    false if contact.pressed || !guard.may_be_idle() => {
-                        (contact.pressed, contact.idle) = (true, None);
-                    }
+                    false if contact.pressed || !guard.may_be_idle() => contact.push(&now),
                     // No force any more, or none yet that is known of.
                     _ => {
                         contact.idle.get_or_insert_with(|| now.clone());

@@ -217,8 +217,11 @@ impl Story<'_> {
             }
         }
         for contact in 0..self.courses.len() {
-            if let Some(moment) = self.engine.idle_since(contact) {
-                let moment = moment.clone();
+            let since = match self.engine.idle_since(contact) {
+                None => self.engine.rested_until(contact, &self.end)?,
+                since => since,
+            };
+            if let Some(moment) = since.cloned() {
                 push(&mut rows, Row { kind: EventKind::Release, contact, moment });
             }
         }

@@ -11,7 +11,7 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 use wavestep::ball::{Bound, Decimal, Number};
 use wavestep::enclosure::Numbers;
-use wavestep::expression::{Fraction, PI, Root};
+use wavestep::expression::{Expression, Fraction, PI, Root};
 use wavestep::history::{Event, EventKind};
 use wavestep::network::{Contacts, ElementLaw, Layout, Network, Node};
 use wavestep::problem::{Problem, ProblemError, constants_of};
@@ -171,16 +171,20 @@ impl<'a> Line<'a> {
         let size = |value: &Fraction| self.size(value);
         let shortest = self.travels().map(size).fold(to, f64::min);
         let mut rate = self.layout.nodes.iter().map(|node| self.rate(node)).fold(0.0, f64::max);
-        for load in self.network.model().loads.values() {
-            let time = &self.network.scene().time;
-            let rates = load.course.terms().map(|(exponent, _)| exponent.derivative(time));
-            rate = rates.map(|own| self.size(&own)).fold(rate, f64::max);
+        // The terms of t^n exp(rate t) begin to fall n later.
+        let mut power = 0;
+        let time = &self.network.scene().time;
+        let courses = self.network.model().loads.values().map(|load| &load.course);
+        for (exponent, factor) in courses.flat_map(Expression::terms) {
+            rate = rate.max(self.size(&exponent.derivative(time)));
+            power = power.max(factor.numerator().degree(time));
         }
         // A power of two, at most the time of the fastest decay.
         let exponent = shortest.min(1.0 / rate).log2().floor();
         let step = exponent.exp2();
         if !(to / step < MOST_STEPS && exponent.abs() < 64.0) {
-            let message = format!("a checker would need {:.0} steps or more", to / step);
+            let message =
+                format!("a checker would need {:.0} steps (limit {MOST_STEPS})", to / step);
             return Err(Failure::usage(message, "end the window earlier, with --to"));
         }
         let two = BigRational::from_integer(2.into());
@@ -192,8 +196,11 @@ impl<'a> Line<'a> {
             terms += 1;
             factorial += f64::from(terms).log2() - 1.0;
         }
+        terms += power;
         if bits > MOST_BITS || terms > MOST_TERMS {
-            let message = format!("a checker would need {bits:.0} bits and {terms} terms");
+            let message = format!(
+                "a checker would need {bits:.0} bits (limit {MOST_BITS}) and {terms} terms (limit {MOST_TERMS})"
+            );
             return Err(Failure::usage(message, "ask for fewer digits, or for an earlier time"));
         }
         Ok(Precision { step, terms, bits: bits as u64 })

@@ -430,7 +430,8 @@ fn motions_of_shipped_scenes_are_verified() {
 }
 
 /// Contacts between all that can stand beside them: walls, supports, springs with and without dampers, loads that end,
-/// oscillate and decay, several contacts, what settles at one instant, a spring in front of a mass.
+/// oscillate and decay, with high powers, several contacts, what settles at one instant, a spring in front of a mass, a contact
+/// that pushes again when the window ends.
 #[test]
 fn events_beside_all_elements_are_verified() {
     let folder = folder("certificates-of-contacts");
@@ -463,6 +464,10 @@ fn events_beside_all_elements_are_verified() {
          support w { stiffness = 1/4 }\nline free - a - m | u - w - free\n",
         "bar a { impedance = 1, travel = 1, velocity = 1 }\nsupport u { stiffness = 3 }\n\
          bar b { impedance = 1, travel = 1 }\nline free - a | u | b - free\n",
+        "load p { force = 1 - (t/3)^60 }\nmass m { mass = 1 }\nmass h { mass = 2 }\nbar r { impedance = 1, travel = 1 }\n\
+         line free - p - m | h - r - free\n",
+        "bar a { impedance = 1, travel = 1, velocity = 2/3 }\nbar b { impedance = 1, travel = 7 }\n\
+         spring s { stiffness = 3 }\nmass m { mass = 1, velocity = -1/3 }\nline free - a | b | s - m - free\n",
     ];
     let written = lines.iter().enumerate().map(|(i, line)| {
         let (scene, file) = (format!("{i}.wave"), format!("{i}.json"));
