@@ -432,6 +432,36 @@ fn extrema_of_what_begins_flat_are_decided() {
     assert_eq!(found("all", Goal::Largest).value.to_f64(), 1.0);
 }
 
+/// A mass that leaves its bar with the velocity `(p(t) − p(0))/√2`, where `p` has zeros of fourth order, at which it is least and
+/// too flat for balls to tell it from its neighbours, on both sides alike.
+#[test]
+fn what_is_undecided_on_both_sides_of_a_time_is_one_place() {
+    for (force, at_first, flat, [from, to]) in [
+        // The zero is where a cell of the search begins, or where one of the motion does; there are two.
+        ("4*(t - 3/2)^3", 5.0625, vec![rational(3, 2)], [1.0, 1.75]),
+        ("4*(t - 1)^3", 1.0, vec![rational(1, 1)], [0.0, 2.0]),
+        ("8*(t - 1)^3*(t - 3)^3*(t - 2)", 81.0, vec![rational(1, 1), rational(3, 1)], [0.5, 3.75]),
+    ] {
+        let network = network(&format!(
+            "scene \"Pull\"\nmass m {{ mass = sqrt(2) }}\nbar rod {{ impedance = 1 }}\n\
+             load p {{ force = {force} }}\nline free - p - m | rod - endless\n\
+             observe v = velocity(m)\ncontacts open\n"
+        ));
+        let window = [from, to].map(|time| Rational::from_float(time).unwrap());
+        let window = [&window[0], &window[1]];
+        let signal =
+            of_scene(&network, &network.observables()[0], window, Purpose::Search).unwrap();
+        let found = Search::new(&*signal).unwrap().extremum(Goal::Smallest, 12, 1 << 12).unwrap();
+        let wanted = -at_first / 2f64.sqrt();
+        assert!((found.value.to_f64() - wanted).abs() < 1e-9, "{:?}", found.value);
+        assert_eq!(found.places.len(), flat.len(), "{found:?}");
+        for (place, flat) in found.places.iter().zip(&flat) {
+            let Place::Undecided { from, to } = place else { panic!("{found:?}") };
+            assert!(from < flat && flat <= to && to - from < rational(1, 1 << 30), "{found:?}");
+        }
+    }
+}
+
 /// Only where no motion can be lost at once is an energy conserved by its balance: two masses with nothing
 /// between them may strike each other.
 #[test]

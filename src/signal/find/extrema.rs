@@ -121,6 +121,30 @@ impl Place {
         true
     }
 
+    /// Makes what is undecided hold a place that it touches, whichever comes first: neither is told apart from the other.
+    fn blur(&mut self, next: &Place) -> bool {
+        let undecided = |place: &Place| matches!(place, Place::Undecided { .. });
+        let (Some([from, to]), Some([first, last])) = (self.extent(), next.extent()) else {
+            return false;
+        };
+        let touch = first <= to && (undecided(self) || undecided(next));
+        if touch {
+            *self = Place::Undecided { from, to: to.max(last) };
+        }
+        touch
+    }
+
+    /// What an undecided interval would have to hold to hold this place; a limit from one side alone is told apart.
+    fn extent(&self) -> Option<[Rational; 2]> {
+        match self {
+            Place::Undecided { from, to } => Some([from.clone(), to.clone()]),
+            Place::End(time) | Place::Arrival { time, before: true, after: true } => {
+                Some(time.bounds())
+            }
+            _ => None,
+        }
+    }
+
     /// Whether the value is taken there: a limit from earlier times alone is not.
     pub fn is_attained(&self) -> bool {
         !matches!(self, Place::Arrival { after: false, .. })
@@ -509,34 +533,11 @@ impl Contenders<'_, '_> {
                 (Some(last), place) => (is_one || continuous) && last.go_on(place),
                 (None, _) => false,
             };
-            if joined {
-                continue;
+            if !joined {
+                places.push(place);
             }
-            if let Place::Undecided { from, to } = place {
-                let from = join_undecided(&mut places, from);
-                places.push(Place::Undecided { from, to });
-                continue;
-            }
-            places.push(place);
         }
+        places.dedup_by(|next, known| known.blur(next));
         Ok(places)
     }
-}
-
-/// Takes back an undecided interval that ends where the next one begins, and an arrival between the two, from which
-/// neither is told apart: where both together begin.
-fn join_undecided(places: &mut Vec<Place>, from: Rational) -> Rational {
-    let (touching, first) = match &places[..] {
-        [.., Place::Undecided { from: first, to }, Place::Arrival { time, .. }] => {
-            let [before, after] = time.bounds();
-            if before > *to || from > after {
-                return from;
-            }
-            (2, first.clone())
-        }
-        [.., Place::Undecided { from: first, to }] if from <= *to => (1, first.clone()),
-        _ => return from,
-    };
-    places.truncate(places.len() - touching);
-    first
 }
