@@ -11,11 +11,11 @@ from math import comb, factorial, isqrt
 from exact import MINUS, ROOTS, Ball, accumulate, add, alike, coefficients, frozen, is_zero, put, rational, read, read_function, thawed
 from exact import slope as derivative
 from reading import Undecided, decided, need
-from series import ONE, PRECISION, ZERO, Duration, Number, ball, begins, dot, interval, is_positive, shifted, slope, total, value
+from series import ONE, PRECISION, ZERO, Duration, Number, ball, begins, dot, interval, is_positive, power, shifted, slope, total, value
 
 KEYS = {kind: {"is"} for kind in ("free", "fixed", "endless", "contact")}
 KEYS |= {kind: {"is", "name", "stiffness", "damping"} for kind in ("spring", "support")}
-KEYS["gap"] = {"is", "width"}
+KEYS |= {"gap": {"is", "width"}, "local": {"is", "name", "force", "compression", "exponent"}}
 KEYS["bar"] = {"is", "name", "travel", "impedance", "velocity", "force"}
 KEYS |= {"mass": {"is", "name", "mass", "velocity"}, "force": {"is", "name", "course", "from", "until"}}
 CLAIMS = {
@@ -35,6 +35,8 @@ CLAIMS = {
 }
 OF_SECOND = {"title", "constants", "time", "line", "events", "observed"}
 MOST_CELLS, MOST_BITS, MOST_TERMS, MOST_RUNS = 8000, 4096, 400, 64
+SPARE = 70  # bits of which none are lost to the orders that are left out
+STEADY = 16  # by how much a compression is larger than what it changes by on half a cell
 
 
 class Load:
@@ -153,10 +155,10 @@ class Line:
             if "name" in element:
                 need(type(element["name"]) is str and element["name"] not in self.places, "a name stands twice")
                 kind = element["is"]
-                place = len(self.links) if kind in ("bar", "spring") else supports if kind == "support" else len(runs) - 1
+                place = len(self.links) if kind in ("bar", "spring", "local") else supports if kind == "support" else len(runs) - 1
                 self.places[element["name"]] = kind, place
                 supports += kind == "support"
-            if element["is"] in ("bar", "spring", "contact", "gap"):
+            if element["is"] in ("bar", "spring", "local", "contact", "gap"):
                 self.links.append(self.link(element))
                 self.travels.append(element.get("travel"))
                 runs.append([])
@@ -186,13 +188,14 @@ class Line:
             need(link["is"] == "bar" or not self.endless[i] and not self.endless[i + 1], "an endless line ends with a bar")
         positive = [self.number(own["mass"]) for run in runs for own in of(run, "mass")]
         positive += [link["impedance"] for link in self.links if link["is"] == "bar"]
+        positive += [link[key] for link in self.links if link["is"] == "local" for key in ("force", "compression")]
         numbers = [own for _, *pair in self.supports for own in pair]
         numbers += [link[key] for link in self.links if link["is"] == "spring" for key in ("stiffness", "damping")]
         need(
             all(own.sign() == 1 for own in positive) and all(own.sign() in (0, 1) for own in numbers),
             "a number is not positive",
         )
-        self.contacts = [i for i, link in enumerate(self.links) if link["is"] == "contact"]
+        self.contacts, self.locals = ([i for i, link in enumerate(self.links) if link["is"] == kind] for kind in ("contact", "local"))
 
     def number(self, rows):
         """A polynomial in the constants over such ones."""
@@ -245,9 +248,17 @@ class Line:
             return {"is": "bar", "travel": travel, **own}
         if element["is"] == "spring":
             return {"is": "spring", **{key: self.number(element[key]) for key in ("stiffness", "damping")}}
+        if element["is"] == "local":
+            exponent = rational(element["exponent"])
+            need(1 <= exponent and exponent.numerator <= 1000 and exponent.denominator <= 100, "an exponent is less than 1, or too large")
+            return {"is": "local", "exponent": exponent, **{key: self.number(element[key]) for key in ("force", "compression")}}
         gap = self.number(element["width"]) if element["is"] == "gap" else ZERO
         need(element["is"] != "gap" or gap.sign() == 1, "a gap may be no gap")
         return {"is": "contact", "gap": gap}
+
+
+class Turning(Undecided):
+    """A local contact may begin or cease to push, where its force has no further derivatives."""
 
 
 class System:
@@ -318,6 +329,9 @@ class System:
                 force = [(link["stiffness"], [(("alpha", i), 1)]), (link["damping"], [(speed(i), 1), (speed(i + 1), -1)])]
                 rows[i] += [(-factor, parts) for factor, parts in force]
                 rows[i + 1] += force
+            elif link["is"] == "local":
+                rows[i].append((-ONE, [(("push", i), 1)]))
+                rows[i + 1].append((ONE, [(("push", i), 1)]))
         for n, (r, stiffness, damping) in enumerate(line.supports):
             rows[r] += [(-stiffness, [(("u", n), 1)]), (-(ONE if n in self.resting else damping), [(speed(r), 1)])]
         for n, (r, _) in enumerate(line.loads):
@@ -352,10 +366,11 @@ class System:
         line, groups = self.line, range(self.count)
         now = {key: start[key] for key in ("alpha", "u", "gap")}
         now["v"] = {g: start["v"][self.mover[g]] if self.moved[g] else ZERO for g in groups if g not in self.free}
-        series = {**{key: [own] for key, own in now.items()}, "forces": []}
+        series = {**{key: [own] for key, own in now.items()}, "forces": [], "push": []}
         for k in range(orders):
             v = series["v"][k]
-            known = {(key, n): own for key in ("v", "alpha", "u") for n, own in series[key][k].items()}
+            series["push"].append({i: self.push(i, series) for i in line.locals})
+            known = {(key, n): own for key in ("v", "alpha", "u", "push") for n, own in series[key][k].items()}
             known |= {key: own[k] for key, own in incoming.items()} | {("load", n): own[k] for n, own in enumerate(loads)}
             known |= {("velocity", i): ZERO if k else own["velocity"] for i, own in enumerate(line.links) if own["is"] == "bar"}
             known |= {("v", g): ZERO for g in self.free} | {"start": ZERO if k else ONE}
@@ -377,6 +392,21 @@ class System:
             series["forces"].append([force - keeps(r) for r, force in enumerate(forces)])
         return series
 
+    def push(self, i, series):
+        """The next order of the force F (a/b)^m in a local contact with the compression a, by a X' = m X a' where a is positive."""
+        own, a, known = self.line.links[i], [one[i] for one in series["alpha"]], [one[i] for one in series["push"]]
+        m, k, share = own["exponent"], len(known), a[0] / own["compression"]
+        if a[0].sign() == -1 or all(one.is_zero() for one in a):
+            return ZERO
+        if k == 0:
+            return own["force"] * power(share, m)
+        if a[0].sign() == 1:
+            p, q = m.numerator, m.denominator
+            return dot((a[j], known[k - j], p * j - q * (k - j)) for j in range(1, k + 1)).times(Fraction(1, q * k)) / a[0]
+        if k == 1:  # the slope lies between its values for the least and the largest compression
+            return (own["force"] * power(share, m - 1) * a[1] / own["compression"]).times(m)
+        raise Turning
+
     def contact_force(self, i, forces):
         """The force in a closed contact, by the balance of either side: of one that gives exactly zero, else of one without mass,
         if there is any."""
@@ -396,14 +426,15 @@ class Motion:
     def __init__(self, cert, instants):
         self.line, self.claims, self.to = Line(cert), read_claims(cert), rational(cert["to"])
         self.step, self.terms = rational(cert["step"]), cert["terms"]
+        need(not self.line.locals or PRECISION["bits"] > SPARE, "bits are too few for a local contact")
         need(self.to > 0 and self.step > 0 and self.to / self.step < MOST_CELLS, "the window is empty, or too long")
         line = self.line
         need(all(0 <= contact < len(line.contacts) for contact, *_ in self.claims), "an event without a contact")
-        self.instants, self.now, self.marks, self.past, self.events = instants, START, [], [], []
+        self.instants, self.now, self.marks, self.lengths, self.past, self.events = instants, START, [], [], [], []
         self.open = {i: {"flat": 0, "idle": None, "pressed": False} for i in line.contacts}
         gaps = {i: line.links[i]["gap"] for i in line.contacts}
         self.closed = {i for i, own in gaps.items() if own.is_zero()}
-        springs = [i for i, link in enumerate(line.links) if link["is"] == "spring"]
+        springs = [i for i, link in enumerate(line.links) if link["is"] in ("spring", "local")]
         self.state = {
             "v": list(line.starts),
             "alpha": {i: ZERO for i in springs},
@@ -449,7 +480,7 @@ class Motion:
                     found[i, way] = nothing
                     if first >= 0:
                         after = self.since(self.now, moved(self.marks[first], link["travel"]))
-                        found[i, way] = shifted(self.past[first][way, i], after.times(1 / self.step))
+                        found[i, way] = shifted(self.past[first][way, i], after.times(1 / self.step), self.lengths[first])
         return found, ends
 
     def loads(self):
@@ -476,7 +507,7 @@ class Motion:
             self.events
         )
         for _ in range(4 * len(self.line.contacts) + 1):
-            solved = self.system.solve(self.state, waves, loads, self.step, self.terms)
+            solved = self.solved(waves, loads)
             changes = []
             for i in self.line.contacts:
                 sign = begins(self.kept(i, solved) + [ZERO])
@@ -492,6 +523,19 @@ class Motion:
                 return solved
             self.change(changes, False)
         raise Undecided("the contacts do not settle")
+
+    def solved(self, waves, loads):
+        """All orders of which those that arrive are known; one, where a local contact may begin or cease to push, and few on the tiny
+        cells after that."""
+        orders = min([self.terms, *(len(own) - 1 for own in waves.values())])
+        if self.line.locals and orders > 1:
+            tiny = self.pace(self.system.solve(self.state, waves, loads, self.step, 1))
+            tiny, wanted = tiny.denominator.bit_length() - tiny.numerator.bit_length(), max(PRECISION["bits"] - SPARE, 0)
+            orders = min(orders, max((wanted - 5 * tiny // 2) // 3 + 4, wanted // tiny + 2)) if tiny > 0 else orders
+        try:
+            return self.system.solve(self.state, waves, loads, self.step, orders)
+        except Turning:
+            return self.system.solve(self.state, waves, loads, self.step, 1)
 
     def yielding(self, changes):
         """Without a contact that a support would press: what supports alone would hold on, displaced, goes back to one side."""
@@ -556,35 +600,47 @@ class Motion:
             series[k] = ZERO
         return series[: len(solved["forces"])]
 
-    def enclosed(self, waves, loads, reach):
-        """All series of order N + 1 on a part of a step from now on, or None where it is too long."""
+    def last(self, i, last, order):
+        """The same, the last coefficient, for the whole cell."""
+        return self.system.contact_force(i, last["forces"][order]) if i in self.closed else last["gap"][order][i]
+
+    def enclosed(self, waves, loads, reach, orders):
+        """All series of so many orders on a part of a step from now on, or None where it is too long."""
         span = Number.between(Fraction(0), reach)
-        waves, loads = {key: shifted(own, span) for key, own in waves.items()}, [shifted(own, span) for own in loads]
+        waves, loads = {key: shifted(own, span, Number(reach)) for key, own in waves.items()}, [shifted(own, span) for own in loads]
         start, box, system = self.state, self.state, self.system
         widened = lambda own: own if own.is_zero() else ball(own.units()[0], own.units()[1] * 5 // 4 + 1)
         for _ in range(40):
-            rates = {key: own[1] for key, own in system.solve(box, waves, loads, self.step, 1).items() if key != "forces"}
+            rates = {key: own[1] for key, own in system.solve(box, waves, loads, self.step, 1).items() if len(own) > 1}
             speeds = [rates["v"].get(system.group[r], ZERO) for r in range(self.line.count)]
             grown = {key: {n: own + span * rates[key][n] for n, own in start[key].items()} for key in ("alpha", "u")}
             grown |= {"v": [own + span * rate for own, rate in zip(start["v"], speeds)], "gap": start["gap"]}
             values = lambda state: [*state["v"], *state["alpha"].values(), *state["u"].values()]
+            if orders > 2 and not all(self.is_steady(grown["alpha"][i]) for i in self.line.locals):
+                return None
             if all(old.holds(new) for old, new in zip(values(box), values(grown))):
-                return system.solve(grown, waves, loads, self.step, self.terms + 1)
+                return system.solve(grown, waves, loads, self.step, orders)
             box = {key: {n: widened(own) for n, own in grown[key].items()} for key in ("alpha", "u", "gap")}
             box["v"] = [widened(own) for own in grown["v"]]
         return None
 
+    @staticmethod
+    def is_steady(compression):
+        """Whether a local contact does not push, or is pressed nearly alike."""
+        mid, off = compression.units()
+        return compression.is_zero() or compression.sign() == -1 or mid > STEADY * off
+
     def advance(self):
         """One cell: what arrives, which contacts are closed, how far all is known, whether a contact changes, what leaves."""
-        line, system, N = self.line, self.system, self.terms
+        line = self.line
         waves, ends = self.incoming()
         loads, more = self.loads()
         exact = [exactly(low) for _, _, low, high in self.claims if low == high]
         end = self.earliest(ends + more + exact)
         solved = self.settle(waves, loads)
-        end, last = self.cell(waves, loads, end)
-        system = self.system
-        guards = {i: self.kept(i, solved) + [self.kept(i, last)[N]] for i in line.contacts}
+        end, last = self.cell(waves, loads, end, solved)
+        system, N = self.system, len(last["forces"]) - 1
+        guards = {i: self.kept(i, solved)[:N] + [self.last(i, last, N)] for i in line.contacts}
         self.watch(guards)
         due = self.due(end)
         place = self.crossing(due, guards) if due else self.since(end, self.now).times(1 / self.step)
@@ -596,13 +652,20 @@ class Motion:
         cell = {("v", r): series("v", system.group[r]) for r in range(line.count)}
         cell |= {("alpha", i): series("alpha", i) for i in self.state["alpha"]}
         cell |= {("u", n): series("u", n) for n in self.state["u"]}
+        cell |= {("push", i): series("push", i) for i in line.locals}
+        length = Number(place.ends()[1])
+        over = Number.between(Fraction(0), length.exact())
         for i, link in enumerate(line.links):
             if link["is"] == "bar":
                 for way, other, r in (("right", "left", i), ("left", "right", i + 1)):
                     at_rest = [link["velocity"]] + [ZERO] * N
-                    leaves = [c - v - w for c, v, w in zip(cell["v", r], at_rest, waves[i, other])]
+                    arrives = waves[i, other]
+                    if len(arrives) > N + 1:
+                        arrives = [*arrives[:N], shifted(arrives, over, length)[N]]
+                    leaves = [c - v - w for c, v, w in zip(cell["v", r], at_rest, arrives)]
                     cell[way, i] = [ZERO] * (N + 1) if line.endless[r] else leaves
         self.marks.append(self.now)
+        self.lengths.append(length)
         self.past.append(cell)
         need(len(self.marks) < MOST_CELLS, "too many cells")
         self.state = {
@@ -620,16 +683,32 @@ class Motion:
         else:
             self.now = end
 
-    def cell(self, waves, loads, end):
+    def pace(self, solved):
+        """How many steps a cell may take, so that the compression of a local contact hardly changes."""
+        most = Fraction(1)
+        for i in self.line.locals:
+            compression, rate = (solved["alpha"][k][i].ends() for k in (0, 1))
+            if compression[0] > 0 and any(rate):
+                most = min(most, compression[0] / max(map(abs, rate)) / (STEADY // 2 + 1))
+        return most
+
+    def cell(self, waves, loads, end, solved):
         """The end of a cell that is short enough, and what encloses the last orders there."""
-        reach = self.since(end, self.now).ends()[1] / self.step
-        if reach > 1:
-            end, reach = moved(self.now, Duration.of(self.step)), Fraction(1)
-        for halvings in range(1, 40):
-            last = self.enclosed(waves, loads, reach)
+        least, orders = Fraction(1, 2 ** (PRECISION["bits"] // 4)), len(solved["forces"]) + 1
+        reach, most = self.since(end, self.now).ends()[1] / self.step, Fraction(1)
+        if self.line.locals and orders == 2:
+            most = least
+        else:
+            most = self.pace(solved)
+        if reach > most:
+            reach = rounded(max(most, least))
+            end = moved(self.now, Duration.of(self.step * reach))
+        for _ in range(80):
+            orders = 2 if self.line.locals and reach <= least else orders
+            last = self.enclosed(waves, loads, reach, orders)
             if last:
                 return end, last
-            reach = min(reach / 2, Fraction(1, 2**halvings))
+            reach = rounded(reach / 2)
             end = moved(self.now, Duration.of(self.step * reach))
         raise Undecided("a cell is too long")
 
@@ -677,6 +756,12 @@ class Motion:
         for i in sorted(self.closed):
             if self.open[i]["idle"] is not None:
                 self.events.append(("release", i, self.open[i]["idle"]))
+
+
+def rounded(number):
+    """A number that is not much smaller, with a power of two below."""
+    bits = number.denominator.bit_length() - number.numerator.bit_length() + 4
+    return Fraction((number.numerator << bits) // number.denominator, 1 << bits) if bits > 0 else number
 
 
 START = 0, Duration({})

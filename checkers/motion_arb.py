@@ -30,11 +30,13 @@ from series_arb import (
     stays_positive,
 )
 
+SPARE = 70  # bits beside a local contact of which none are lost to the orders that are left out
 ELEMENTS = {
     **dict.fromkeys(("free", "fixed", "endless", "contact"), {"is"}),
     **dict.fromkeys(("spring", "support"), {"is", "name", "stiffness", "damping"}),
     "bar": {"is", "name", "impedance", "travel", "velocity", "force"},
     "gap": {"is", "width"},
+    "local": {"is", "name", "force", "compression", "exponent"},
     "mass": {"is", "name", "mass", "velocity"},
     "force": {"is", "name", "course", "from", "until"},
 }
@@ -71,10 +73,11 @@ class Parts:
             run = len(self.mass) - 1
             if "name" in own:
                 need(type(own["name"]) is str and own["name"] not in self.named, "two elements have one name")
-                places = {"bar": len(self.links), "spring": len(self.links), "support": len(self.supports)}
+                places = {**dict.fromkeys(("bar", "spring", "local"), len(self.links)), "support": len(self.supports)}
                 self.named[own["name"]] = own["is"], places.get(own["is"], run)
-            if own["is"] in ("bar", "spring", "contact", "gap"):
+            if own["is"] in ("bar", "spring", "local", "contact", "gap"):
                 keys = {"bar": ("impedance", "velocity", "force"), "spring": ("stiffness", "damping"), "gap": ("width",)}
+                keys["local"] = ("force", "compression")
                 link = {"is": own["is"], **{key: self.number(own[key]) for key in keys.get(own["is"], ())}}
                 need(own["is"] != "gap" or sign(link["width"]) == 1, "a gap has no width")
                 link["is"] = "contact" if own["is"] == "gap" else own["is"]
@@ -82,6 +85,12 @@ class Parts:
                     link["travel"] = None if own["travel"] is None else self.length(own["travel"])
                     link["rows"] = own["travel"]
                     need(sign(link["impedance"]) == 1, "an impedance is not positive")
+                if own["is"] == "local":
+                    link["exponent"] = rational(own["exponent"])
+                    top, below = int(link["exponent"].p), int(link["exponent"].q)
+                    need(below <= top <= 1000 and below <= 100, "the force of a local contact has a steep beginning, or a huge exponent")
+                    need(cert["bits"] > SPARE, "a local contact needs more bits")
+                    need(sign(link["force"]) == sign(link["compression"]) == 1, "a local contact without stiffness")
                 self.links.append(link)
                 for values, new in ((self.mass, NIL), (self.momentum, NIL), (self.fixed, False), (self.endless, False)):
                     values.append(new)
@@ -114,6 +123,7 @@ class Parts:
             need(not far or alone, "something stands at an endless end")
         need(all(sign(c) in (0, 1) for _, *pair in self.supports for c in pair), "stiffness or damping may be negative")
         self.contacts = [i for i, link in enumerate(self.links) if link["is"] == "contact"]
+        self.locals = [i for i, link in enumerate(self.links) if link["is"] == "local"]
 
     def polynomial(self, terms):
         total = NIL
@@ -374,8 +384,8 @@ class Laws:
                 row[self.place[kind, r]] = amount
         return row
 
-    def known(self, state, waves, loads, base):
-        """Minus what is known in each equation."""
+    def known(self, state, waves, loads, base, pressed):
+        """Minus what is known in each equation, the forces in local contacts among it."""
         parts, forces = self.parts, [NIL] * len(self.parts.mass)
         v = lambda r: state["v", r] if ("v", r) in state else NIL
 
@@ -400,6 +410,9 @@ class Laws:
                 force = product(link["stiffness"], state["alpha", i]) + product(link["damping"], v(i) - v(i + 1))
                 push(i, -force)
                 push(i + 1, force)
+            elif link["is"] == "local":
+                push(i, -pressed[i])
+                push(i + 1, pressed[i])
         for n, (r, stiffness, damping) in enumerate(parts.supports):
             push(r, -product(stiffness, state["u", n]) - product(damping, v(r)))
         for (r, _), amount in zip(parts.loads, loads):
@@ -409,8 +422,8 @@ class Laws:
     def rigid(self, i):
         return all(self.heavy[r] or self.parts.fixed[r] for r in (i, i + 1))
 
-    def solved(self, state, waves, loads, base):
-        column = self.known(state, waves, loads, base)
+    def solved(self, state, waves, loads, base, pressed):
+        column = self.known(state, waves, loads, base, pressed)
         return [dot(row, column) for row in self.inverse]
 
     def velocity(self, state, solution, r):
@@ -453,6 +466,31 @@ def inverse(rows):
     return [row[count:] for row in rows]
 
 
+class Beginning(Undecided):
+    """Only the first derivative of the force in a local contact is bounded."""
+
+
+STEADY = 6  # by how much a compression is larger than what it may change by on a cell
+
+
+def force_of(link, compression):
+    return product(link["force"], raised(link, compression, link["exponent"]))
+
+
+def slope_of(link, compression):
+    """All slopes between those for the least and the largest compression."""
+    exponent = link["exponent"]
+    return product(link["force"] * exponent / link["compression"], raised(link, compression, exponent - 1))
+
+
+def raised(link, compression, power):
+    share = arb(compression) / link["compression"]
+    if sign(share) == 1:
+        return share**power
+    most = share.upper()
+    return NIL if not most > 0 else span(0, most**power if power else arb(1))
+
+
 START = 0, Length()
 
 
@@ -466,7 +504,10 @@ class Story:
 
     def __init__(self, cert, origins):
         self.parts = parts = Parts(cert)
-        self.order, self.step, self.end = cert["terms"], rational(cert["step"]), rational(cert["to"])
+        self.terms, self.step, self.end = cert["terms"], rational(cert["step"]), rational(cert["to"])
+        self.order = self.terms  # of the cell that is being worked out
+        self.bits = cert["bits"]
+        self.least = fmpq(1, 1 << self.bits // 4)  # how short a cell is on which a local contact begins or ceases to push
         need(self.step > 0 and self.end > 0 and self.end / self.step < 8000, "a window without steps, or with too many")
         self.told = []
         for contact, kind, low, high in cert["events"]:
@@ -476,12 +517,12 @@ class Story:
             before = [own[3] for own in self.told[:-1] if own[0] == self.told[-1][0]]
             need(not before or before[-1] <= self.told[-1][2], "two events of a contact are in one interval")
         self.origins, self.now = origins, START
-        self.begins, self.past, self.integrals, self.happened = [], [], {}, []
+        self.begins, self.reaches, self.past, self.integrals, self.happened = [], [], [], {}, []
         self.gaps = {i: parts.links[i].get("width", NIL) for i in parts.contacts}
         self.closed, self.idle, self.flush, self.pressed = {i for i in self.gaps if is_nil(self.gaps[i])}, {}, {}, set()
         heavy = [r for r, m in enumerate(parts.mass) if sign(m) == 1 and not parts.fixed[r]]
         self.state = {("v", r): short(parts.momentum[r] / parts.mass[r]) for r in heavy}
-        self.state |= {("alpha", i): NIL for i, link in enumerate(parts.links) if link["is"] == "spring"}
+        self.state |= {("alpha", i): NIL for i, link in enumerate(parts.links) if link["is"] in ("spring", "local")}
         self.state |= {("u", n): NIL for n in range(len(parts.supports))}
         self.laws = Laws(parts, self.closed)
         for i in self.closed:  # what is rigid on both sides of a contact moves as one already
@@ -523,7 +564,7 @@ class Story:
         return count + 1
 
     def arriving(self):
-        silence, found = [NIL] * (self.order + 1), {}
+        silence, found = [NIL] * (self.terms + 1), {}
         for i, link in enumerate(self.parts.links):
             if link["is"] != "bar":
                 continue
@@ -545,21 +586,39 @@ class Story:
                 load["until"] is None or self.is_later((0, load["until"]), self.now)
             )
             time = self.now[1].value() if self.now[0] == 0 else self.when(self.now)
-            found.append(self.parts.pushes(load, time, self.step, self.order) if is_on else [NIL] * (self.order + 1))
+            found.append(self.parts.pushes(load, time, self.step, self.terms) if is_on else [NIL] * (self.terms + 1))
         return found
 
-    def coefficients(self, state, waves, loads, count, base=fmpq(1)):
-        """Taylor coefficients of all that is known, and of the solutions: as many as are wanted. The base is what stands with
-        the velocities and forces of bars at the start."""
-        states, solutions = [state], []
+    def coefficients(self, state, waves, loads, count, base=fmpq(1), boxes=None):
+        """Taylor coefficients of all that is known, of the solutions and of the forces in local contacts: as many as are wanted.
+        The base is what stands with the velocities and forces of bars at the start. Where all is the derivative of something,
+        boxes hold the compressions themselves."""
+        states, solutions, pressed = [state], [], {i: [] for i in self.parts.locals}
         for k in range(count):
-            solution = self.laws.solved(
-                states[k], {key: own[k] for key, own in waves.items()}, [own[k] for own in loads], NIL if k else base
-            )
+            for i, force in pressed.items():
+                way = [own["alpha", i] for own in states]
+                if boxes is not None:
+                    way = [boxes[i], *(c / (n + 1) for n, c in enumerate(way))]
+                while len(force) < len(way):
+                    force.append(self.press(self.parts.links[i], way, force))
+            drives = {i: force[k] if boxes is None else force[k + 1] * (k + 1) for i, force in pressed.items()}
+            arrives = {key: own[k] for key, own in waves.items()}
+            solution = self.laws.solved(states[k], arrives, [own[k] for own in loads], NIL if k else base, drives)
             solutions.append(solution)
             scale = self.step / (k + 1)
             states.append({key: short(rate * scale) for key, rate in self.laws.rates(states[k], solution).items()})
-        return states, solutions
+        return states, solutions, pressed
+
+    def press(self, link, way, force):
+        """The next coefficient of F (a/b)^m where a is positive: all but the first follow from a X' = m X a'."""
+        k, a, m = len(force), way[0], link["exponent"]
+        if sign(a) == -1 or all(map(is_nil, way)):
+            return NIL
+        if k and sign(a) == 1:
+            return sum((way[j] * force[k - j] * (m * j - (k - j)) for j in range(1, k + 1)), NIL) / (a * k)
+        if k > 1:
+            raise Beginning("a local contact may begin or cease to push")
+        return force_of(link, a) if k == 0 else slope_of(link, a) * way[1]
 
     def guard(self, i, states, solutions):
         """What must not be negative: the force of a closed contact, the gap of an open one."""
@@ -588,7 +647,7 @@ class Story:
     def settled(self, waves, loads):
         before, count = (set(self.closed), dict(self.idle), set(self.pressed)), len(self.happened)
         for _ in range(4 * len(self.gaps) + 1):
-            states, solutions = self.coefficients(self.state, waves, loads, self.order)
+            states, solutions, pressed = self.begun(waves, loads)
             wrong = [i for i in self.gaps if self.start_of(self.guard(i, states, solutions)) < 0]
             if not wrong:
                 for i in self.gaps.keys() - (before[0] ^ self.closed):  # nothing has become of it
@@ -596,9 +655,22 @@ class Story:
                     if i in before[1]:
                         self.idle[i] = before[1][i]
                     self.pressed |= before[2] & {i}
-                return states, solutions
+                return states, solutions, pressed
             self.switch([i for i in wrong if i not in self.propping(wrong)], False)
         raise Undecided("contacts open and close without end")
+
+    def begun(self, waves, loads):
+        """All coefficients but the last; the first alone where a local contact may begin or cease to push."""
+        self.order = min([self.terms, *(len(own) - 1 for own in waves.values())])
+        if self.parts.locals and self.order > 1:
+            shortest = self.longest(self.coefficients(self.state, waves, loads, 1)[0])
+            tiny, wanted = (int(shortest.q) // int(shortest.p)).bit_length(), self.bits - SPARE
+            self.order = min(self.order, max((2 * wanted - 5 * tiny) // 4 + 4, wanted // tiny + 2)) if tiny > 1 else self.order
+        try:
+            return self.coefficients(self.state, waves, loads, self.order)
+        except Beginning:
+            self.order = 1
+            return self.coefficients(self.state, waves, loads, 1)
 
     def propping(self, wrong):
         """The contacts that stay closed since a support, which would else be left alone, pushes there."""
@@ -648,17 +720,19 @@ class Story:
             if i not in self.closed and not freed and (both or smoothly):
                 self.flush[i] = 1 + int(smoothly and len(contacts) == 1 and self.laws.rigid(i))
 
-    def largest(self, start, waves, loads, share):
-        """Bounds of y' on a share of a step, where y'' = A y' + b': |y'| <= (|y'(0)| + h |b'|) / (1 - h |A|)."""
+    def largest(self, start, waves, loads, share, slopes):
+        """Bounds of y' on a share of a step, where y'' = A y' + b': |y'| <= (|y'(0)| + h |b'|) / (1 - h |A|). Local contacts are
+        springs whose stiffness varies, up to their steepest slope."""
         nothing, silent = {key: NIL for key in start}, [NIL] * len(loads)
-        norms = {key: arb(0) for key in start}
+        norms, unpressed = {key: arb(0) for key in start}, {i: NIL for i in slopes}
         for unit in start:
             state = {**nothing, unit: fmpq(1)}
-            for key, rate in self.laws.rates(state, self.laws.solved(state, {key: NIL for key in waves}, silent, NIL)).items():
+            pressed = {i: slope if unit == ("alpha", i) else NIL for i, slope in slopes.items()}
+            solution = self.laws.solved(state, {key: NIL for key in waves}, silent, NIL, pressed)
+            for key, rate in self.laws.rates(state, solution).items():
                 norms[key] += size(rate)
-        driven = self.laws.rates(
-            nothing, self.laws.solved(nothing, {key: own[0] for key, own in waves.items()}, [own[0] for own in loads], NIL)
-        )
+        arrives = {key: own[0] for key, own in waves.items()}
+        driven = self.laws.rates(nothing, self.laws.solved(nothing, arrives, [own[0] for own in loads], NIL, unpressed))
         # Bars decouple what stands between them.
         boxes, length = {}, arb(share) * arb(self.step)
         largest = lambda place, values: max(size(own) for key, own in values.items() if self.place_of(*key) == place)
@@ -677,45 +751,78 @@ class Story:
         return sum(link["is"] == "bar" for link in self.parts.links[:run])
 
     def enclosed(self, states, waves, loads, share):
-        """What is known and solved, of the two last orders on a share of a step; None where it is too long. All orders but the
-        first are those of the derivatives, which vanish where nothing changes."""
+        """What is known and solved, of the two last orders on a share of a step, and the last order of forces in local contacts;
+        None where it is too long. All orders but the first are those of the derivatives, which vanish where nothing changes."""
         place = span(0, share)
-        over, under = {key: derivative(moved(own, place)) for key, own in waves.items()}, [
-            derivative(moved(own, place)) for own in loads
-        ]
+        spread, acting = {key: moved(own, place) for key, own in waves.items()}, [moved(own, place) for own in loads]
+        over, under = {key: derivative(own) for key, own in spread.items()}, [derivative(own) for own in acting]
         start = {key: rate for key, rate in states[1].items()}
+        rooms = {i: self.room(states[0]["alpha", i], start["alpha", i], share) for i in self.parts.locals}
         box = self.largest(
             {key: rate / self.step for key, rate in start.items()},
             {key: [c / self.step for c in own] for key, own in over.items()},
             [[c / self.step for c in own] for own in under],
             share,
+            {i: slope_of(self.parts.links[i], room) for i, room in rooms.items()},
         )
         if box is None:
             return None
-        rates, solutions = self.coefficients(box, over, under, self.order, NIL)
+        boxes = self.confined(states[0], start, box, (over, under), rooms, place)
+        if boxes is None:
+            return None
+        rates, solutions, forces = self.coefficients(box, over, under, self.order, NIL, boxes)
         up = lambda rows, k: {key: c / k for key, c in rows[k - 1].items()}
-        wide = {k: up(rates, k) for k in (self.order - 1, self.order)}
-        return wide, {k: [c / k for c in solutions[k - 1]] for k in (self.order - 1, self.order)}
+        wide = {k: up(rates, k) for k in (self.order - 1, self.order) if k}
+        all_ = {k: [c / k for c in solutions[k - 1]] for k in (self.order - 1, self.order) if k}
+        if self.order == 1:
+            wide[0] = {key: short(own + place * box[key]) for key, own in states[0].items()}
+            here, now = {key: own[0] for key, own in spread.items()}, {i: own[0] for i, own in forces.items()}
+            all_[0] = self.laws.solved(wide[0], here, [own[0] for own in acting], fmpq(1), now)
+        return wide, all_, {i: own[self.order] for i, own in forces.items()}
+
+    def room(self, compression, rate, share):
+        """Between which numbers a compression is taken to be; where only one order is worked out, twice as far as it gets at first."""
+        if self.order == 1:
+            return arb(compression) + arb(0, 2 * size(rate) * arb(share) + arb(self.least))
+        return arb(compression) * arb(1, arb(1) / STEADY if sign(compression) == 1 else arb(15) / 16)
+
+    def confined(self, state, start, box, driven, rooms, place):
+        """The compressions of local contacts, which have to stay where they are taken to be; their rates are narrowed in the box."""
+        if not rooms:
+            return {}
+        slopes = {i: product(span(0, slope_of(self.parts.links[i], room)), box["alpha", i]) for i, room in rooms.items()}
+        arrives, acts = {key: own[0] for key, own in driven[0].items()}, [own[0] for own in driven[1]]
+        rates = self.laws.rates(box, self.laws.solved(box, arrives, acts, NIL, slopes))
+        for key, own in rates.items():
+            rate = start[key] + product(place, own * self.step)
+            box[key] = NIL if is_nil(rate) or is_nil(box[key]) else arb(rate).intersection(box[key])
+        boxes = {}
+        for i, room in rooms.items():
+            boxes[i] = state["alpha", i] + product(place, box["alpha", i])
+            if not is_nil(boxes[i]) and not room.contains_interior(arb(boxes[i])):
+                return None
+        return boxes
 
     def cell(self):
         end = self.next_break()
         waves, loads = self.arriving(), self.acting()
-        states, solutions = self.settled(waves, loads)
-        share = short(self.between(end, self.now) / self.step)
-        if sign(share - 1) != -1:
-            end, share = (self.now[0], self.now[1].plus(Length(self.step))), fmpq(1)
-        high = fmpq(1)
+        states, solutions, pressed = self.settled(waves, loads)
+        share, high = short(self.between(end, self.now) / self.step), self.longest(states)
+        if sign(share - high) != -1:
+            end, share = (self.now[0], self.now[1].plus(Length(self.step * high))), high
         while sign(share - high / 2) == -1:
             high = high / 2
-        for _ in range(40):
+        for _ in range(80):
+            if self.parts.locals and high <= self.least:
+                self.order = 1
             last = self.enclosed(states, waves, loads, high)
             if last is not None:
                 break
             high = high / 2
             end, share = (self.now[0], self.now[1].plus(Length(self.step * high))), high
         decided(last is not None, "a step is too long")
-        wide, all_ = last
-        guards = {i: self.guard(i, states, solutions) + [self.last(i, wide, all_)] for i in self.gaps}
+        wide, all_, forces = last
+        guards = {i: self.guard(i, states, solutions)[: self.order] + [self.last(i, wide, all_)] for i in self.gaps}
         for i in sorted(self.closed):
             if not all(map(is_nil, guards[i])):
                 if self.now == START and all(own[0] != i for own in self.happened):
@@ -735,16 +842,21 @@ class Story:
             until = until if isinstance(until, fmpq) else rational_above(until)
             decided(all(map(is_nil, own)) or stays_positive(own, NIL, until), "a contact may change, but no event is claimed")
         motion = {key: [s[key] for s in states[: self.order]] + [wide[self.order][key]] for key in self.state}
+        motion |= {("push", i): own[: self.order] + [forces[i]] for i, own in pressed.items()}
         for r in range(len(self.parts.mass)):
-            speed = [self.laws.velocity(s, z, r) for s, z in zip(states, solutions)]
+            speed = [self.laws.velocity(s, z, r) for s, z in zip(states, solutions[: self.order])]
             motion["speed", r] = speed + [self.laws.velocity(wide[self.order], all_[self.order], r)]
         for i, link in enumerate(self.parts.links):
             if link["is"] == "bar":
                 for way, other, r in (("f", "g", i), ("g", "f", i + 1)):
-                    waves_out = [short(a - b) for a, b in zip(motion["speed", r], waves[i, other])]
+                    wave_in = waves[i, other]
+                    if len(wave_in) > self.order + 1:
+                        wave_in = wave_in[: self.order] + [moved(wave_in, span(0, high))[self.order]]
+                    waves_out = [short(a - b) for a, b in zip(motion["speed", r], wave_in)]
                     waves_out[0] = waves_out[0] - link["velocity"]
                     motion[way, i] = [NIL] * (self.order + 1) if self.parts.endless[r] else waves_out
         self.begins.append(self.now)
+        self.reaches.append(high)
         self.past.append(motion)
         need(len(self.begins) < 8000, "there are too many steps")
         self.state = {key: horner(motion[key], place) for key in self.state}
@@ -756,6 +868,17 @@ class Story:
         self.origins.append(self.when(self.now) + place * self.step)
         self.now = (len(self.origins) - 1, Length())
         self.switch([change[0]], True)
+
+    def longest(self, states):
+        """How long a cell may be: so short that the compression of a local contact hardly changes."""
+        high = fmpq(1) if not self.parts.locals else fmpq(1, 4) if self.order > 1 else self.least
+        for i in self.parts.locals if self.order > 1 else ():
+            now, rate = (states[k]["alpha", i] for k in (0, 1))
+            if sign(now) == 1 and not size(rate) * arb(high) * STEADY * 5 / 4 < arb(now).lower():
+                digits, power = (arb(now) / (size(rate) * STEADY * 5 / 4)).lower().man_exp()
+                cut = max(int(digits).bit_length() - 4, 0)
+                high = fmpq(int(digits) >> cut) * fmpq(2) ** (int(power) + cut)
+        return max(high, self.least)
 
     def change_before(self, end):
         """The contact of which it is claimed that it changes by itself first on this cell, and when, in steps from now."""

@@ -14,9 +14,10 @@ READS, HALF = {"quantity", "observed"}, Fraction(1, 2)
 # What can be read of elements, and how much more has to be said: delays of both waves, a side.
 READINGS = {("bar", what): 2 for what in ("velocity", "displacement", "force")}
 READINGS |= {("bar", "work"): 2, ("bar", "momentum"): 0} | {(kind, "energy"): 0 for kind in ("bar", "mass", "spring", "support")}
-READINGS |= {("spring", what): 1 for what in ("velocity", "displacement")}
+READINGS |= {(kind, what): 1 for kind in ("spring", "local") for what in ("velocity", "displacement")}
 READINGS |= {(kind, what): 0 for kind in ("mass", "support", "force") for what in ("velocity", "displacement")}
 READINGS |= {(kind, what): 0 for kind in ("spring", "support") for what in ("compression", "force", "loss")}
+READINGS |= {("local", what): 0 for what in ("compression", "force")}
 
 class Reader:
     """Reads a motion that has been followed."""
@@ -35,7 +36,8 @@ class Reader:
 
     def integral(self, n, key, of):
         """The integral from the start on, of what is known or of its square, as a series on a cell."""
-        over = lambda m: [c.times(self.motion.step / (k + 1)) for k, c in enumerate(of(self.past(m, key)))]
+        read = lambda m: squared(self.past(m, key), self.motion.lengths[m]) if of is squared else self.past(m, key)
+        over = lambda m: [c.times(self.motion.step / (k + 1)) for k, c in enumerate(read(m))]
         sums = self.sums.setdefault((key, of), [ZERO])
         while len(sums) <= n:
             m = len(sums) - 1
@@ -61,7 +63,7 @@ class Reader:
             n, x = self.cell_at(there)
             return [value(self.integral(n, key, summed) if summed else self.motion.past[n][key], x)]
 
-        return [time], known
+        return [time], known, ONE
 
     def on(self, begin, end):
         """The same between two times between which nothing arrives, as series about the first one."""
@@ -74,18 +76,19 @@ class Reader:
             if n < 0:
                 return [ZERO]
             after = self.motion.since(begin, moved(self.motion.marks[n], delay)).times(1 / self.motion.step)
-            return shifted(self.integral(n, key, summed) if summed else self.motion.past[n][key], after)
+            return shifted(self.integral(n, key, summed) if summed else self.motion.past[n][key], after, self.motion.lengths[n])
 
-        return [self.motion.instant(begin), Number(self.motion.step)], known
+        reach = Number(self.motion.since(end, begin).ends()[1] / self.motion.step)
+        return [self.motion.instant(begin), Number(self.motion.step)], known, reach
 
     def seen(self, where):
         """A sum of coefficients times what is read of elements, as a value or a series."""
-        line, sums, (time, known) = self.motion.line, [[ZERO]], where
+        line, sums, (time, known, reach) = self.motion.line, [[ZERO]], where
         for coefficient, what, name, *of in self.rows:
             need(name in line.places, f"there is no {name}")
             kind, n = line.places[name]
             need((kind, what) in READINGS and len(of) == READINGS[kind, what], f"{what} of {name} cannot be read")
-            factor, link = line.number(coefficient), line.links[n] if kind in ("bar", "spring") else {}
+            factor, link = line.number(coefficient), line.links[n] if kind in ("bar", "spring", "local") else {}
             if kind == "bar" and what in ("momentum", "energy"):
                 sums += [scaled(factor * link["impedance"], own) for own in getattr(self, what)(n, link, known)]
                 continue
@@ -102,17 +105,20 @@ class Reader:
                     sums += [] if own is None else [scaled(factor * amount, known(key, own, list if is_sum else None))]
                 continue
             if what in ("velocity", "displacement"):
-                need(kind != "spring" or of[0] in ("left", "right"), "a side is missing")
-                run = n + (of[0] == "right") if kind == "spring" else line.supports[n][0] if kind == "support" else n
+                need(not of or of[0] in ("left", "right"), "a side is missing")
+                run = n + (of[0] == "right") if of else line.supports[n][0] if kind == "support" else n
                 sums.append(scaled(factor, known(("v", run), None, list if what == "displacement" else None)))
                 continue
             if kind == "mass":
-                sums.append(scaled((factor * line.own_masses[name]).times(HALF), squared(known(("v", n), None))))
+                sums.append(scaled((factor * line.own_masses[name]).times(HALF), squared(known(("v", n), None), reach)))
+                continue
+            if kind == "local":
+                sums.append(scaled(factor, known(("alpha" if what == "compression" else "push", n), None)))
                 continue
             read = known(("alpha", n) if kind == "spring" else ("u", n), None)
             stiffness, damping = (link["stiffness"], link["damping"]) if link else line.supports[n][1:]
             if what == "energy":
-                sums.append(scaled((factor * stiffness).times(HALF), squared(read)))
+                sums.append(scaled((factor * stiffness).times(HALF), squared(read, reach)))
                 continue
             if what == "loss":  # what its damper has taken
                 key = ("rate", n) if link else ("v", line.supports[n][0])

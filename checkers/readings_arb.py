@@ -23,6 +23,7 @@ class Place:
 
     def __init__(self, story, begin, end):
         self.story, self.begin, self.end = story, begin, end
+        self.reach = rational_above(arb(story.between(end, begin) / story.step)) if end else fmpq(1)
 
     def time(self):
         return [self.story.when(self.begin), self.story.step]
@@ -49,7 +50,8 @@ class Place:
         story = self.story
         rate = lambda past: plus(past["speed", key[1]], times(-1, past["speed", key[1] + 1]))
         known = lambda past: rate(past) if key[0] == "rate" else past[key]
-        grown = lambda m: times(story.step, [NIL] + [c / (k + 1) for k, c in enumerate(over(known(story.past[m])))])
+        read = lambda m: square(known(story.past[m]), story.reaches[m]) if over is square else known(story.past[m])
+        grown = lambda m: times(story.step, [NIL] + [c / (k + 1) for k, c in enumerate(read(m))])
         sums = story.integrals.setdefault((key, over), [NIL])
         for m in range(len(sums) - 1, n):
             length = short(story.between(story.begins[m + 1], story.begins[m]) / story.step)
@@ -120,7 +122,7 @@ class Place:
                 key = {"mass": "speed", "spring": "alpha", "support": "u"}[kind]
                 own = {"mass": parts.masses.get(name), "support": parts.supports[n][1] if kind == "support" else None}
                 own = parts.links[n]["stiffness"] if kind == "spring" else own[kind]
-                read = times(own / 2, square(self.series((key, n), now)))
+                read = times(own / 2, square(self.series((key, n), now), self.reach))
             elif kind == "bar":
                 need(what in ("velocity", "force", "displacement") and len(of) == 2, "a bar is read in another way")
                 self.check_section(n, *of)
@@ -132,9 +134,13 @@ class Place:
                 if what == "force":
                     read = plus([link["force"]], times(link["impedance"], plus(f, times(-1, g))))
             elif what in ("velocity", "displacement"):
-                need(of in (["left"], ["right"]) if kind == "spring" else not of, "a spring has two sides, others have none")
-                run = n + (of == ["right"]) if kind == "spring" else parts.supports[n][0] if kind == "support" else n
+                is_link = kind in ("spring", "local")
+                need(of in (["left"], ["right"]) if is_link else not of, "a spring has two sides, others have none")
+                run = n + (of == ["right"]) if is_link else parts.supports[n][0] if kind == "support" else n
                 read = self.series(("speed", run), now, list if what == "displacement" else None)
+            elif kind == "local":
+                need(what in ("compression", "force") and not of, "this cannot be read")
+                read = self.series(("alpha" if what == "compression" else "push", n), now)
             else:
                 need(what in ("compression", "force") and kind in ("spring", "support") and not of, "this cannot be read")
                 read = self.series(("alpha" if kind == "spring" else "u", n), now)

@@ -124,7 +124,7 @@ def quotient(top, below):
 
 
 def dot(terms):
-    """A sum of products of two numbers and a natural number; of balls, in units of 2^-bits squared."""
+    """A sum of products of two numbers and an integer; of balls, in units of 2^-bits squared."""
     sum_, bits, mid, off = ZERO, PRECISION["bits"], 0, 0
     for a, b, count in terms:
         if a.below and not a.top or b.below and not b.top:
@@ -136,10 +136,10 @@ def dot(terms):
             a, b = b, a
         if a.below:
             mid += (a.top * b.top * count << bits) // a.below
-            off += (abs(a.top) * b.off * count << bits) // a.below + 2
+            off += (abs(a.top) * b.off * abs(count) << bits) // a.below + 2
         else:
             mid += a.top * b.top * count
-            off += ((abs(a.top) + a.off) * b.off + a.off * abs(b.top)) * count
+            off += ((abs(a.top) + a.off) * b.off + a.off * abs(b.top)) * abs(count)
     return sum_ + ball(mid >> bits, (off >> bits) + 2) if mid or off else sum_
 
 
@@ -190,11 +190,17 @@ def total(numbers):
     return result
 
 
-def shifted(series, x):
-    """Taylor coefficients about another place, or enclosures of them for an interval."""
+def shifted(series, x, reach=ONE):
+    """Taylor coefficients about another place, or enclosures of them for an interval. Of a cell that reaches as far as a number of
+    steps, which may be tiny, they grow by its inverse from order to order, and count in a smaller unit meanwhile."""
     count, some = len(series), [j for j, own in enumerate(series) if not own.is_zero()]
     if x.is_zero() or not some:
         return list(series)
+    tiny = PRECISION["bits"] - sum(reach.units()).bit_length()
+    if tiny * count > PRECISION["bits"] // 4:
+        small = lambda k: Fraction(1, 1 << tiny * k)
+        there = shifted([own.times(small(k)) for k, own in enumerate(series)], x.times(1 / small(1)))
+        return [own.times(1 / small(k)) for k, own in enumerate(there)]
     powers = [ONE]
     for _ in range(some[-1]):
         powers.append(powers[-1] * x)
@@ -202,10 +208,10 @@ def shifted(series, x):
     return [part(k) if k <= some[-1] else ZERO for k in range(count)]
 
 
-def squared(series):
-    """The last coefficient encloses what the derivative of that order is on a whole step, by those of all orders."""
-    last, on_step = len(series) - 1, shifted(series, Number.between(Fraction(0), Fraction(1)))
-    return [dot((a[j], a[k - j], 1 + (2 * j < k)) for j in range(k // 2 + 1)) for k, a in enumerate([series] * last + [on_step])]
+def squared(series, reach=ONE):
+    """The last coefficient encloses what the derivative of that order is on a whole cell, by those of all orders."""
+    last, on_cell = len(series) - 1, shifted(series, Number.between(Fraction(0), reach.ends()[1]), reach)
+    return [dot((a[j], a[k - j], 1 + (2 * j < k)) for j in range(k // 2 + 1)) for k, a in enumerate([series] * last + [on_cell])]
 
 
 def value(series, x):
@@ -217,6 +223,30 @@ def value(series, x):
 
 def slope(series):
     return [own.times(k) for k, own in enumerate(series)][1:] or [ZERO]
+
+
+def power(base, exponent):
+    """What is positive of a number, raised to a rational power that is positive or zero."""
+    p, q, bits = exponent.numerator, exponent.denominator, PRECISION["bits"]
+    if not p:
+        return ONE if base.sign() == 1 else Number.between(Fraction(0), Fraction(1))
+    if base.is_zero():
+        return ZERO
+    mid, off = base.units()
+    low, high = (root(max(own, 0) ** p << bits * q >> bits * p, q) for own in (mid - off, mid + off))
+    return ball((low + high + 1) >> 1, ((high - low) >> 1) + 2)
+
+
+def root(number, q):
+    """The largest integer whose q-th power is no larger, by Newton's method from above."""
+    if q == 1 or number < 2:
+        return number
+    best = 1 << -(-number.bit_length() // q)
+    while True:
+        next_ = ((q - 1) * best + number // best ** (q - 1)) // q
+        if next_ >= best:
+            return best
+        best = next_
 
 
 def begins(series):

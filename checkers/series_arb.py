@@ -119,9 +119,9 @@ def horner(series, x):
     return result
 
 
-def square(series):
-    """Its last coefficient is enclosed for the whole step by the coefficients about all of its places."""
-    count, everywhere = len(series), moved(series, span(NIL, fmpq(1)))
+def square(series, reach):
+    """Its last coefficient is enclosed for the whole cell by the coefficients about all of its places."""
+    count, everywhere = len(series), moved(series, span(NIL, reach))
     here, there = (padded(arb_poly(c) * arb_poly(c), 2 * count) for c in (series, everywhere))
     exact = next(k for k in range(count) if k == count - 1 or not are_exact(series[: k + 1]))
     return [dot(series[: k + 1], series[k::-1]) for k in range(exact)] + here[exact : count - 1] + [there[count - 1]]

@@ -86,7 +86,9 @@ impl<'a> Drawing<'a> {
             self.motion(place, node, run);
             node.attached(run).for_each(|own| self.element(own));
             match node.links.get(run) {
-                Some(Link::Element(spring)) => self.element(&node.elements[*spring]),
+                Some(Link::Element(place) | Link::Local { place, .. }) => {
+                    self.element(&node.elements[*place]);
+                }
                 Some(Link::Contact(contact)) => {
                     let gap = &self.layout.contacts[*contact].gap;
                     self.drawn.push(match gap.is_zero() {
@@ -94,7 +96,7 @@ impl<'a> Drawing<'a> {
                         false => json!({ "is": "gap", "width": self.writer.function(gap) }),
                     });
                 }
-                Some(Link::Local { .. }) | None => {}
+                None => {}
             }
         }
     }
@@ -135,7 +137,10 @@ impl<'a> Drawing<'a> {
                     "from": self.writer.function(&load.from), "until": until,
                 })
             }
-            ElementLaw::LocalContact { .. } => unreachable!("its law is not linear"),
+            ElementLaw::LocalContact { force, compression, exponent } => json!({
+                "is": "local", "exponent": exponent.to_string(),
+                "force": self.writer.function(force), "compression": self.writer.function(compression),
+            }),
         };
         drawn["name"] = json!(self.name(own.element));
         self.drawn.push(drawn);

@@ -13,7 +13,7 @@ use wavestep::ball::{Bound, Decimal, Number};
 use wavestep::enclosure::Numbers;
 use wavestep::expression::{Expression, Fraction, PI, Root};
 use wavestep::history::{Event, EventKind};
-use wavestep::network::{Contacts, ElementLaw, Layout, Network, Node};
+use wavestep::network::{Contacts, ElementLaw, Layout, Lumped, Network, Node};
 use wavestep::problem::{Problem, ProblemError, constants_of};
 use wavestep::scene::Drive;
 use wavestep::signal::EvaluateError;
@@ -29,6 +29,10 @@ const LEAST_DIGITS: usize = 9;
 /// The most bits and terms that a checker works with.
 const MOST_BITS: f64 = 4096.0;
 const MOST_TERMS: u32 = 400;
+
+/// The largest numerator and denominator of an exponent.
+const MOST_POWER: u32 = 1000;
+const MOST_ROOT: u32 = 100;
 
 /// The most steps of a checker in a window.
 const MOST_STEPS: f64 = 2000.0;
@@ -47,6 +51,9 @@ pub fn events(
     if line.layout.contacts.is_empty() {
         return Err(Failure::usage("the line has no contacts", "write | where bodies touch"));
     }
+    if line.network.local_contact().is_some() {
+        return Err(refused_events());
+    }
     let precision = line.precision(to, digits)?;
     let [low, high] = line.in_units(to, precision.bits)?;
     let end =
@@ -56,6 +63,14 @@ pub fn events(
     document.extend(line.followed(&end, &precision, &writer));
     document.insert("kind".into(), json!("events"));
     Ok(document)
+}
+
+fn refused_events() -> Failure {
+    let message = "there are no certificates of the events of local contacts";
+    Failure::usage(
+        message,
+        "certify values of their compression before and after, with --quantity and --at",
+    )
 }
 
 fn refused(reason: &str) -> Failure {
@@ -98,9 +113,6 @@ impl<'a> Line<'a> {
         beside: Option<&Line<'_>>,
     ) -> Result<Line<'a>, Failure> {
         let network = problem.network()?;
-        if network.local_contact().is_some() {
-            return Err(refused("beside local contacts"));
-        }
         super::refuse_symbols(problem)?;
         let network = match beside {
             None => Cow::Borrowed(network),
@@ -112,6 +124,7 @@ impl<'a> Line<'a> {
         let numbers = Numbers::new(&network.model().constants);
         let line = Line { problem, network, layout, numbers };
         line.refuse_loads()?;
+        line.refuse_exponents()?;
         Ok(line)
     }
 
@@ -131,8 +144,11 @@ impl<'a> Line<'a> {
                 let message = format!("events of this scene rest on an assumption: {assumed}");
                 return Err(Failure::usage(message, "ask for an earlier time"));
             }
+            let drawn = self.drawn_contacts();
             for event in &history.events {
-                events.extend(self.told(event, end, digits, bits)?);
+                if let Some(number) = drawn.iter().position(|contact| *contact == event.contact) {
+                    events.extend(self.told(event, number, (end, digits, bits))?);
+                }
             }
         }
         let mut document = Map::new();
@@ -197,6 +213,10 @@ impl<'a> Line<'a> {
             factorial += f64::from(terms).log2() - 1.0;
         }
         terms += power;
+        if self.network.local_contact().is_some() {
+            // There terms fall like powers alone.
+            terms = terms.max((bits / 3.0) as u32);
+        }
         if bits > MOST_BITS || terms > MOST_TERMS {
             let message = format!(
                 "a checker would need {bits:.0} bits (limit {MOST_BITS}) and {terms} terms (limit {MOST_TERMS})"
@@ -238,8 +258,27 @@ impl<'a> Line<'a> {
                 damping += damper;
                 damps = if damper > 0.0 { damps.min(damper) } else { damps };
             }
+            if let ElementLaw::LocalContact { force, compression, exponent } = &element.law {
+                let exponent = exponent.to_f64().unwrap_or(f64::INFINITY);
+                stiffness += self.steepest(size(force), size(compression), exponent);
+            }
         }
         damping / mass + (stiffness / mass).sqrt() + stiffness / damps
+    }
+
+    /// About how stiff a local contact gets: under the forces with which bars at speed meet a wall, and the energy of masses.
+    fn steepest(&self, force: f64, compression: f64, exponent: f64) -> f64 {
+        let size = |value: &Fraction| self.size(value);
+        let bars = self.network.model().bars.values();
+        let mut most: f64 = bars.map(|bar| size(&bar.impedance) * size(&bar.velocity)).sum();
+        let elements = self.layout.nodes.iter().flat_map(|node| &node.elements);
+        let energy = |own: &Lumped<Fraction>| match &own.law {
+            ElementLaw::Mass { mass, velocity } => size(mass) * size(velocity).powi(2) / 2.0,
+            _ => 0.0,
+        };
+        let held = elements.map(energy).sum::<f64>() * (exponent + 1.0) / (force * compression);
+        most += force * held.powf(exponent / (exponent + 1.0));
+        exponent * most / (compression * (most / force).powf(1.0 / exponent))
     }
 
     /// Loads are forces of numbers that are known.
@@ -255,6 +294,28 @@ impl<'a> Line<'a> {
         for load in self.network.model().loads.values() {
             if let Some(symbol) = load.course.symbols().into_iter().find(is_other) {
                 return Err(refused(&format!("under loads that hold the number {symbol}")));
+            }
+        }
+        Ok(())
+    }
+
+    /// The force of a local contact needs a bounded slope, so that a motion is the only one; checkers draw roots of its powers.
+    fn refuse_exponents(&self) -> Result<(), Failure> {
+        let exponents =
+            self.layout.nodes.iter().flat_map(|node| &node.elements).filter_map(|own| {
+                match &own.law {
+                    ElementLaw::LocalContact { exponent, .. } => Some(exponent),
+                    _ => None,
+                }
+            });
+        for exponent in exponents {
+            if exponent.numer() < exponent.denom() {
+                return Err(refused("beside a local contact with an exponent below 1"));
+            }
+            if *exponent.numer() > MOST_POWER.into() || *exponent.denom() > MOST_ROOT.into() {
+                return Err(refused(&format!(
+                    "beside a local contact with the exponent {exponent}: its numerator may be {MOST_POWER}, its denominator {MOST_ROOT}"
+                )));
             }
         }
         Ok(())
@@ -282,13 +343,19 @@ impl<'a> Line<'a> {
         Ok(wavestep::Value::of(&scaled, 1).bounds())
     }
 
+    /// The contacts that a checker counts: local ones are elements.
+    fn drawn_contacts(&self) -> Vec<usize> {
+        let nodes = self.layout.nodes.iter();
+        let all = nodes.flat_map(|node| node.contacts().map(move |(contact, _)| (node, contact)));
+        all.filter(|(node, own)| node.local_contact(*own).is_none()).map(|(_, own)| own).collect()
+    }
+
     /// `[contact, kind, low, high]`, with times in the units of the line, of what happens before the end.
     fn told(
         &self,
         event: &Event,
-        end: &BigRational,
-        digits: usize,
-        bits: u64,
+        contact: usize,
+        (end, digits, bits): (&BigRational, usize, u64),
     ) -> Result<Option<Json>, Failure> {
         let time = match event.time.exact() {
             Some(time) => Number::Exact(time.clone()),
@@ -310,7 +377,7 @@ impl<'a> Line<'a> {
             EventKind::Opening => "opening",
             EventKind::Release => "release",
         };
-        Ok(Some(json!([event.contact, kind, low, high])))
+        Ok(Some(json!([contact, kind, low, high])))
     }
 
     /// `{symbol: [low, high], …}`.

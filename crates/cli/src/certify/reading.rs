@@ -7,6 +7,7 @@ use super::writer::Writer;
 use super::{Quantity, rounded};
 use crate::failure::Failure;
 use num_rational::BigRational;
+use num_traits::Zero as _;
 use serde_json::{Map, Value as Json, json};
 use wavestep::ball::{Bound, Decimal};
 use wavestep::expression::Fraction;
@@ -58,7 +59,10 @@ impl<'a> Read<'a> {
         };
         let lines: Vec<&Line<'_>> = std::iter::once(&line).chain(&second).collect();
         // The motion is followed a little further, so that it is known from the last time on.
-        let end = &line.in_units(to, SPARE_BITS)?[1] + BigRational::new(1.into(), 8.into());
+        let [_, end] = line.in_units(to, SPARE_BITS)?;
+        let one = BigRational::from_integer(1.into());
+        let share = if end.is_zero() { one } else { end.clone().min(one) };
+        let end = end + share / BigRational::from_integer(8.into());
         let end = Decimal::bound(&end, 6, Bound::Upper).to_rational();
         let unit = line.unit(&line.network.model().scale.time, SPARE_BITS)?;
         let until = &end * &Value::of(&unit, 1).bounds()[1];
@@ -262,6 +266,12 @@ fn rows(line: &Line<'_>, value: &MeasuredValue, writer: &mut Writer) -> Result<J
     let (elements, layout) = (&line.network.scene().elements, &line.network.layout);
     let is_load = |element: usize| matches!(elements[element].kind, Kind::Load(_));
     let mut rows = Vec::new();
+    let is_local = |own: usize| matches!(elements[own].kind, Kind::Hertz(_));
+    if held.iter().any(|own| is_local(own.1)) {
+        let message = "there are no certificates of the energy of local contacts";
+        let remedy = "observe its force and its compression";
+        return Err(Failure::usage(message, remedy));
+    }
     // Loads hold none.
     for (c, own) in held.iter().filter(|own| !is_load(own.1)) {
         rows.push(json!([writer.function(c), "energy", elements[*own].name]));

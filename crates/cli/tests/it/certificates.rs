@@ -516,6 +516,37 @@ fn all_observables_are_verified_or_refused() {
     assert_proven(&folder, &files);
 }
 
+/// A mass on a local contact that opens, with the exponent of a cone.
+pub(super) const BOUNCE: &str = "scene \"Bounce\"\nmass m { mass = 1/2, velocity = 1 }\nhertz k { stiffness = 3, exponent = 2 }\n\
+    bar rod { impedance = 2 }\nline free - m - k - rod - endless\nobserve v = velocity(m)\nobserve force = force(k)\n\
+    observe gauge = velocity(rod.at(1))\n";
+
+/// A spring that does not pull stands for a local contact with the exponent one; beside it a contact that opens as well.
+const UNILATERAL: &str = "scene \"Unilateral\"\nbar a { impedance = 1, travel = 1, velocity = 1 }\nbar c { impedance = 1, travel = 1 }\n\
+    hertz k { stiffness = 3, exponent = 1 }\nbar b { impedance = 2 }\nline free - a | c - k - b - endless\n\
+    observe v = velocity(c.left)\ncontacts open\n";
+
+/// Values while a local contact is pressed, opens and is open, where its beginning arrives as an echo, and extrema.
+#[test]
+fn motions_beside_local_contacts_are_verified() {
+    let folder = folder("certificates-of-local-contacts");
+    std::fs::write(folder.join("bounce.wave"), BOUNCE).unwrap();
+    std::fs::write(folder.join("unilateral.wave"), UNILATERAL).unwrap();
+    let lines = [
+        "local-contact --quantity force --at 50us --digits 20",
+        "hertz-striker --quantity gauge --at 90us --digits 6",
+        "bounce.wave --quantity gauge --at 3 --digits 6",
+        "bounce.wave --zero v --to 1 --digits 6",
+        "bounce.wave --max force --to 1 --digits 6",
+        "unilateral.wave --quantity v --at 5/2 --digits 6",
+    ];
+    let files = lines.iter().enumerate().map(|(i, line)| {
+        certify(&folder, line, &format!("{i}.json"));
+        format!("{i}.json")
+    });
+    assert_proven(&folder, &files.collect::<Vec<_>>());
+}
+
 /// By both checkers, which have to agree, where there are two.
 #[test]
 fn altered_certificates_are_not() {
@@ -577,6 +608,10 @@ fn what_has_no_certificate_is_told() {
                  bar rod { impedance = 1, travel = 1 }\nline free - ram | pad - rod - fixed\n";
     std::fs::write(folder.join("rings.wave"), rings).unwrap();
     std::fs::write(folder.join("pi.wave"), PI).unwrap();
+    let steep = BOUNCE.replace("exponent = 2", "exponent = 1/2");
+    std::fs::write(folder.join("steep.wave"), steep).unwrap();
+    let contents = format!("{BOUNCE}observe energy = energy(k)\n");
+    std::fs::write(folder.join("contents.wave"), contents).unwrap();
     for (line, message) in [
         ("certify mass-on-fixed-bar --max velocity --to 1", "mu has no value"),
         (
@@ -589,7 +624,9 @@ fn what_has_no_certificate_is_told() {
         ("certify saint-venant --set mu=1 --events --to 1000000", "steps"),
         ("certify saint-venant --set mu=1 --events --from 1 --to 2", "from the start"),
         ("certify mass-on-fixed-bar --set mu=1 --events", "no contacts"),
-        ("certify local-contact --events", "local contacts"),
+        ("certify local-contact --events", "events of local contacts"),
+        ("certify steep.wave --quantity force --at 1", "exponent below 1"),
+        ("certify contents.wave --quantity energy --at 1", "energy of local contacts"),
         ("certify constant-force --events", "states equations"),
         ("certify incommensurate", "incommensurable"),
         ("certify hertz-striker", "local contact"),

@@ -1,8 +1,8 @@
 //! Certificates with wrong claims: each is refused, and it is said what is wrong. Right ones are not.
 
 use super::certificates::{
-    APART, CONTENTS, DISTANCES, DOUBLES, EVENTS, EXTREMES, READINGS, VALUES, WINDOWS, ZEROS,
-    certify, checked, with_flint,
+    APART, BOUNCE, CONTENTS, DISTANCES, DOUBLES, EVENTS, EXTREMES, READINGS, VALUES, WINDOWS,
+    ZEROS, certify, checked, with_flint,
 };
 use super::folder;
 use serde_json::json;
@@ -24,6 +24,13 @@ const SILENT: &str = "scene \"Silent\"\nbar c { impedance = 1, travel = 1, veloc
 const TURNING: &str = "scene \"Turning\"\nmass ram { mass = 1, velocity = 1 }\n\
     bar a { impedance = pi, travel = 1, velocity = 1 }\nbar b { impedance = 1, travel = 5 }\n\
     line free - ram - a | b - free\ncontacts open\n";
+
+/// A contact that opens, and closes when its gap, which begins flat, is zero again; a local contact without much force.
+const FLAT: &str = "scene \"Flat\"\nbar a { impedance = 1, travel = 1 }\nload rise { force = t - 7/10, until = 1 }\n\
+    load push { force = 3/10, from = 1, until = 2 }\nload pull { force = -1/4, from = 2 }\n\
+    bar b { impedance = 1, travel = 10 }\nhertz k { stiffness = 1/1000000, exponent = 2 }\n\
+    bar c { impedance = 1, velocity = -1 }\nline fixed | a - rise - push - pull - b - k - c - endless\n\
+    observe wall = force(a.left)\ncontacts open\n";
 
 /// The function c x of a symbol x.
 fn of(coefficient: &str, symbol: &str) -> serde_json::Value {
@@ -102,7 +109,32 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let gap = ask("gap.wave --events --to 3");
     std::fs::write(folder.join("polynomial.wave"), POLYNOMIAL).unwrap();
     let polynomial = ask("polynomial.wave --quantity w --at 2");
-    let cases: [(&serde_json::Value, Change, &str); 157] = [
+    std::fs::write(folder.join("bounce.wave"), BOUNCE).unwrap();
+    std::fs::write(folder.join("flat.wave"), FLAT).unwrap();
+    let flat = ask("flat.wave --quantity wall --at 43/10 --digits 6");
+    let pressed = ask("bounce.wave --quantity force --at 1/4 --digits 6");
+    let cases: [(&serde_json::Value, Change, &str); 168] = [
+        (
+            &flat,
+            |own| {
+                own["step"] = "4398046511104".into();
+                (own["terms"], own["bits"]) = (8.into(), 169.into());
+                own["events"] =
+                    json!([[0, "opening", "1.69", "1.71"], [0, "closing", "4.19", "4.21"]]);
+                (own["value"], own["last_place"]) = ("0.25".into(), (-2).into());
+            },
+            "no event is claimed",
+        ),
+        (&pressed, |own| own["line"][2]["exponent"] = "5/2".into(), "the value is between"),
+        (&pressed, |own| own["line"][2]["exponent"] = "1".into(), "the value is between"),
+        (&pressed, |own| own["line"][2]["exponent"] = "1/2".into(), "an exponent is less than 1"),
+        (&pressed, |own| own["line"][2]["exponent"] = "201/101".into(), "an exponent is less"),
+        (&pressed, |own| own["line"][2]["force"] = number("2"), "the value is between"),
+        (&pressed, |own| own["line"][2]["compression"] = number("2"), "the value is between"),
+        (&pressed, |own| own["line"][2]["compression"] = json!([]), "a number is not positive"),
+        (&pressed, |own| own["observed"][0][1] = "energy".into(), "cannot be read"),
+        (&pressed, |own| own["observed"][0][1] = "loss".into(), "cannot be read"),
+        (&pressed, |own| own["observed"][0][1] = "compression".into(), "the value is between"),
         (
             &polynomial,
             |own| (own["terms"], own["value"]) = (4.into(), "11.73333333333333".into()),
