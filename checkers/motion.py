@@ -653,8 +653,8 @@ class Motion:
         cell |= {("alpha", i): series("alpha", i) for i in self.state["alpha"]}
         cell |= {("u", n): series("u", n) for n in self.state["u"]}
         cell |= {("push", i): series("push", i) for i in line.locals}
-        length = Number(place.ends()[1])
-        over = Number.between(Fraction(0), length.exact())
+        reach = place.ends()[1]
+        length, over = Number(reach), Number.between(Fraction(0), reach)
         for i, link in enumerate(line.links):
             if link["is"] == "bar":
                 for way, other, r in (("right", "left", i), ("left", "right", i + 1)):
@@ -695,11 +695,8 @@ class Motion:
     def cell(self, waves, loads, end, solved):
         """The end of a cell that is short enough, and what encloses the last orders there."""
         least, orders = Fraction(1, 2 ** (PRECISION["bits"] // 4)), len(solved["forces"]) + 1
-        reach, most = self.since(end, self.now).ends()[1] / self.step, Fraction(1)
-        if self.line.locals and orders == 2:
-            most = least
-        else:
-            most = self.pace(solved)
+        reach = self.since(end, self.now).ends()[1] / self.step
+        most = least if self.line.locals and orders == 2 else self.pace(solved)
         if reach > most:
             reach = rounded(max(most, least))
             end = moved(self.now, Duration.of(self.step * reach))

@@ -220,8 +220,10 @@ const MORE_READINGS: [&str; 8] = [
 ];
 
 /// The same with units, a load, a release that ends, several contacts; longer windows.
-const MORE_EVENTS: [&str; 10] = [
+const MORE_EVENTS: [&str; 11] = [
     "saint-venant --set mu=1/10 --events --to 12 --digits 30",
+    // Numbers of more than a thousand bits.
+    "saint-venant --set mu=1 --events --to 5 --digits 260",
     "mass-on-free-bar --set m=2 --events --to 4",
     "bars-of-equal-length --events --to 6",
     "mass-that-bounces --events --to 6",
