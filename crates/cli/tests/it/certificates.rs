@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 use wavestep::scenes::SCENES;
 
-/// Shipped scenes that have no periods, and so no certificates.
+/// Shipped scenes that have no periods, and so no certificates of pieces.
 const WITHOUT: [&str; 3] = ["incommensurate", "local-contact", "hertz-striker"];
 
 /// Scenes that have certificates of their pieces.
