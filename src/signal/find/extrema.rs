@@ -134,13 +134,12 @@ impl Place {
         touch
     }
 
-    /// What an undecided interval would have to hold to hold this place; a limit from one side alone is told apart.
+    /// What an undecided interval would have to hold to hold this place; a limit from one side alone is told apart, and so is an
+    /// end of the window, to which a value may only rise.
     fn extent(&self) -> Option<[Rational; 2]> {
         match self {
             Place::Undecided { from, to } => Some([from.clone(), to.clone()]),
-            Place::End(time) | Place::Arrival { time, before: true, after: true } => {
-                Some(time.bounds())
-            }
+            Place::Arrival { time, before: true, after: true } => Some(time.bounds()),
             _ => None,
         }
     }
