@@ -52,7 +52,10 @@ pub fn events(
         return Err(Failure::usage("the line has no contacts", "write | where bodies touch"));
     }
     if line.network.local_contact().is_some() {
-        return Err(refused_events());
+        let message = "there are no certificates of the events of local contacts";
+        let remedy =
+            "certify values of their compression before and after, with --quantity and --at";
+        return Err(Failure::usage(message, remedy));
     }
     let precision = line.precision(to, digits)?;
     let [low, high] = line.in_units(to, precision.bits)?;
@@ -63,14 +66,6 @@ pub fn events(
     document.extend(line.followed(&end, &precision, &writer));
     document.insert("kind".into(), json!("events"));
     Ok(document)
-}
-
-fn refused_events() -> Failure {
-    let message = "there are no certificates of the events of local contacts";
-    Failure::usage(
-        message,
-        "certify values of their compression before and after, with --quantity and --at",
-    )
 }
 
 fn refused(reason: &str) -> Failure {
