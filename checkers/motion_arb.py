@@ -7,6 +7,8 @@ them Lagrange's remainder of its Taylor polynomial. Numbers are rational while t
 
 import json
 from fractions import Fraction
+from itertools import product as pairs
+from math import frexp
 
 import flint
 from flint import arb, fmpq
@@ -466,6 +468,13 @@ def inverse(rows):
     return [row[count:] for row in rows]
 
 
+def balance(grown, moves, presses):
+    """A power of two by which compressions have to grow so that velocities change as fast by them as the other way round."""
+    there, back = (max((grown[pair] for pair in own), default=arb(0)) for own in (pairs(moves, presses), pairs(presses, moves)))
+    ratio = float(there.upper()) / float(back.upper()) if there > 0 and back > 0 else 1.0
+    return fmpq(2) ** (frexp(ratio)[1] // 2)
+
+
 class Beginning(Undecided):
     """Only the first derivative of the force in a local contact is bounded."""
 
@@ -594,19 +603,19 @@ class Story:
         The base is what stands with the velocities and forces of bars at the start. Where all is the derivative of something,
         boxes hold the compressions themselves."""
         states, solutions, pressed = [state], [], {i: [] for i in self.parts.locals}
+        ways = {i: [state["alpha", i]] if boxes is None else [boxes[i], state["alpha", i]] for i in pressed}
         for k in range(count):
             for i, force in pressed.items():
-                way = [own["alpha", i] for own in states]
-                if boxes is not None:
-                    way = [boxes[i], *(c / (n + 1) for n, c in enumerate(way))]
-                while len(force) < len(way):
-                    force.append(self.press(self.parts.links[i], way, force))
+                while len(force) < len(ways[i]):
+                    force.append(self.press(self.parts.links[i], ways[i], force))
             drives = {i: force[k] if boxes is None else force[k + 1] * (k + 1) for i, force in pressed.items()}
             arrives = {key: own[k] for key, own in waves.items()}
             solution = self.laws.solved(states[k], arrives, [own[k] for own in loads], NIL if k else base, drives)
             solutions.append(solution)
             scale = self.step / (k + 1)
             states.append({key: short(rate * scale) for key, rate in self.laws.rates(states[k], solution).items()})
+            for i, way in ways.items():
+                way.append(states[-1]["alpha", i] / (1 if boxes is None else k + 2))
         return states, solutions, pressed
 
     def press(self, link, way, force):
@@ -615,7 +624,9 @@ class Story:
         if sign(a) == -1 or all(map(is_nil, way)):
             return NIL
         if k and sign(a) == 1:
-            return sum((way[j] * force[k - j] * (m * j - (k - j)) for j in range(1, k + 1)), NIL) / (a * k)
+            top, below = int(m.p), int(m.q)
+            row = flint.arb_mat(1, k, [way[j] * (top * j - below * (k - j)) for j in range(1, k + 1)])
+            return (row * flint.arb_mat(k, 1, force[::-1]))[0, 0] / (a * below * k)
         if k > 1:
             raise Beginning("a local contact may begin or cease to push")
         return force_of(link, a) if k == 0 else slope_of(link, a) * way[1]
@@ -722,28 +733,33 @@ class Story:
 
     def largest(self, start, waves, loads, share, slopes):
         """Bounds of y' on a share of a step, where y'' = A y' + b': |y'| <= (|y'(0)| + h |b'|) / (1 - h |A|). Local contacts are
-        springs whose stiffness varies, up to their steepest slope."""
+        springs whose stiffness varies, up to their steepest slope. What is compressed counts in a unit in which it oscillates about
+        as far as what moves."""
         nothing, silent = {key: NIL for key in start}, [NIL] * len(loads)
-        norms, unpressed = {key: arb(0) for key in start}, {i: NIL for i in slopes}
+        grown, unpressed = {}, {i: NIL for i in slopes}
         for unit in start:
             state = {**nothing, unit: fmpq(1)}
             pressed = {i: slope if unit == ("alpha", i) else NIL for i, slope in slopes.items()}
             solution = self.laws.solved(state, {key: NIL for key in waves}, silent, NIL, pressed)
-            for key, rate in self.laws.rates(state, solution).items():
-                norms[key] += size(rate)
+            grown |= {(key, unit): size(rate) for key, rate in self.laws.rates(state, solution).items()}
         arrives = {key: own[0] for key, own in waves.items()}
         driven = self.laws.rates(nothing, self.laws.solved(nothing, arrives, [own[0] for own in loads], NIL, unpressed))
         # Bars decouple what stands between them.
         boxes, length = {}, arb(share) * arb(self.step)
-        largest = lambda place, values: max(size(own) for key, own in values.items() if self.place_of(*key) == place)
         for place in {self.place_of(*key) for key in start}:
-            norm, forcing, first = (largest(place, values) for values in (norms, driven, start))
+            own = [key for key in start if self.place_of(*key) == place]
+            moves, presses = ([key for key in own if (key[0] == "v") == is_speed] for is_speed in (True, False))
+            units = dict.fromkeys(moves, fmpq(1)) | dict.fromkeys(presses, balance(grown, moves, presses))
+            largest = lambda values: max(size(values[key]) * units[key] for key in own)
+            norm = max(sum((grown[key, unit] * units[key] / units[unit] for unit in own), arb(0)) for key in own)
+            forcing, first = largest(driven), largest(start)
             need((norm + forcing + first).is_finite(), "a motion without bounds")
             if not length * norm < 0.75:
                 return None
             bound = ((first + length * forcing) / (1 - length * norm) * arb(self.step)).upper()
-            boxes[place] = NIL if first.is_zero() and forcing.is_zero() else arb(0, bound)
-        return {key: boxes[self.place_of(*key)] for key in start}
+            is_silent = first.is_zero() and forcing.is_zero()
+            boxes |= {key: NIL if is_silent else arb(0, (bound / units[key]).upper()) for key in own}
+        return boxes
 
     def place_of(self, kind, n):
         """Which place between two bars something known belongs to."""
@@ -781,10 +797,12 @@ class Story:
         return wide, all_, {i: own[self.order] for i, own in forces.items()}
 
     def room(self, compression, rate, share):
-        """Between which numbers a compression is taken to be; where only one order is worked out, twice as far as it gets at first."""
+        """Between which numbers a compression is taken to be: nearly where it is, or, where there is a gap, on the same side. Where
+        only one order is worked out, it is twice as far as it gets at first."""
+        here, way = arb(compression), 2 * size(rate) * arb(share)
         if self.order == 1:
-            return arb(compression) + arb(0, 2 * size(rate) * arb(share) + arb(self.least))
-        return arb(compression) * arb(1, arb(1) / STEADY if sign(compression) == 1 else arb(15) / 16)
+            return here + arb(0, way + arb(self.least))
+        return here * arb(1, arb(1) / STEADY) if sign(compression) == 1 else span(here - way, here / 16)
 
     def confined(self, state, start, box, driven, rooms, place):
         """The compressions of local contacts, which have to stay where they are taken to be; their rates are narrowed in the box."""
@@ -874,8 +892,10 @@ class Story:
         high = fmpq(1) if not self.parts.locals else fmpq(1, 4) if self.order > 1 else self.least
         for i in self.parts.locals if self.order > 1 else ():
             now, rate = (states[k]["alpha", i] for k in (0, 1))
-            if sign(now) == 1 and not size(rate) * arb(high) * STEADY * 5 / 4 < arb(now).lower():
-                digits, power = (arb(now) / (size(rate) * STEADY * 5 / 4)).lower().man_exp()
+            # An open contact has to stay open, but a ball tells its ends with thirty bits alone.
+            share = {1: arb(4) / (5 * STEADY), -1: arb(2) ** 20}.get(sign(now))
+            if share is not None and not size(rate) * arb(high) < arb(abs(now)) * share:
+                digits, power = (arb(abs(now)) * share / size(rate)).lower().man_exp()
                 cut = max(int(digits).bit_length() - 4, 0)
                 high = fmpq(int(digits) >> cut) * fmpq(2) ** (int(power) + cut)
         return max(high, self.least)

@@ -1,12 +1,13 @@
 """What is read of a motion: values at times, largest and smallest values, zeros, with nothing but the standard library."""
 
+from bisect import bisect_left
 from fractions import Fraction
 from functools import cmp_to_key
 from itertools import zip_longest
 
 from exact import MINUS, accumulate, decimal, is_count, is_zero, rational, read_function
 from motion import check_motions, exactly, moved
-from reading import Wrong, decided, need
+from reading import decided, need
 from series import ONE, ZERO, Duration, Number, interval, is_positive, shifted, slope, squared, total, value
 
 READS, HALF = {"quantity", "observed"}, Fraction(1, 2)
@@ -18,6 +19,9 @@ READINGS |= {(kind, what): 1 for kind in ("spring", "local") for what in ("veloc
 READINGS |= {(kind, what): 0 for kind in ("mass", "support", "force") for what in ("velocity", "displacement")}
 READINGS |= {(kind, what): 0 for kind in ("spring", "support") for what in ("compression", "force", "loss")}
 READINGS |= {("local", what): 0 for what in ("compression", "force")}
+CONTINUOUS = {(kind, "displacement") for kind in ("bar", "spring", "local", "mass", "support", "force")}
+CONTINUOUS |= {("spring", "compression"), ("local", "compression"), ("mass", "velocity")}
+
 
 class Reader:
     """Reads a motion that has been followed."""
@@ -27,12 +31,15 @@ class Reader:
 
     def cell_at(self, time):
         """The number of the cell that holds a time, and how far in it the time is, in steps."""
-        for n in range(len(self.motion.marks) - 1, -1, -1):
-            after = time - self.motion.instant(self.motion.marks[n])
-            decided(after.sign() is not None, "it is not decided on which side of an arrival a time is")
-            if after.sign() >= 0:
-                return n, after.times(1 / self.motion.step)
-        raise Wrong("a time before the start")
+        after = lambda n: time - self.motion.instant(self.motion.marks[n])
+
+        def is_later(n):
+            decided(after(n).sign() is not None, "it is not decided on which side of an arrival a time is")
+            return after(n).sign() == -1
+
+        n = bisect_left(range(len(self.motion.marks)), True, key=is_later) - 1
+        need(n >= 0, "a time before the start")
+        return n, after(n).times(1 / self.motion.step)
 
     def integral(self, n, key, of):
         """The integral from the start on, of what is known or of its square, as a series on a cell."""
@@ -70,8 +77,7 @@ class Reader:
 
         def known(key, delay, summed=None):
             delay = self.motion.line.duration(delay) if delay else Duration({})
-            is_past = lambda n: n < len(self.motion.marks) and self.motion.later(moved(self.motion.marks[n], delay), begin) <= 0
-            n = next(n for n in range(-1, len(self.motion.marks)) if not is_past(n + 1))
+            n = bisect_left(range(len(self.motion.marks)), True, key=lambda n: self.motion.later(moved(self.motion.marks[n], delay), begin) > 0) - 1
             need(n + 1 == len(self.motion.marks) or self.motion.later(moved(self.motion.marks[n + 1], delay), end) >= 0, "something arrives between")
             if n < 0:
                 return [ZERO]
@@ -205,6 +211,11 @@ class Reading:
     def on(self, begin, end):
         return self.less([reader.seen(reader.on(begin, end)) for reader in self.readers])
 
+    def is_continuous(self):
+        """Whether nothing that is read ever jumps."""
+        rows = ((reader.motion.line.places[name][0], what) for reader in self.readers for _, what, name, *_ in reader.rows)
+        return CONTINUOUS.issuperset(rows)
+
     def parts(self, begin, end, times):
         """Times in order, from one to another, between which nothing that is read arrives; these ones are among them, but for
         those of which it is not decided whether they are before an arrival."""
@@ -285,7 +296,7 @@ def check_zeros(cert):
     ends = [rational(time) for low, high in cert["zeros"] for time in (low, high)]
     need(all(a < b for a, b in zip([first, *ends], [*ends, last])), "intervals of zeros overlap, or reach beyond the window")
     zeros = [(exactly(low), exactly(high)) for low, high in zip(ends[::2], ends[1::2])]
-    crossed, rests, is_after_rest = [], [], False
+    crossing, crossed, rests, is_after_rest = None, [], [], False
     claims = [[tuple(map(rational, time)) for time in rest] for rest in cert["rests"]]
     hints = list(map(exactly, [*map(rational, cert["times"]), *ends, *(low for (low, _), _ in claims)]))
     parts = reading.parts(exactly(first), exactly(last), hints)
@@ -309,8 +320,13 @@ def check_zeros(cert):
         if inside:
             way = value(slope(read), Number.between(Fraction(0), reach)).sign()
             decided(way in (1, -1), "it is not decided whether there is one zero in an interval")
-            decided(read[0].sign() == -way and value(read, length).sign() == way, "there may be no zero in an interval")
-            crossed += inside
+            low, high = zeros[inside[0]]
+            begins, ends = motion.later(low, a) == 0, motion.later(high, b) == 0
+            # Across a time at which something arrives, what is continuous goes on in the same direction.
+            need(begins or crossing == (inside, way) and reading.is_continuous(), "an interval of a zero is cut by an arrival")
+            decided(not begins or read[0].sign() == -way, "there may be no zero in an interval")
+            decided(not ends or value(read, length).sign() == way, "there may be no zero in an interval")
+            crossing, crossed = (inside, way), crossed + inside * ends
         else:
             while is_after_rest and read[0].is_zero():  # where the rest ends it is zero, and not later
                 read = read[1:]

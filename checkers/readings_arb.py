@@ -1,5 +1,8 @@
 """What is read of a motion, over Arb: values at times, bounds of all values in a window, and all zeros there."""
 
+from bisect import bisect_left
+from functools import cmp_to_key
+
 from flint import arb, fmpq
 
 from motion_arb import at, check_motion, rational_above, rational_below
@@ -34,13 +37,12 @@ class Place:
 
     def series(self, key, later, over=None):
         """Something in the last cell that begins no later, counted from there; or the integral of some of it from the start on."""
-        story, found = self.story, None
-        for n, begin in enumerate(story.begins):
-            if story.is_later(later(begin), self.begin):
-                need(self.end is None or not story.is_later(self.end, later(begin)), "something arrives there")
-                break
-            found = n
-        if found is None:
+        story = self.story
+        following = bisect_left(story.begins, True, key=lambda begin: story.is_later(later(begin), self.begin))
+        if self.end is not None and following < len(story.begins):
+            need(not story.is_later(self.end, later(story.begins[following])), "something arrives there")
+        found = following - 1
+        if found < 0:
             return [NIL]
         own = self.integral(key, found, over) if over else story.past[found][key]
         gone = short(story.between(self.begin, later(story.begins[found])) / story.step)
@@ -166,6 +168,12 @@ class Observed:
         series = [Place(story, begin, end).observed(rows) for story, rows in self.told]
         return series[0] if len(series) == 1 else plus(series[0], times(-1, series[1]))
 
+    def never_jumps(self):
+        """Whether all that is read is a displacement, the velocity of a mass, or how far a spring or a local contact is pressed."""
+        kinds = [(story.parts.named[row[2]][0], row[1]) for story, rows in self.told for row in rows]
+        pressed = [(kind, "compression") for kind in ("spring", "local")]
+        return all(what == "displacement" or (kind, what) in [("mass", "velocity"), *pressed] for kind, what in kinds)
+
     def read(self, time):
         """The value at a time that may be an interval."""
         story = self.story
@@ -184,14 +192,10 @@ class Observed:
         # Hints that are not known to be before or after an arrival are none.
         hints = [at(rational(time)) for time in hints]
         arrivals += [time for time in hints if all(time == own or sign(story.between(time, own)) for own in arrivals)]
-        cuts = [at(first)]
-        while cuts[-1] != at(last):
-            following = at(last)
-            for time in arrivals:
-                if story.is_later(time, cuts[-1]) and story.is_later(following, time):
-                    following = time
-            cuts.append(following)
-        return zip(cuts, cuts[1:])
+        inside = [time for time in arrivals if story.is_later(time, at(first)) and story.is_later(at(last), time)]
+        order = lambda a, b: story.is_later(a, b) - story.is_later(b, a)
+        cuts = [at(first), *sorted(inside, key=cmp_to_key(order)), at(last)]
+        return [(a, b) for a, b in zip(cuts, cuts[1:]) if story.is_later(b, a)]
 
 
 def lags(story, rows):
@@ -277,7 +281,7 @@ def check_zeros(cert):
     need(all(isinstance(cert[key], list) for key in ("zeros", "rests", "times")), "a list is missing")
     marks = [begin, *sum(pairs, []), end]
     need(begin < end and all(a < b for a, b in zip(marks, marks[1:])), "intervals of zeros overlap, or reach beyond the window")
-    found, passed, rests = set(), None, []
+    found, passed, rests, rising = set(), None, [], {}
     claims = [[list(map(rational, time)) for time in rest] for rest in cert["rests"]]
     hints = cert["times"] + [time for pair in cert["zeros"] for time in pair] + [low for (low, _), _ in cert["rests"]]
     parts = [(a, b, observed.seen(a, b)) for a, b in observed.cut(begin, end, hints)]
@@ -297,9 +301,15 @@ def check_zeros(cert):
         elif holds:
             way = sign(horner(derivative(read), span(NIL, until)))
             decided(way in (1, -1), "it may turn round where one zero is claimed")
-            decided(sign(read[0]) == -way and sign(horner(read, steps)) == way, "it may not pass through zero where that is claimed")
-            need(not found & set(holds), "an interval of a zero is cut by an arrival")
-            found |= set(holds)
+            own, (low, high) = holds[0], pairs[holds[0]]
+            if a == at(low):
+                decided(sign(read[0]) == -way, "it may not pass through zero where that is claimed")
+                rising[own] = way
+            # Something arrives in between: what never jumps has one zero if it goes one way all of the time.
+            need(rising.get(own) == way and (a == at(low) or observed.never_jumps()), "an interval of a zero is cut by an arrival")
+            if b == at(high):
+                decided(sign(horner(read, steps)) == way, "it may not pass through zero where that is claimed")
+                found.add(own)
         else:
             while may_begin_at_zero and is_nil(read[0]):
                 read = read[1:]

@@ -53,9 +53,7 @@ pub fn events(
     }
     if line.network.local_contact().is_some() {
         let message = "there are no certificates of the events of local contacts";
-        let remedy =
-            "certify values of their compression before and after, with --quantity and --at";
-        return Err(Failure::usage(message, remedy));
+        return Err(Failure::usage(message, "certify the zeros of their compression, with --zero"));
     }
     let precision = line.precision(to, digits)?;
     let [low, high] = line.in_units(to, precision.bits)?;

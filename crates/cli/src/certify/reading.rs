@@ -9,12 +9,14 @@ use crate::failure::Failure;
 use num_rational::BigRational;
 use num_traits::Zero as _;
 use serde_json::{Map, Value as Json, json};
-use wavestep::ball::{Bound, Decimal};
+use wavestep::ball::{Ball, Bound, Decimal};
 use wavestep::expression::Fraction;
-use wavestep::network::{Contacts, Face, Field, Lump, MeasuredValue, Passage, Reading, Term};
+use wavestep::network::{
+    Contacts, ElementLaw, Face, Field, Lump, MeasuredValue, Passage, Reading, Term,
+};
 use wavestep::problem::{Problem, number};
 use wavestep::scene::Kind;
-use wavestep::signal::{Place, Root, Value};
+use wavestep::signal::{At, Limit, Place, Root, Signal, Value};
 
 /// The bits of times that are not claimed.
 const SPARE_BITS: u64 = 64;
@@ -35,6 +37,9 @@ pub struct Read<'a> {
     /// Whether a force at the end of a bar or in a damper is read: beside an open contact it is zero because its parts cancel,
     /// which a checker cannot tell.
     is_beside_contact: bool,
+    is_beside_local: bool,
+    /// Whether it never jumps, so that a checker goes on across an arrival at which it is zero.
+    is_continuous: bool,
     document: Map<String, Json>,
 }
 
@@ -62,6 +67,7 @@ impl<'a> Read<'a> {
         let [_, end] = line.in_units(to, SPARE_BITS)?;
         let one = BigRational::from_integer(1.into());
         let share = if end.is_zero() { one } else { end.clone().min(one) };
+        let is_beside_local = lines.iter().any(|own| own.network.local_contact().is_some());
         let end = end + share / BigRational::from_integer(8.into());
         let end = Decimal::bound(&end, 6, Bound::Upper).to_rational();
         let unit = line.unit(&line.network.model().scale.time, SPARE_BITS)?;
@@ -70,7 +76,8 @@ impl<'a> Read<'a> {
         if let Some(second) = &second {
             precision = precision.for_both(second.precision(&until, digits)?);
         }
-        let (mut writer, mut is_beside_contact) = (Writer::default(), false);
+        let (mut writer, mut is_beside_contact, mut is_continuous) =
+            (Writer::default(), false, true);
         let (mut unit, mut documents) = (None, Vec::new());
         for own in &lines {
             let measures = &own.network.measures;
@@ -83,6 +90,7 @@ impl<'a> Read<'a> {
             unit.get_or_insert(&measured.unit);
             is_beside_contact |=
                 own.network.scene().contacts_open && is_force_at_end(own, &measured.value);
+            is_continuous &= never_jumps(own, &measured.value);
         }
         let unit = line.unit(unit.expect("there is a line"), precision.bits)?;
         let unit = Value::of(&unit, 1).bounds();
@@ -99,7 +107,21 @@ impl<'a> Read<'a> {
         document.insert("unit".into(), json!(written(unit, precision.bits as usize / 3)));
         document.extend(documents.next().map(|second| ("minus".into(), Json::Object(second))));
         let ends = [line.in_units(from, precision.bits)?, line.in_units(to, precision.bits)?];
-        Ok(Some(Read { line, precision, ends, digits, is_beside_contact, document }))
+        Ok(Some(Read {
+            line,
+            precision,
+            ends,
+            digits,
+            is_beside_contact,
+            is_beside_local,
+            is_continuous,
+            document,
+        }))
+    }
+
+    /// Whether a local contact is in the line: a checker's cells are short beside it, and need no other cuts.
+    pub fn is_beside_local(&self) -> bool {
+        self.is_beside_local
     }
 
     fn claiming(mut self, kind: &str, claims: Json) -> Map<String, Json> {
@@ -152,15 +174,51 @@ impl<'a> Read<'a> {
         Ok(self.claiming("extreme", claims))
     }
 
-    /// All zeros in the window, with the times that cut it, and those at which waves arrive.
+    /// All zeros in the window, with the times that cut it.
     pub fn zeros(
         mut self,
+        signal: &dyn Signal,
         roots: &[Root],
-        times: &[BigRational],
-        arrivals: &[BigRational],
+        mut times: Vec<BigRational>,
     ) -> Result<Map<String, Json>, Failure> {
         let (mut zeros, mut rests) = (Vec::new(), Vec::new());
-        let mut times = times.to_vec();
+        let bits = SPARE_BITS + 4 * self.digits as u64;
+        let value = |time: &BigRational| -> Result<Ball, Failure> {
+            let stretch = signal.stretch_at(time, Limit::Right)?;
+            Ok(signal.enclose(stretch.expect("it is in the window"), 0, At::Time(time), bits)?)
+        };
+        let mut begins: Vec<BigRational> = Vec::new();
+        for stretch in 0..signal.count()? {
+            begins.push(signal.time(stretch, Limit::Right, bits)?.midpoint().into());
+        }
+        let [_, last] = signal.window();
+        // Beside a local contact a checker's first cell has one order: it tells what begins like t from zero, nothing flatter.
+        let refuse_flat = |rest: &Value| {
+            let [low, high] = around(rest, self.digits);
+            let later =
+                |times: u32| &low + (&high - &low) * BigRational::from_integer(times.into());
+            let [once, twice] = [1 << 10, 1 << 11].map(later);
+            if !self.is_beside_local || twice >= *last {
+                return Ok(());
+            }
+            let thrice =
+                value(&once)?.multiply_rational(&BigRational::from_integer(3.into()), bits);
+            match [thrice.sign(), thrice.subtract(&value(&twice)?, bits).sign()] {
+                [Some(sign), Some(more)] if sign == more => Ok(()),
+                _ => {
+                    let message = "beside a local contact there are no certificates of zeros of what begins flat";
+                    Err(Failure::usage(message, "certify the zeros of its compression"))
+                }
+            }
+        };
+        // What never jumps, and has another sign after an arrival than before, goes through zero there.
+        let is_passed = |[low, high]: &[BigRational; 2]| -> Result<bool, Failure> {
+            let is_between = begins.iter().skip(1).any(|begin| low <= begin && begin <= high);
+            let signs = || Ok::<_, Failure>([value(low)?.sign(), value(high)?.sign()]);
+            Ok(!is_between
+                || self.is_continuous
+                    && matches!(signs()?, [Some(before), Some(after)] if before == after.reverse() && before.is_ne()))
+        };
         let told = |window: &[BigRational; 2]| {
             Ok::<_, Failure>(written(self.in_units(window)?, self.digits + SPARE_DIGITS))
         };
@@ -173,6 +231,7 @@ impl<'a> Read<'a> {
                         let remedy = "observe a spring there, or ask for an earlier end";
                         return Err(Failure::usage(message, remedy));
                     }
+                    refuse_flat(to)?;
                     // Just before a rest a checker cannot tell a small value from zero.
                     let told_by = |time: &Value, is_known: bool| match time.exact() {
                         Some(_) if is_known => time.bounds(),
@@ -182,20 +241,22 @@ impl<'a> Read<'a> {
                     rests.push([told(&from)?, told(&to)?]);
                 }
                 // At the last time there is a limit alone.
-                Root::End { time } if times.last() != time.exact() => {
+                Root::End { time } if time.exact() != Some(signal.window()[1]) => {
+                    refuse_flat(time)?;
                     rests.push([told(&time.bounds())?, told(&time.bounds())?]);
                 }
-                Root::End { .. } | Root::Arrival { .. } => {
-                    return Err(undecided("the sign at an arrival or an end"));
-                }
+                Root::End { .. } => return Err(undecided("the sign at the end of the window")),
                 _ => {
-                    let Some(window) = place(root, self.digits)? else { continue };
-                    let [low, high] = &window;
-                    if arrivals.iter().any(|time| low <= time && time <= high) {
+                    let window = match root {
+                        Root::Arrival { time, .. } => Some(around(time, self.digits)),
+                        _ => place(root, self.digits)?,
+                    };
+                    let Some(window) = &window else { continue };
+                    if !is_passed(window)? {
                         return Err(undecided("the sign where a wave arrives"));
                     }
-                    times.retain(|time| time <= low || high <= time);
-                    zeros.push(told(&window)?);
+                    times.retain(|time| *time <= window[0] || window[1] <= *time);
+                    zeros.push(told(window)?);
                 }
             }
         }
@@ -299,6 +360,20 @@ fn rows(line: &Line<'_>, value: &MeasuredValue, writer: &mut Writer) -> Result<J
         });
     }
     Ok(Json::Array(rows))
+}
+
+/// Whether only displacements are read, velocities of masses, and how far springs and local contacts are pressed.
+fn never_jumps(line: &Line<'_>, value: &MeasuredValue) -> bool {
+    let nodes = &line.network.layout.nodes;
+    let law = |own: &Lump| &nodes[own.node].elements[own.place].law;
+    let MeasuredValue::Linear(terms) = value else { return false };
+    terms.iter().all(|term| match &term.of {
+        Reading::InBar(field, _) => matches!(field, Field::Displacement),
+        Reading::Displacement(_) => true,
+        Reading::Velocity(face) => matches!(law(&face.lump()), ElementLaw::Mass { .. }),
+        Reading::Compression(own) => law(own).is_link(),
+        _ => false,
+    })
 }
 
 /// Whether a force at the end of a bar or in a damper is read.

@@ -80,13 +80,11 @@ pub fn certificate(
                 let alone = alone.roots(&BigRational::default(), digits, SEARCH_BITS)?;
                 refuse_equal(&found.all, &alone.all)?;
             }
-            cover.run_nearly()?;
-            let mut arrivals = Vec::new();
-            for stretch in 1..signal.count()? {
-                arrivals.push(signal.time(stretch, Limit::Right, SPARE_BITS)?.midpoint().into());
+            if !read.is_beside_local() {
+                cover.run_nearly()?;
             }
-            let times: Vec<BigRational> = cover.cells.into_iter().map(|cell| cell.to).collect();
-            return read.zeros(&found.all, &times, &arrivals);
+            let times = cover.cells.into_iter().map(|cell| cell.to).collect();
+            return read.zeros(&*signal, &found.all, times);
         }
     };
     let cuts = cuts(&*signal, begins)?;

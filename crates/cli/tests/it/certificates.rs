@@ -194,7 +194,7 @@ pub(super) const ZEROS: [&str; 3] = [
 ];
 
 /// The same with units, of displacements, at irrational arrivals, with many digits.
-const MORE_ZEROS: [&str; 10] = [
+const MORE_ZEROS: [&str; 11] = [
     "hopkinson --zero force",
     "hopkinson --zero gauge_output",
     "hopkinson --zero compression",
@@ -205,6 +205,7 @@ const MORE_ZEROS: [&str; 10] = [
     "pile --zero penetration --to 8",
     "nice.wave --zero f --to 5/2",
     "nice.wave --zero m --to 5",
+    "crossing.wave --zero d --to 5/2",
 ];
 
 /// The same later, between jumps, with more digits.
@@ -402,6 +403,7 @@ fn motions_of_shipped_scenes_are_verified() {
     std::fs::write(folder.join("nice.wave"), NICE).unwrap();
     std::fs::write(folder.join("blow.wave"), BLOW).unwrap();
     std::fs::write(folder.join("gaps.wave"), GAPS).unwrap();
+    std::fs::write(folder.join("crossing.wave"), CROSSING).unwrap();
     // A longer pile of another wave speed, and a load that ends later.
     let slow = BLOW.replace("10 m", "11 m").replace("density = 7850", "density = 8000");
     std::fs::write(folder.join("slow.wave"), slow).unwrap();
@@ -521,7 +523,12 @@ fn all_observables_are_verified_or_refused() {
 /// A mass on a local contact that opens, with the exponent of a cone.
 pub(super) const BOUNCE: &str = "scene \"Bounce\"\nmass m { mass = 1/2, velocity = 1 }\nhertz k { stiffness = 3, exponent = 2 }\n\
     bar rod { impedance = 2 }\nline free - m - k - rod - endless\nobserve v = velocity(m)\nobserve force = force(k)\n\
-    observe gauge = velocity(rod.at(1))\n";
+    observe gauge = velocity(rod.at(1))\nobserve compression = compression(k)\n";
+
+/// What is zero and falls just where a wave arrives and a load ends; without `q` it turns round there.
+pub(super) const CROSSING: &str = "scene \"Crossing\"\nload p { force = 1, until = 2 }\nload q { force = -1, from = 2, until = 3 }\n\
+    bar rod { impedance = 1, travel = 1 }\nline free - p - q - rod - free\n\
+    observe d = displacement(rod.left) - displacement(rod.right)\n";
 
 /// A spring that does not pull stands for a local contact with the exponent one; beside it a contact that opens as well.
 const UNILATERAL: &str = "scene \"Unilateral\"\nbar a { impedance = 1, travel = 1, velocity = 1 }\nbar c { impedance = 1, travel = 1 }\n\
@@ -539,6 +546,7 @@ fn motions_beside_local_contacts_are_verified() {
         "hertz-striker --quantity gauge --at 90us --digits 6",
         "bounce.wave --quantity gauge --at 3 --digits 6",
         "bounce.wave --zero v --to 1 --digits 6",
+        "bounce.wave --zero compression --to 2 --digits 6",
         "bounce.wave --max force --to 1 --digits 6",
         "unilateral.wave --quantity v --at 5/2 --digits 6",
     ];
@@ -614,6 +622,8 @@ fn what_has_no_certificate_is_told() {
     std::fs::write(folder.join("steep.wave"), steep).unwrap();
     let contents = format!("{BOUNCE}observe energy = energy(k)\n");
     std::fs::write(folder.join("contents.wave"), contents).unwrap();
+    std::fs::write(folder.join("touching.wave"), CROSSING.replace("force = -1", "force = 1"))
+        .unwrap();
     for (line, message) in [
         ("certify mass-on-fixed-bar --max velocity --to 1", "mu has no value"),
         (
@@ -629,6 +639,8 @@ fn what_has_no_certificate_is_told() {
         ("certify local-contact --events", "events of local contacts"),
         ("certify steep.wave --quantity force --at 1", "exponent below 1"),
         ("certify contents.wave --quantity energy --at 1", "energy of local contacts"),
+        ("certify contents.wave --zero force --to 2 --digits 6", "what begins flat"),
+        ("certify touching.wave --zero d --to 5/2", "the sign where a wave arrives"),
         ("certify constant-force --events", "states equations"),
         ("certify incommensurate", "incommensurable"),
         ("certify hertz-striker", "local contact"),

@@ -1,8 +1,8 @@
 //! Certificates with wrong claims: each is refused, and it is said what is wrong. Right ones are not.
 
 use super::certificates::{
-    APART, BOUNCE, CONTENTS, DISTANCES, DOUBLES, EVENTS, EXTREMES, READINGS, VALUES, WINDOWS,
-    ZEROS, certify, checked, with_flint,
+    APART, BOUNCE, CONTENTS, CROSSING, DISTANCES, DOUBLES, EVENTS, EXTREMES, READINGS, VALUES,
+    WINDOWS, ZEROS, certify, checked, with_flint,
 };
 use super::folder;
 use serde_json::json;
@@ -31,6 +31,10 @@ const FLAT: &str = "scene \"Flat\"\nbar a { impedance = 1, travel = 1 }\nload ri
     bar b { impedance = 1, travel = 10 }\nhertz k { stiffness = 1/1000000, exponent = 2 }\n\
     bar c { impedance = 1, velocity = -1 }\nline fixed | a - rise - push - pull - b - k - c - endless\n\
     observe wall = force(a.left)\ncontacts open\n";
+
+/// A velocity that rises from -1/2 to 3/2 in no time where a wave arrives, and rises before and after.
+const JUMP: &str = "scene \"Jump\"\nload p { force = 2, until = 1 }\nload q { force = t - 5/2, from = 1 }\n\
+    bar rod { impedance = 1, travel = 1 }\nline free - p - q - rod - free\nobserve x = displacement(rod.left)\n";
 
 /// The function c x of a symbol x.
 fn of(coefficient: &str, symbol: &str) -> serde_json::Value {
@@ -113,7 +117,25 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     std::fs::write(folder.join("flat.wave"), FLAT).unwrap();
     let flat = ask("flat.wave --quantity wall --at 43/10 --digits 6");
     let pressed = ask("bounce.wave --quantity force --at 1/4 --digits 6");
-    let cases: [(&serde_json::Value, Change, &str); 168] = [
+    std::fs::write(folder.join("jump.wave"), JUMP).unwrap();
+    let jump = ask("jump.wave --zero x --to 5/2");
+    std::fs::write(folder.join("crossing.wave"), CROSSING).unwrap();
+    let arriving = ask("crossing.wave --zero d --to 5/2");
+    let cases: [(&serde_json::Value, Change, &str); 171] = [
+        (
+            &jump,
+            |own| {
+                own["observed"][0][1] = "velocity".into();
+                (own["zeros"], own["rests"]) = (json!([["19/10", "21/10"]]), json!([]));
+            },
+            "cut by an arrival",
+        ),
+        (
+            &arriving,
+            |own| own["line"][2]["course"][0][1][0][0][0][0] = "1".into(),
+            "cut by an arrival",
+        ),
+        (&arriving, |own| own["zeros"] = json!([["21/10", "11/5"]]), "just before a time"),
         (
             &flat,
             |own| {
