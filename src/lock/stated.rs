@@ -5,7 +5,7 @@ use crate::export::expression_text;
 use crate::expression::Fraction;
 use crate::network::Network;
 use crate::recurrence::{Observation, ProductTerm, Quadratic, Statement};
-use crate::scene::{Observable, Place, Position, Scene, Seen};
+use crate::scene::{Bar, Body, Kind, Observable, Place, Position, Scene, Seen};
 use std::collections::BTreeMap;
 
 /// The digits of a period that is told as a decimal number, and bits for so many.
@@ -106,13 +106,17 @@ fn line(scene: &Scene) -> String {
 
 fn term_text(scene: &Scene, Seen { coefficient, measure, place, .. }: &Seen) -> String {
     let name = |element: &usize| &scene.elements[*element].name;
-    let metre = if scene.dimensional { " m" } else { "" };
+    let unit = |bar: &usize| match &scene.elements[*bar].kind {
+        _ if !scene.dimensional => "",
+        Kind::Bar(Bar { body: Body::Impedance { .. }, .. }) => " s",
+        _ => " m",
+    };
     let place = match place {
         Place::Left(bar) => format!("{}.left", name(bar)),
         Place::Right(bar) => format!("{}.right", name(bar)),
         Place::At(bar, Position::Share(share)) => format!("{}.at({})", name(bar), fraction(share)),
         Place::At(bar, Position::Distance(distance)) => {
-            format!("{}.at({}{metre})", name(bar), fraction(distance))
+            format!("{}.at({}{})", name(bar), fraction(distance), unit(bar))
         }
         Place::Element(element) => name(element).clone(),
         Place::Line => "line".to_owned(),

@@ -141,3 +141,17 @@ fn the_command_locks_events_and_checks_them() {
         assert!(err.contains(expected), "{arguments:?}: {err}");
     }
 }
+
+/// A section of a bar is told by metres, or by a travel time where the bar is.
+#[test]
+fn distances_are_locked_in_their_units() {
+    let folder = folder("lock-units");
+    let text = "scene \"Sections\"\nbar ram { impedance = 20 kN*s/m, travel = 100 us, velocity = 2 m/s }\n\
+        bar rod { modulus = 210 GPa, density = 7850 kg/m^3, area = 2 cm^2 }\nline free - ram | rod - endless\n\
+        contacts open\nobserve f = force(ram.at(30 us))\nobserve g = force(rod.at(2 m))\n";
+    fs::write(folder.join("my.wave"), text).expect("a file");
+    let (code, out, err) = run(&folder, &["lock", "my.wave", "--at", "50us"]);
+    assert_eq!((code, &*err), (0, ""));
+    assert!(out.contains("f = force(ram.at(3/100000 s))\n"), "{out}");
+    assert!(out.contains("g = force(rod.at(2 m))\n"), "{out}");
+}
