@@ -497,7 +497,9 @@ def raised(link, compression, power):
     if sign(share) == 1:
         return share**power
     most = share.upper()
-    return NIL if not most > 0 else span(0, most**power if power else arb(1))
+    if not power:  # beside zero it may be both
+        return NIL if most < 0 else span(0, 1)
+    return span(0, most**power) if most > 0 else NIL
 
 
 START = 0, Length()
@@ -534,6 +536,7 @@ class Story:
         self.state |= {("alpha", i): NIL for i, link in enumerate(parts.links) if link["is"] in ("spring", "local")}
         self.state |= {("u", n): NIL for n in range(len(parts.supports))}
         self.laws = Laws(parts, self.closed)
+        need(all(is_nil(p) for p, wall in zip(parts.momentum, parts.fixed) if wall), "a mass meets a wall at the start")
         for i in self.closed:  # what is rigid on both sides of a contact moves as one already
             if self.laws.rigid(i):
                 known = [NIL if parts.fixed[r] else self.state["v", r] for r in (i, i + 1)]
@@ -751,7 +754,7 @@ class Story:
             moves, presses = ([key for key in own if (key[0] == "v") == is_speed] for is_speed in (True, False))
             units = dict.fromkeys(moves, fmpq(1)) | dict.fromkeys(presses, balance(grown, moves, presses))
             largest = lambda values: max(size(values[key]) * units[key] for key in own)
-            norm = max(sum((grown[key, unit] * units[key] / units[unit] for unit in own), arb(0)) for key in own)
+            norm = max(size(sum((grown[key, unit] * units[key] / units[unit] for unit in own), arb(0))) for key in own)
             forcing, first = largest(driven), largest(start)
             need((norm + forcing + first).is_finite(), "a motion without bounds")
             if not length * norm < 0.75:

@@ -19,9 +19,6 @@ pub struct Question<'a> {
 
 impl Question<'_> {
     /// The same without echoes that come to no more than `most` together, where some can be left out.
-    ///
-    /// # Errors
-    /// As [`Signal::within`].
     pub fn within(&self, most: f64) -> Result<Option<Question<'_>>, EvaluateError> {
         let signal = self.signal.within(&Magnitude::from_double(most))?;
         let Question { scene, contacts_open, costs, .. } = *self;

@@ -104,11 +104,9 @@ pub fn consider(
     let left_out = question.signal.left_out().scale(1).to_double();
     let candidate = |method: Method| {
         let cost = match (method, &form, &taps) {
-            (Method::Marched { .. }, Ok(form), Ok(Err(_))) => Some(Cost::of_waves(
-                size_of(method),
-                form.recurrence().wave_count(),
-                question.costs,
-            )),
+            (Method::Marched { .. }, Ok(form), Ok(Err(_))) => {
+                Some(Cost::of_waves(size_of(method), form.recurrence.wave_count(), question.costs))
+            }
             _ => Cost::of(method, size_of(method), question.costs),
         };
         let seconds = cost.map_or(f64::INFINITY, |cost| cost.seconds(points));

@@ -16,17 +16,12 @@ pub trait Arithmetic: Clone {
     fn add(&self, other: &Self, bits: u64) -> Self;
     fn multiply(&self, other: &Self, bits: u64) -> Self;
     /// `1/x`.
-    ///
-    /// # Errors
-    /// [`BallError::DivisorMayBeZero`].
     fn reciprocal(&self, bits: u64) -> Result<Self, BallError>;
 
     fn subtract(&self, other: &Self, bits: u64) -> Self {
         self.add(&other.negate(), bits)
     }
 
-    /// # Errors
-    /// As [`Arithmetic::reciprocal`].
     fn quotient(&self, divisor: &Self, bits: u64) -> Result<Self, BallError> {
         Ok(self.multiply(&divisor.reciprocal(bits)?, bits))
     }
@@ -34,8 +29,6 @@ pub trait Arithmetic: Clone {
 
 /// Numbers with a cosine and a sine.
 pub trait Trigonometric: Arithmetic {
-    /// # Errors
-    /// [`BallError::ArgumentTooLarge`].
     fn cos_sin(&self, bits: u64) -> Result<[Self; 2], BallError>;
 }
 

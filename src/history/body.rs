@@ -75,9 +75,6 @@ impl Engine {
     }
 
     /// Energy and momentum of a part of the line.
-    ///
-    /// # Errors
-    /// As [`Engine::held`].
     pub fn held_by(
         &self,
         network: &Network,
@@ -136,9 +133,6 @@ impl Engine {
 
     /// The mean velocity of a part of the line: of its centre of mass, zero where it is grounded, and what
     /// it had at the start where it is endless. None where dampers hold it.
-    ///
-    /// # Errors
-    /// As [`Engine::held`].
     pub fn mean_velocity(
         &self,
         network: &Network,
@@ -172,9 +166,6 @@ impl Engine {
     /// `√(2 E S)`, `E` the energy of what moves against the centre of mass; of a grounded body, against the
     /// ground, with all its energy. Without loads `E` does not grow. So an end strays from the mean motion
     /// since the instant by `2 √(2 E S)` at most: once for what it is now, once for what it will be.
-    ///
-    /// # Errors
-    /// As [`Engine::held`].
     pub fn drift(&self, network: &Network, part: &Range<usize>, moment: &Moment) -> Outcome<Drift> {
         let bits = self.cut.bits;
         let elements = &network.scene().line.elements[part.clone()];
@@ -281,9 +272,6 @@ impl Engine {
     /// Whether the bodies at a contact, open or touching without force, never press on each other again:
     /// `gap + (V_R − V_L) t` less what their ends may stray stays above zero, or at zero where all of it is
     /// known exactly.
-    ///
-    /// # Errors
-    /// As [`Engine::held`].
     pub fn never_meets(
         &self,
         network: &Network,

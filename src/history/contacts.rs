@@ -449,7 +449,7 @@ impl Engine {
         let before = &state.system;
         let rests = |run: usize| before.held[before.group[run]].then(Number::zero);
         let velocity = |run: usize| known(before.place_of_velocity(run)).or_else(|| rests(run));
-        let impact = |runs| self.impact(own, runs);
+        let impact = |runs| self.impact(own, runs, Some(&now));
         let next = system.state(own, velocity, &displaced, impact, bits)?;
         let is_kept = |system: &System<Number>, place: usize| system.kept[place].is_some();
         let is_spring = |place: &usize| !own.elements[*place].law.is_driven();

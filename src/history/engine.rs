@@ -238,9 +238,6 @@ fn nodes(network: &Network, layout: &Layout, clock: &Clock) -> Outcome<Vec<Node<
 
 impl Engine {
     /// The scene at its start.
-    ///
-    /// # Errors
-    /// [`HistoryError::MissingValue`], [`HistoryError::Refused`].
     pub fn new(network: &Network, contacts: Contacts, bits: u64) -> Outcome<Engine> {
         let numbers = crate::enclosure::Numbers::new(&network.model().constants);
         let mut symbols = network.model().assumptions.symbols().map(|(symbol, _)| symbol);
@@ -298,7 +295,12 @@ impl Engine {
     }
 
     /// Why rigid masses of two runs cannot meet, or one of the first with the wall at the second.
-    pub fn impact(&self, node: &Node<Number>, [left, right]: [usize; 2]) -> NotFollowed {
+    pub fn impact(
+        &self,
+        node: &Node<Number>,
+        [left, right]: [usize; 2],
+        now: Option<&Moment>,
+    ) -> NotFollowed {
         let masses = |run: usize| {
             let masses = node.elements.iter().filter(move |own| own.run == run);
             masses.filter(|own| matches!(own.law, ElementLaw::Mass { .. }))
@@ -306,11 +308,14 @@ impl Engine {
         let name = |mass: Option<&Lumped<Number>>| {
             self.names[mass.expect("the run has a mass").element].clone()
         };
+        let time = now.and_then(|now| self.clock.time(now).ok());
+        let at =
+            time.map_or_else(String::new, |time| format!(" at t = {}", self.clock.told(&time)));
         if node.is_held(right) {
-            return NotFollowed::ImpactOnWall { mass: name(masses(left).next()) };
+            return NotFollowed::ImpactOnWall { mass: name(masses(left).next()), at };
         }
         let masses = [masses(left).next_back(), masses(right).next()];
-        NotFollowed::RigidImpact { masses: masses.map(name) }
+        NotFollowed::RigidImpact { masses: masses.map(name), at }
     }
 
     /// The rate of the norm of cells: above the norm of each node in any state of its contacts, and the
@@ -351,7 +356,7 @@ impl Engine {
             let system = self.system(number, |contact| self.open[contact].closed)?;
             let still = vec![Number::zero(); node.elements.len()];
             let velocity = |run: usize| self.starting_velocity(node, run);
-            let impact = |runs| self.impact(node, runs);
+            let impact = |runs| self.impact(node, runs, None);
             let state = system.state(node, velocity, &still, impact, bits)?;
             let passivity = Passivity::at(node, &system, (&state, bits))?;
             let errors = passivity.errors(&state);
@@ -548,9 +553,6 @@ impl Engine {
     }
 
     /// Follows a node over one cell.
-    ///
-    /// # Errors
-    /// As [`Engine::follow_until`].
     pub fn advance(&mut self, node: usize) -> Outcome<()> {
         self.count += 1;
         if self.count > MAX_HISTORY_CELLS {

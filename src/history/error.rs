@@ -123,18 +123,22 @@ pub enum NotFollowed {
     },
     /// Two masses that meet with different velocities.
     #[error(
-        "the rigid masses {} meet with different velocities: put a spring or a bar between them",
+        "the rigid masses {} meet with different velocities{at}: put a spring or a bar between them",
         .masses.each_ref().map(|mass| format!("`{mass}`")).join(" and ")
     )]
     RigidImpact {
         /// Their names.
         masses: [String; 2],
+        /// When, as ` at t = 1 s`; empty at the start.
+        at: String,
     },
     /// A moving mass that meets a wall.
-    #[error("the rigid mass `{mass}` hits a wall: put a spring or a bar between them")]
+    #[error("the rigid mass `{mass}` hits a wall{at}: put a spring or a bar between them")]
     ImpactOnWall {
         /// Its name.
         mass: String,
+        /// When, as ` at t = 1 s`; empty at the start.
+        at: String,
     },
 }
 

@@ -89,9 +89,6 @@ impl Clock {
 
     /// Takes the case on the border for granted, where what is undecided is a tie. Motion depends continuously
     /// on the data: what comes next is near on either side.
-    ///
-    /// # Errors
-    /// [`HistoryError::Undecided`].
     pub fn tie(&self, what: Question, at: &Number, size: &Magnitude) -> Outcome<()> {
         if self.tie_size().is_none_or(|tie| *size > tie) {
             return Err(self.undecided(what, at));
@@ -130,9 +127,6 @@ impl Clock {
     }
 
     /// The time since the start.
-    ///
-    /// # Errors
-    /// As [`Clock::number`].
     pub fn time(&self, moment: &Moment) -> Result<Number, EnclosureError> {
         let delay = self.number(&moment.delay)?;
         Ok(match moment.event {
@@ -142,9 +136,6 @@ impl Clock {
     }
 
     /// The time from one instant to another.
-    ///
-    /// # Errors
-    /// As [`Clock::number`].
     pub fn since(&self, from: &Moment, to: &Moment) -> Result<Number, EnclosureError> {
         match from.event == to.event {
             true => self.number(&(&to.delay - &from.delay)),
@@ -174,9 +165,6 @@ impl Clock {
     }
 
     /// The earlier of two instants.
-    ///
-    /// # Errors
-    /// As [`Clock::compare`].
     pub fn earlier(&self, left: Moment, right: Moment) -> Outcome<Moment> {
         Ok(if self.compare(&left, &right)? == Ordering::Greater { right } else { left })
     }

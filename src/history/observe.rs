@@ -148,9 +148,6 @@ impl Engine {
     }
 
     /// The energy of an element at an instant, by the table of measures; none where it is infinite.
-    ///
-    /// # Errors
-    /// As [`Engine::value_of`].
     pub fn energy_of(
         &self,
         elements: Elements<'_>,

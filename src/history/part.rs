@@ -80,9 +80,6 @@ impl Cell {
 
 impl Engine {
     /// The value of a part.
-    ///
-    /// # Errors
-    /// As [`Engine::cell`].
     pub fn value_of(&self, part: &Part, moment: &Moment, limit: Limit) -> Outcome<Number> {
         let value = match &part.source {
             Source::Node { node, quantity } => {
@@ -120,9 +117,6 @@ impl Engine {
     }
 
     /// A part from an instant on, until the next of its breaks.
-    ///
-    /// # Errors
-    /// As [`Engine::cell`].
     pub fn series_of(&self, part: &Part, now: &Moment) -> Outcome<Series> {
         let series = match &part.source {
             Source::Node { node, quantity } => {

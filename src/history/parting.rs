@@ -61,9 +61,6 @@ impl Engine {
 
     /// Follows the scene until an instant; bodies of which nothing is asked, until all has parted if that can be proven. When
     /// that is, is kept for the next time that the scene is followed.
-    ///
-    /// # Errors
-    /// As [`Engine::follow_until`].
     pub fn follow_asked(
         &mut self,
         network: &Network,

@@ -98,9 +98,6 @@ impl Passivity {
 
     /// With springs about as stiff as the local contacts are at this state, and what is slow apart from what is fast,
     /// with so many bits.
-    ///
-    /// # Errors
-    /// As [`Passivity::of`].
     pub fn at(
         node: &Node<Number>,
         system: &System<Number>,

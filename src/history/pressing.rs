@@ -63,9 +63,6 @@ pub struct Pressed {
 
 impl Pressed {
     /// The pressed contacts of a node, each with its spring: `K` about `X'` at the state `now`, the largest without one.
-    ///
-    /// # Errors
-    /// As [`PowerLaw::at`].
     pub fn all(
         node: &Node<Number>,
         system: &System<Number>,
@@ -96,9 +93,6 @@ impl Pressed {
 impl Node<Number> {
     /// The same node, its local contacts given by the force at a compression that is about the largest they come to
     /// where they stop what moves with this velocity: of a mass `α F = ½ (m+1) M v²`, of a bar `F = Z v`.
-    ///
-    /// # Errors
-    /// As [`PowerLaw::at`].
     pub fn with_typical_compressions(
         mut self,
         velocity: f64,

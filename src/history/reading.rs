@@ -12,9 +12,6 @@ use std::cmp::Ordering;
 
 impl Engine {
     /// The force of a contact and the velocities beside it at an instant.
-    ///
-    /// # Errors
-    /// As [`Track::cell`].
     pub fn beside(
         &self,
         contact: usize,
@@ -38,9 +35,6 @@ impl Engine {
     }
 
     /// The gap of a contact at an instant.
-    ///
-    /// # Errors
-    /// As [`Track::cell`].
     pub fn gap(&self, contact: usize, moment: &Moment) -> Outcome<Number> {
         let node = self.layout.contacts[contact].node;
         let (start, cell) = self.cell(node, moment, Limit::Right)?;
@@ -50,9 +44,6 @@ impl Engine {
     }
 
     /// `∫ F dt` of a contact from one instant to another.
-    ///
-    /// # Errors
-    /// As [`Track::cell`].
     pub fn impulse(&self, contact: usize, [from, to]: [&Moment; 2]) -> Outcome<Number> {
         let node = self.layout.contacts[contact].node;
         let place = self.nodes[node].contacts().position(|(own, _)| own == contact);
@@ -77,9 +68,6 @@ impl Engine {
     }
 
     /// The cell of a node at an instant, with its start.
-    ///
-    /// # Errors
-    /// As [`Track::cell`].
     pub fn cell(&self, node: usize, moment: &Moment, limit: Limit) -> Outcome<(&Moment, &Cell)> {
         let (start, cell) = self.cells[node].get(self.cell_number(node, moment, limit)?);
         Ok((start, cell))

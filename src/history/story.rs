@@ -94,9 +94,6 @@ pub struct Story<'a> {
 
 impl Story<'_> {
     /// The scene at its start.
-    ///
-    /// # Errors
-    /// As [`Engine::new`].
     pub fn begin(network: &Network, digits: usize, bits: u64) -> Outcome<Story<'_>> {
         let engine = Engine::new(network, network.contacts_that_may_open(), bits)?;
         let start = Moment::at(Fraction::zero());
@@ -128,9 +125,6 @@ impl Story<'_> {
 
     /// Follows the scene until an instant or until nothing can meet again; without an instant for a while, or as far as it can be
     /// followed in the longest travel times.
-    ///
-    /// # Errors
-    /// As [`Engine::follow_until`].
     pub fn follow(&mut self, until: Option<&Moment>) -> Outcome<()> {
         let travel = longest(&self.engine)?;
         let patience = match self.network.local_contact() {
@@ -205,9 +199,6 @@ impl Story<'_> {
     }
 
     /// The history until the end.
-    ///
-    /// # Errors
-    /// As [`Engine::held`].
     pub fn told(mut self) -> Outcome<History> {
         self.look();
         let mut rows = Vec::new();

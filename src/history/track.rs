@@ -26,9 +26,6 @@ pub struct Track {
 
 impl Track {
     /// What is constant for a time before the start.
-    ///
-    /// # Errors
-    /// As [`Clock::number`].
     pub fn new(value: Number, time: &Fraction, clock: &Clock) -> Result<Track, EnclosureError> {
         let start = Moment::at(-time);
         let end = Moment::at(Fraction::zero());
@@ -97,17 +94,11 @@ impl Track {
     }
 
     /// The cell that an instant is in; where cells meet, the limit tells which.
-    ///
-    /// # Errors
-    /// As [`Cells::find`].
     pub fn cell(&self, clock: &Clock, moment: &Moment, limit: Limit) -> Outcome<usize> {
         self.cells.find(clock, (moment, limit), &self.end)
     }
 
     /// The value at an instant.
-    ///
-    /// # Errors
-    /// As [`Track::cell`].
     pub fn value(
         &self,
         clock: &Clock,
@@ -122,9 +113,6 @@ impl Track {
     /// `∫ f dt` or `∫ f² dt` from one instant to another, both within the track: the whole of all cells that
     /// end before the last one, up to the end in that one, and less what the first one holds before the
     /// start. Of `∫ f dt` since the start or before the whole of what is forgotten is known.
-    ///
-    /// # Errors
-    /// As [`Track::cell`].
     pub fn integral(
         &self,
         integrand: Integrand,
@@ -179,9 +167,6 @@ pub enum Arriving {
 
 impl Arriving {
     /// The series of what arrives, on a cell that begins at an instant.
-    ///
-    /// # Errors
-    /// As [`Clock::since`].
     pub fn series(
         &self,
         waves: &[[Track; 2]],

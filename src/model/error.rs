@@ -66,7 +66,7 @@ pub enum NotRepresented {
     Damping(String),
     #[error("load {0} acts from outside")]
     Load(String),
-    #[error("the travel times of {0} and of the elements before it are incommensurable")]
+    #[error("{0} has no common measure with the times before it")]
     NoCommonMeasure(String),
     #[error("{observable} observes {term}")]
     Observable { observable: String, term: NotSeen },

@@ -52,9 +52,6 @@ pub struct NodeState {
 
 impl Laws {
     /// The laws of a node of a line in which velocities are about `speed`, with the gaps at the start of all contacts of the line.
-    ///
-    /// # Errors
-    /// [`NotRepresented::Unresisted`], [`NotRepresented::TooManyContacts`].
     pub fn of(
         number: usize,
         line: &Line,

@@ -235,9 +235,6 @@ impl<V: Trigonometric> Shape<V> {
     /// `M = ∫u² dm` it is `∂u/∂ω S − u ∂S/∂ω = 2ωM`. Near a mode the term with the factor that vanishes is left out, so that the
     /// step is `−uS/(2ωM)` where the end is held, `+uS/(2ωM)` where it is free; an error is squared all the same. None for a
     /// motion as a whole.
-    ///
-    /// # Errors
-    /// As [`Shape::of`].
     pub fn correction(&self, held: bool, bits: u64) -> Result<Option<V>, BallError> {
         let Some(frequency) = &self.frequency else { return Ok(None) };
         let [u, pulled] = self.right_end();
@@ -267,9 +264,6 @@ impl<V: Trigonometric> Shape<V> {
     }
 
     /// Displacement and tension in a bar, by the time that a wave needs from its left end.
-    ///
-    /// # Errors
-    /// As [`Shape::of`].
     pub fn section(&self, part: usize, at: &V, bits: u64) -> Result<[V; 2], BallError> {
         let [u, pulled] = &self.states[part];
         let (Some(scale), Some(frequency)) = (&self.scales[part], &self.frequency) else {

@@ -128,17 +128,19 @@ impl Steps {
         let laws = laws.map(|(place, node)| Laws::of(place, &line, node, known, line.speed()));
         let laws = laws.collect::<Result<_, _>>()?;
         let (mut times, mut loads) = (Vec::new(), Vec::new());
-        let named = |element: ElementIndex, time: &Option<Fraction>| {
-            (line.name(element), time.clone().unwrap_or_else(Fraction::zero))
+        let named = |what: &str, element: ElementIndex, time: &Option<Fraction>| {
+            let name = format!("the {what} of {}", line.name(element));
+            (name, time.clone().unwrap_or_else(Fraction::zero))
         };
-        times.extend(
-            line.bars
-                .iter()
-                .map(|bar| named(bar.element, &scaled.model().bars[&bar.element].travel)),
-        );
+        times.extend(line.bars.iter().map(|bar| {
+            named("travel time", bar.element, &scaled.model().bars[&bar.element].travel)
+        }));
         for element in &scaled.scene().line.elements {
             if let Some(ModelLoad { from, until, .. }) = scaled.model().loads.get(element) {
-                times.extend([named(*element, &Some(from.clone())), named(*element, until)]);
+                times.extend([
+                    named("beginning", *element, &Some(from.clone())),
+                    named("end", *element, until),
+                ]);
                 loads.push((*element, until.is_some()));
             }
         }

@@ -50,12 +50,12 @@ pub(super) fn flow(
         |seen: &&Seen| seen.measure != Measure::Work || matches!(seen.place, Place::Element(_));
     let terms: Vec<&Seen> = observable.terms.iter().filter(is_held).collect();
     if power.is_empty() {
-        return into_elements(scaled, &terms);
+        return into_elements(scaled, &terms, Loads::Together);
     }
     let mut all = power.to_vec();
     // What the line loses apart from what its elements hold, so that what is counted twice cancels.
     let (line, own) = terms.into_iter().partition::<Vec<_>, _>(|seen| seen.place == Place::Line);
-    all.extend(into_elements(scaled, &line)?);
+    all.extend(into_elements(scaled, &line, Loads::Apart)?);
     let balance = Balance { scaled, measure: Measure::Energy };
     for seen in own {
         let element = seen.place.element()?;
@@ -90,8 +90,17 @@ pub(super) fn power(scaled: &ScaledScene, passed: &[(Fraction, Passage)]) -> Vec
     passed.iter().flat_map(power).collect()
 }
 
+/// How the loads of one place are told.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Loads {
+    /// As one, by the balance of the place.
+    Together,
+    /// Each as it is given, as in the work of one of them.
+    Apart,
+}
+
 /// The flow into what elements hold: terms of one measure.
-fn into_elements(scaled: &ScaledScene, terms: &[&Seen]) -> Option<Vec<Flow>> {
+fn into_elements(scaled: &ScaledScene, terms: &[&Seen], loads: Loads) -> Option<Vec<Flow>> {
     let scene = &scaled.scene;
     // The work on a spring without damping is its energy.
     let kind = |seen: &&Seen| if seen.measure.is_energy() { Measure::Energy } else { seen.measure };
@@ -114,7 +123,7 @@ fn into_elements(scaled: &ScaledScene, terms: &[&Seen]) -> Option<Vec<Flow>> {
     let balance = Balance { scaled, measure };
     if own.iter().all(|(_, coefficient)| *coefficient == own[0].1) {
         let terms = match measure {
-            Measure::Energy => balance.losses()?,
+            Measure::Energy => balance.losses(loads)?,
             Measure::Momentum => balance.outer_forces()?,
             _ => return None,
         };
@@ -163,7 +172,7 @@ impl Balance<'_> {
 
     /// What loads add to the energy of the line, and what dampers take from it; none where a mass may meet another or a wall
     /// with nothing between them that gives way.
-    fn losses(&self) -> Option<Vec<Flow>> {
+    fn losses(&self, loads: Loads) -> Option<Vec<Flow>> {
         if has_hard_contacts(&self.scaled.scene) {
             return None;
         }
@@ -171,7 +180,15 @@ impl Balance<'_> {
         for (lump, law) in self.lumps() {
             match law {
                 ElementLaw::Load(drive) => {
-                    terms.extend(Balance::supplied(self.pushed(lump, *drive)?, lump))
+                    let node = &self.layout().nodes[lump.node];
+                    let is_imposed = node.is_imposed(node.elements[lump.place].run);
+                    let force = match loads {
+                        Loads::Apart if !is_imposed && !self.is_alone(lump) => {
+                            vec![self.given(lump)]
+                        }
+                        _ => self.pushed(lump, *drive)?,
+                    };
+                    terms.extend(Balance::supplied(force, lump))
                 }
                 _ => terms.extend(self.damper(lump)),
             }
@@ -187,14 +204,19 @@ impl Balance<'_> {
             }
             Passage::Damper(lump) => times(self.damper(*lump), &-&Fraction::one()),
             Passage::Load(lump) => {
-                let own = &self.layout().nodes[lump.node];
-                let Lumped { run, law, .. } = &own.elements[lump.place];
+                let law = &self.layout().nodes[lump.node].elements[lump.place].law;
                 let ElementLaw::Load(drive) = law else { return Vec::new() };
-                let loads = own.attached(*run).filter(|own| matches!(own.law, ElementLaw::Load(_)));
-                let force = if loads.count() == 1 { self.pushed(*lump, *drive) } else { None };
+                let force = if self.is_alone(*lump) { self.pushed(*lump, *drive) } else { None };
                 Balance::supplied(force.unwrap_or_else(|| vec![self.given(*lump)]), *lump)
             }
         }
+    }
+
+    /// Whether a load is the only one of its place.
+    fn is_alone(&self, lump: Lump) -> bool {
+        let node = &self.layout().nodes[lump.node];
+        let all = node.attached(node.elements[lump.place].run);
+        all.filter(|own| matches!(own.law, ElementLaw::Load(_))).count() == 1
     }
 
     /// The power of a force that acts at a place.

@@ -34,9 +34,6 @@ pub enum NoClosedForm {
 impl Impact {
     /// At a local contact of the line.
     ///
-    /// # Errors
-    /// [`NoClosedForm::Beside`], [`NoClosedForm::Strained`].
-    ///
     /// # Panics
     /// If the line has no such element.
     pub fn of(scaled: &ScaledScene, contact: ElementIndex) -> Result<Impact, NoClosedForm> {

@@ -73,6 +73,13 @@ pub struct EnergySum {
     pub(crate) passed: Vec<FlowTerm>,
 }
 
+impl EnergySum {
+    /// Whether it takes in all that has been since the start.
+    pub(crate) fn is_since_start(&self) -> bool {
+        !self.passed.is_empty() || self.held.iter().any(|own| own.window == Window::Always)
+    }
+}
+
 /// What an energy is the square of.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Squared {

@@ -9,11 +9,13 @@ mod balance;
 mod energy;
 mod together;
 
-pub(crate) use together::Together;
+pub use together::Together;
 
 use crate::expression::{Fraction, Root};
 use crate::history::{FollowedSignal, Follower, HistoryError};
-use crate::network::{Contacts, ElementLaw, FieldBars, Layout, Lumped, Network, Node, Observed};
+use crate::network::{
+    Contacts, ElementLaw, FieldBars, Layout, Lumped, Network, Node, Observed, ObservedValue,
+};
 use crate::signal::{
     ClosedForm, ClosedSignal, Difference, EvaluateError, Operation, Scale, Signal, Vibrating,
 };
@@ -52,6 +54,18 @@ pub enum Purpose {
 }
 
 impl Purpose {
+    /// The same for what is asked about: an integral since the start takes in all that a search does.
+    fn of(self, observed: &Observed) -> Purpose {
+        match (self, &observed.value) {
+            (Purpose::Values { digits }, ObservedValue::Energy(sum))
+                if digits <= MOST_FOLLOWED_DIGITS && sum.is_since_start() =>
+            {
+                Purpose::Search
+            }
+            _ => self,
+        }
+    }
+
     /// How many digits are wanted; `None` where that is not known beforehand.
     fn digits(self) -> Option<usize> {
         match self {
@@ -118,7 +132,7 @@ pub fn origin(network: &Network, to: &Rational, purpose: Purpose) -> Origin {
         // Named rates hide which values are exactly zero behind an arrival.
         Purpose::Search | Purpose::Size { .. } => {
             ClosedForm::of_nothing(network, to).and_then(|form| {
-                Ok(form.order(to)? <= MOST_SEARCHED && !form.recurrence().has_named_rates())
+                Ok(form.order(to)? <= MOST_SEARCHED && !form.recurrence.has_named_rates())
             })
         }
         Purpose::Polynomials => {
@@ -150,18 +164,6 @@ pub fn of_scene<'a>(
     Together::new(network, &[observed], window, purpose).chosen(observed).map(|(_, signal)| signal)
 }
 
-/// Several observables of a scene on one window of the user's time, each with its own error; where the scene is followed,
-/// it is once for all of them.
-pub fn of_several<'a>(
-    network: &'a Network,
-    observed: &[&Observed],
-    window: [&Rational; 2],
-    purpose: Purpose,
-) -> Vec<Result<Box<dyn Signal + 'a>, SignalError>> {
-    let together = Together::new(network, observed, window, purpose);
-    observed.iter().map(|own| together.chosen(own).map(|(_, signal)| signal)).collect()
-}
-
 /// How far a signal of one scene or recurrence is from one of another, both on this window and in one unit; of the second only
 /// the first arrivals count where their number is given.
 pub(crate) fn difference<'a>(
@@ -189,32 +191,6 @@ pub(crate) fn vibration<'a>(
     let scale = Scale::of(network);
     let rule = Vibrating::new(&scale, drift, modes)?;
     Some(Box::new(Operation::new(&scale, rule, Root::from(Fraction::one()), window)))
-}
-
-/// The same from one of the two sources.
-///
-/// # Errors
-/// As [`of_scene`].
-pub fn of_origin<'a>(
-    origin: Origin,
-    network: &'a Network,
-    observed: &Observed,
-    window: [&Rational; 2],
-    purpose: Purpose,
-) -> Result<Box<dyn Signal + 'a>, SignalError> {
-    Together::new(network, &[observed], window, purpose).of_origin(origin, observed)
-}
-
-/// How many cells are worked out where an observable is followed on a window, and how many of them, with those of waves,
-/// are kept.
-#[doc(hidden)]
-pub fn cells(
-    network: &Network,
-    observed: &Observed,
-    window: [&Rational; 2],
-) -> Result<[usize; 2], SignalError> {
-    let stretches = Purpose::Stretches;
-    Ok(Together::new(network, &[observed], window, stretches).follower(observed)?.cells())
 }
 
 /// A wave as it enters a bar, without the state at the start, its integral over time since then, and the

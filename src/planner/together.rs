@@ -18,7 +18,7 @@ use wavestep_polynomial::Rational;
 type Following<'a> = Result<Rc<Follower<'a>>, HistoryError>;
 
 /// Observables of a scene on one window of the user's time: what is followed is followed once for all of them.
-pub(crate) struct Together<'a, 'o> {
+pub struct Together<'a, 'o> {
     network: &'a Network,
     observed: &'o [&'o Observed],
     window: [&'o Rational; 2],
@@ -51,7 +51,7 @@ impl<'a, 'o> Together<'a, 'o> {
             return from(Origin::Followed);
         }
         let closed = || from(Origin::Closed);
-        if origin(network, window[1], purpose) == Origin::Closed {
+        if origin(network, window[1], purpose.of(observed)) == Origin::Closed {
             let found = closed()?;
             return match purpose != Purpose::Echoes && resonates(network, &*found.1, window[1]) {
                 true => from(Origin::Followed),
@@ -87,7 +87,8 @@ impl<'a, 'o> Together<'a, 'o> {
     ) -> Result<Box<dyn Signal + 'a>, SignalError> {
         let Together { network, window, purpose, .. } = *self;
         let sources = || self.sources(origin, observed);
-        if let (Purpose::Search | Purpose::Size { .. }, Some(known)) = (purpose, &observed.balance)
+        if let (Purpose::Search | Purpose::Size { .. }, Some(known)) =
+            (purpose.of(observed), &observed.balance)
         {
             return balance::of_sources(&sources()?, observed, known, window);
         }
@@ -122,7 +123,7 @@ impl<'a, 'o> Together<'a, 'o> {
     }
 
     /// The scene, followed for all of them; for one alone, where all would take too much.
-    pub fn follower(&self, observed: &Observed) -> Result<Rc<Follower<'a>>, SignalError> {
+    pub(crate) fn follower(&self, observed: &Observed) -> Result<Rc<Follower<'a>>, SignalError> {
         match self.follower.get_or_init(|| self.follow(self.observed)) {
             Err(HistoryError::TooMuchMemory { .. } | HistoryError::TooManyCells { .. })
                 if self.observed.len() > 1 =>
@@ -131,6 +132,11 @@ impl<'a, 'o> Together<'a, 'o> {
             }
             followed => Ok(followed.clone()?),
         }
+    }
+
+    /// How many cells are worked out where one of them is followed, and how many of them, with those of waves, are kept.
+    pub fn cells(&self, observed: &Observed) -> Result<[usize; 2], SignalError> {
+        Ok(self.follower(observed)?.cells())
     }
 
     fn follow(&self, observed: &[&Observed]) -> Following<'a> {

@@ -47,9 +47,6 @@ impl<'p> Comparison<'p> {
     }
 
     /// The quantity less what an answer says of it.
-    ///
-    /// # Errors
-    /// As [`Problem::difference_on`].
     pub fn difference<'o>(
         &'o self,
         other: &'o Other,
@@ -84,9 +81,6 @@ impl<'p> Comparison<'p> {
 
     /// The largest difference of an answer over the largest value, between two bounds: near ones, or where the tolerance
     /// lies between these, ones to nine digits.
-    ///
-    /// # Errors
-    /// As [`Comparison::difference`].
     pub fn share(
         &self,
         other: &Other,

@@ -191,9 +191,6 @@ impl Problem {
     }
 
     /// The same for what is prepared for a purpose.
-    ///
-    /// # Errors
-    /// As [`Problem::question`].
     pub fn question_for(
         &self,
         name: &str,
@@ -221,8 +218,8 @@ impl Problem {
         let observed: Option<Vec<_>> = wanted.iter().map(|one| one.observed.as_ref()).collect();
         match (&self.kind, observed) {
             (Kind::Line { network, .. }, Some(observed)) => {
-                let signals = planner::of_several(network, &observed, window, purpose);
-                signals.into_iter().map(|signal| Ok(signal?)).collect()
+                let together = Together::new(network, &observed, window, purpose);
+                observed.iter().map(|own| Ok(together.chosen(own)?.1)).collect()
             }
             _ => wanted.iter().map(|one| self.signal_on(one, window, purpose)).collect(),
         }

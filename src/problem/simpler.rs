@@ -200,9 +200,6 @@ impl Problem {
 
     /// The same for formulas: where symbols are left and one bar is a spring that swings with one mass, its rate has the name
     /// `omega`, which is told beside the scene.
-    ///
-    /// # Errors
-    /// As [`Problem::changed`].
     pub fn model(&self, changes: &[Change]) -> Result<(Problem, Option<String>), ProblemError> {
         let model = self.changed(changes)?;
         let scene = self.scaled()?.scene();
@@ -242,9 +239,6 @@ impl Problem {
     }
 
     /// A quantity less what another answer says of it, on a window: how far the two are apart.
-    ///
-    /// # Errors
-    /// As [`Problem::counterpart`].
     pub fn difference_on<'p>(
         &'p self,
         other: impl Into<Against<'p>>,
@@ -265,9 +259,6 @@ impl Problem {
     }
 
     /// A quantity that is known less what another answer says of it, which is not told by arrivals.
-    ///
-    /// # Errors
-    /// As [`Problem::counterpart`].
     pub(super) fn difference_from<'p>(
         &'p self,
         own: Rc<dyn Signal + 'p>,

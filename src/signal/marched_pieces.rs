@@ -47,8 +47,8 @@ impl MarchedPieces {
     /// The pieces of a signal, where it has some.
     pub(crate) fn of(signal: &dyn Signal) -> Option<MarchedPieces> {
         let ([from, to], signal) = (signal.window(), signal.closed_form().ok()?);
-        let slowness = signal.slowness().as_constant()?;
-        let unit = signal.unit().exact()?.as_constant()?;
+        let slowness = signal.slowness.as_constant()?;
+        let unit = signal.unit.exact()?.as_constant()?;
         if from.is_negative() {
             return None;
         }
@@ -75,7 +75,7 @@ impl MarchedPieces {
         }
         // What is added must be known by its numbers, too.
         let numbers = Numbers::new(&[]);
-        let local = signal.recurrence().statement().local.clone();
+        let local = signal.recurrence.statement().local.clone();
         let is_known = |extra: &Extra| {
             let function = Transform::of(&extra.function, &local);
             let known = Transform::<ComplexBall>::embedded(&function, &numbers.field(64)).is_ok();

@@ -80,10 +80,10 @@ impl Taps {
         if !signal.is_on_grid() {
             return Err(NoTaps::NoGrid);
         }
-        let solution = Solution::new(signal.recurrence().clone());
+        let solution = Solution::new(signal.recurrence.clone());
         let recurrence = solution.recurrence();
         let statement = recurrence.statement();
-        let observation = signal.observation();
+        let observation = &signal.observation;
         let mut sum: Option<Taps> = None;
         for seen in &observation.waves {
             let name = || recurrence.wave_name(seen.wave);

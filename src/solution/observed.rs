@@ -149,8 +149,23 @@ impl Solution {
         }
         offsets.sort();
         offsets.dedup();
-        let whole = |value: &Rational| value.floor().to_integer().to_i64();
-        let mut known = BTreeMap::<(WaveIndex, usize), Expression>::new();
+        // The piece of a wave that is seen on a stretch.
+        let order = |n: usize, offset: &Rational, share: &Rational| {
+            let since = (Rational::from_integer(n.into()) + offset - share).floor();
+            since.to_integer().to_i64().and_then(|order| usize::try_from(order).ok())
+        };
+        let mut orders = BTreeMap::<WaveIndex, [usize; 2]>::new();
+        for (seen, share) in observation.waves.iter().zip(&shares) {
+            let ends = [(first, offsets.first()), (last, offsets.last())];
+            let [from, to] = ends.map(|(n, offset)| order(n, offset?, share));
+            let Some(to) = to else { continue };
+            let [least, most] = orders.entry(seen.wave).or_insert([to, to]);
+            (*least, *most) = ((*least).min(from.unwrap_or(0)), (*most).max(to));
+        }
+        let mut known = BTreeMap::new();
+        for (wave, [from, to]) in orders {
+            known.insert(wave, (from, self.pieces(wave, from, to)?));
+        }
         let mut stretches = Vec::new();
         for n in first..=last {
             for (j, offset) in offsets.iter().enumerate() {
@@ -162,20 +177,13 @@ impl Solution {
                 let from = period.scale(&n_and_offset);
                 let mut value = Expression::zero();
                 for (seen, share) in observation.waves.iter().zip(&shares) {
+                    let Some(order) = order(n, offset, share) else { continue };
                     let since = &n_and_offset - share;
-                    let order = whole(&since).and_then(|order| usize::try_from(order).ok());
-                    let Some(order) = order else { continue };
                     let later = period.scale(&(&since - since.floor()));
-                    let piece = match known.get(&(seen.wave, order)) {
-                        Some(piece) => piece.clone(),
-                        None => {
-                            let piece = self.pieces(seen.wave, order, order)?.remove(0);
-                            known.insert((seen.wave, order), piece.clone());
-                            piece
-                        }
-                    };
-                    let piece = if seen.slope { piece.derivative(&statement.local) } else { piece };
-                    let moved = piece.shift(&statement.local, &later);
+                    let (from, pieces) = &known[&seen.wave];
+                    let piece = &pieces[order - from];
+                    let slope = seen.slope.then(|| piece.derivative(&statement.local));
+                    let moved = slope.as_ref().unwrap_or(piece).shift(&statement.local, &later);
                     let moved = moved.map_err(|_| ObserveError::MixedOffsets)?;
                     value.add_scaled(&moved, &seen.coefficient);
                 }

@@ -6,6 +6,7 @@ use wavestep::expression::Fraction;
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
 use wavestep::planner::{Purpose, of_scene};
+use wavestep::problem::{Problem, Values};
 use wavestep::signal::{
     At, Effort, EvaluateError, Goal, Limit, Marched, MethodError, Near, Place, Root, Search,
     Signal, Summation, Summed, Value, value,
@@ -671,4 +672,25 @@ fn work_has_exact_values() {
         let exact = exact.multiply_rational(&rational(9, 1), BITS);
         assert_same(&derivative(&*work, 0, &rational(1, 2)), &exact, 1e-20, rest);
     }
+}
+
+/// Each load of a place counts as it is given, in its work and in what the line takes up.
+#[test]
+fn a_balance_of_several_loads_is_zero() {
+    let text = "scene \"Trapezoid\"\nload up { force = t, until = 1 }\nload flat { force = 1, from = 1, until = 2 }\n\
+        load down { force = 3 - t, from = 2, until = 3 }\nbar rod { impedance = 1, travel = sqrt(2) }\n\
+        support shaft { damping = 1/2 }\nbar tip { impedance = 2, travel = 1 }\nsupport toe { damping = 1, stiffness = 1 }\n\
+        line free - up - flat - down - rod - shaft - tip - toe - free\n\
+        observe balance = work(up) + work(flat) + work(down) - work(shaft) - work(toe) - energy(rod) - energy(tip)\n\
+        observe whole = work(up) + work(flat) + work(down) - work(shaft) - energy(line)\n\
+        observe given = work(up) + work(flat) + work(down)\nobserve taken = work(rod.left)\n";
+    let problem = Problem::of_text("trapezoid.wave", text, &Values::new()).unwrap();
+    let value = |name: &str, at: &str| problem.signal(name).unwrap().at(at, 12).unwrap();
+    for at in ["1/2", "5/2", "7"] {
+        assert_eq!(value("balance", at).to_string(), "0");
+        let off = value("given", at).to_f64() - value("taken", at).to_f64();
+        assert!(off.abs() < 1e-11 * value("given", at).to_f64(), "{at}");
+    }
+    // What the damper of the toe has taken is left out.
+    assert!(value("whole", "7").to_f64() > 0.1);
 }

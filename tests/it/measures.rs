@@ -183,3 +183,47 @@ fn supports_and_loads_move_as_the_places_they_act_at() {
         }
     }
 }
+
+/// Forces on both sides of what has no mass, and velocities of one place, cancel; others do not.
+#[test]
+fn what_is_equal_by_the_laws_of_a_place_cancels() {
+    let parts = [
+        "bar a { impedance = 1, travel = 1, velocity = 1 }",
+        "spring k { stiffness = 1, damping = 2 }",
+        "spring l { stiffness = 3 }",
+        "mass m { mass = 1 }",
+        "support s { damping = 1 }",
+        "bar b { impedance = 2, travel = 1 }",
+    ];
+    let count = |line: &str, observed: &str, rest: &str| {
+        let is_there =
+            |part: &&&str| line.contains(&format!(" {} ", part.split(' ').nth(1).unwrap()));
+        let parts: Vec<&str> = parts.iter().filter(is_there).copied().collect();
+        let parts = parts.join("\n");
+        let text = format!("scene \"Equal\"\n{parts}\nline {line}\nobserve x = {observed}\n{rest}");
+        let MeasuredValue::Linear(terms) = &scaled(&text).measures[0].value else { panic!() };
+        terms.len()
+    };
+    let ends = "force(a.right) - force(b.left)";
+    for (line, observed, rest, terms) in [
+        ("free - a - k - b - free", ends, "", 0),
+        ("free - a - k - l - b - free", ends, "", 0),
+        ("free - a - b - free", ends, "", 0),
+        ("free - a | b - free", ends, "contacts open", 0),
+        ("free - a | k - b - free", "force(k) - force(a.right)", "contacts open", 0),
+        ("free - a - k - b - free", "2*force(a.right) - force(k) - force(b.left)", "", 0),
+        ("free - a - k - l - b - free", "force(k) - force(l)", "", 0),
+        ("free - a - m - b - free", "velocity(a.right) - velocity(b.left)", "", 0),
+        ("free - a - m - b - free", "displacement(a.right) - displacement(m)", "", 0),
+        ("free - a - k - b - free", "force(a.right) + force(b.left)", "", 2),
+        ("free - a - k - m - b - free", ends, "", 2),
+        ("free - a - s - b - free", ends, "", 2),
+        ("free - a - k - m - l - b - free", "force(k) - force(l)", "", 2),
+        ("free - a - k - b - free", "force(a.left) - force(b.right)", "", 0),
+        ("fixed - a - k - b - fixed", "force(a.left) - force(b.right)", "", 2),
+        ("free - a - k - b - free", "velocity(a.right) - velocity(b.left)", "", 2),
+        ("free - a | b - free", "velocity(a.right) - velocity(b.left)", "contacts open", 2),
+    ] {
+        assert_eq!(count(line, observed, rest), terms, "{line}: {observed}");
+    }
+}

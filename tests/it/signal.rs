@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use wavestep::Method;
 use wavestep::language::parse_number;
 use wavestep::network::Network;
-use wavestep::planner::{Origin, Purpose, of_origin, origin};
+use wavestep::planner::{Origin, Purpose, Together, origin};
 use wavestep::problem::Problem;
 use wavestep::scenes::SCENES;
 use wavestep::signal::{At, ClosedSignal, EvaluateError, Limit, Signal as _, digits};
@@ -44,7 +44,9 @@ fn closed_scenes_that_are_followed_have_the_values_of_their_closed_forms() {
             let purpose = Purpose::Values { digits: 20 };
             let [closed, followed] = [Origin::Closed, Origin::Followed].map(|origin| {
                 let window = [&Rational::default(), &last];
-                of_origin(origin, &network, observed, window, purpose).unwrap()
+                Together::new(&network, &[observed], window, purpose)
+                    .of_origin(origin, observed)
+                    .unwrap()
             });
             for i in [1, 38, 79] {
                 let at = &last * Rational::new(i.into(), 80.into());
@@ -85,9 +87,10 @@ fn late_values_of_closed_scenes_are_followed() {
         for purpose in [Purpose::Polynomials, Purpose::Search] {
             assert_eq!(origin(&network, &at, purpose), Origin::Followed, "{name}");
         }
-        let late = of_origin(Origin::Followed, &network, observed, window, few).unwrap();
-        let closed = of_origin(Origin::Closed, &network, observed, window, few).unwrap();
-        let told = [late, closed]
+        let together = [observed];
+        let together = Together::new(&network, &together, window, few);
+        let told = [Origin::Followed, Origin::Closed]
+            .map(|origin| together.of_origin(origin, observed).unwrap())
             .map(|signal| digits(&*signal, &at, Limit::Right, 20, 1 << 12).unwrap().to_text(20));
         assert_eq!(told[0], told[1], "{name}");
     }

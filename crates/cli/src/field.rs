@@ -17,6 +17,10 @@ use wavestep::signal::Limit;
 
 pub fn run(options: &Field) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;
+    if options.at.as_str().contains(',') {
+        let remedy = "ask for one after the other, or draw several with `wavestep plot --at`";
+        return Err(Failure::usage("a field is told at one time", remedy));
+    }
     let time = problem.time("--at", options.at.as_str())?;
     let mut mesh = Mesh::new(options.mesh)?.with_limit(options.side);
     if options.averages {

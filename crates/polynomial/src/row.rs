@@ -8,7 +8,6 @@ use crate::limbs::{natural, negate};
 use num_bigint::{BigInt, Sign};
 use num_traits::ToPrimitive;
 use std::borrow::Borrow;
-use std::fmt;
 
 /// A row of integers `c_0, c_1, …` in one allocation.
 ///
@@ -17,21 +16,21 @@ use std::fmt;
 /// - the highest limb of an entry is not zero; zero has no limbs and no sign.
 ///
 /// Equal rows have one representation.
-#[derive(Clone, PartialEq, Eq, Hash, Default)]
+#[derive(Clone, PartialEq, Eq, Hash, Default, Debug)]
 pub struct IntegerRow {
     limbs: Vec<u64>,
     entries: Vec<Entry>,
 }
 
 /// Where an entry ends among the limbs, and its sign.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 struct Entry {
     end: u32,
     negative: bool,
 }
 
 /// An integer that lies in a row.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct IntegerRef<'a> {
     negative: bool,
     limbs: &'a [u64],
@@ -205,18 +204,6 @@ impl<I: Borrow<BigInt>> FromIterator<I> for IntegerRow {
         let mut row = IntegerRow::default();
         values.into_iter().for_each(|value| row.push_integer(value.borrow()));
         row
-    }
-}
-
-impl fmt::Debug for IntegerRow {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_list().entries(self.iter()).finish()
-    }
-}
-
-impl fmt::Debug for IntegerRef<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(&self.to_integer(), f)
     }
 }
 

@@ -80,9 +80,6 @@ impl Exponential {
     }
 
     /// The sum of the real parts on one cell.
-    ///
-    /// # Errors
-    /// As [`Exponential::total`].
     pub fn total_on(all: &[Exponential], grid: &Grid, cell: usize) -> Outcome<OnCell> {
         let part = |own: &Exponential| {
             let series = Series::of(&scaled(&own.rate, grid.length(cell)))?;

@@ -146,9 +146,6 @@ impl Grid {
     }
 
     /// Without the cut at the end of a cell; none where that is the end of a step, or where a contact opens or closes.
-    ///
-    /// # Errors
-    /// As [`Grid::new`].
     pub fn coarser(&self, cell: usize) -> Option<Outcome<Grid>> {
         let end = self.starts.get(cell % self.cells() + 1)?;
         if self.cuts.contains(end) {

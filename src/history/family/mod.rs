@@ -184,9 +184,6 @@ impl<'a> Over<'a> {
     }
 
     /// A time of the user's in steps: between which numbers it lies.
-    ///
-    /// # Errors
-    /// As [`OverSymbol::root`].
     pub fn in_steps(&self, time: &Fraction, step: &Root) -> Outcome<[Rational; 2]> {
         let steps = self.symbol.root(&Root::from(time).over(step)?)?;
         let [low, high] = steps.range().bounds();
@@ -195,9 +192,6 @@ impl<'a> Over<'a> {
 
     /// The first steps, and what is observed on them in the user's unit. Where contacts open and close, the grid is cut; it may
     /// have cuts already where it is known that contacts close.
-    ///
-    /// # Errors
-    /// [`NotOverSymbol`].
     pub fn follow(&self, grid: &Grid, closings: &[Change], steps: usize) -> Outcome<Followed> {
         let mut plan = Plan { grid: grid.clone(), changes: closings.to_vec() };
         for _ in 0..MOST_CUTS {
@@ -225,9 +219,6 @@ impl<'a> Over<'a> {
     }
 
     /// How long a step is in the scale of the scene.
-    ///
-    /// # Errors
-    /// As [`OverSymbol::root`].
     pub fn length(&self, step: &Root) -> Outcome<Varying> {
         Ok(self.symbol.root(&self.scaled_step(step)?)?)
     }
@@ -243,9 +234,6 @@ impl<'a> Over<'a> {
     }
 
     /// Whether it may be zero for some value of the symbol.
-    ///
-    /// # Errors
-    /// As [`OverSymbol::root`].
     pub fn may_be_zero(&self, value: &Fraction) -> Outcome<bool> {
         Ok(self.symbol.fraction(value)?.range().contains_zero())
     }
@@ -437,9 +425,6 @@ impl Followed {
     }
 
     /// The same where the function of one of the cells is continued to the end.
-    ///
-    /// # Errors
-    /// [`NotOverSymbol::TooManySteps`].
     ///
     /// # Panics
     /// Where it is none of the cells.

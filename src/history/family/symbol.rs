@@ -30,9 +30,6 @@ impl OverSymbol<'_> {
     }
 
     /// The same of a fraction.
-    ///
-    /// # Errors
-    /// As [`OverSymbol::root`].
     pub fn fraction(&self, value: &Fraction) -> Result<Varying, EnclosureError> {
         let mut result = self.polynomial(value.numerator())?;
         for (factor, power) in value.factors() {
@@ -43,9 +40,6 @@ impl OverSymbol<'_> {
     }
 
     /// The real and the imaginary part of a fraction.
-    ///
-    /// # Errors
-    /// As [`OverSymbol::root`].
     pub fn complex(&self, value: &Fraction) -> Result<[Varying; 2], EnclosureError> {
         let i = Symbol::square_root(-1).expect("the imaginary unit");
         if value.factors().any(|(factor, _)| factor.symbols().contains(&i)) {

@@ -71,10 +71,16 @@ impl Arriving {
         if let Some(symbol) = unfolded.recurrence().symbols().next() {
             return Err(EvaluateError::MissingValue(symbol.clone()));
         }
-        let delay = |k| (k, unfolded.delay(k).expect("within the bounds"));
-        let arrivals: Vec<(usize, Fraction)> = unfolded.numbers().map(delay).collect();
-        let near = arrivals.iter().map(|(_, delay)| numbers.enclose(delay, NEAR_BITS));
-        let near = near.collect::<Result<_, _>>()?;
+        let end = numbers.enclose(&latest, NEAR_BITS)?;
+        let (mut arrivals, mut near) = (Vec::new(), Vec::new());
+        for number in unfolded.numbers() {
+            let delay = unfolded.delay(number).expect("within the bounds");
+            let about = numbers.enclose(&delay, NEAR_BITS)?;
+            if about.subtract(&end, NEAR_BITS).sign() != Some(Ordering::Greater) {
+                arrivals.push((number, delay));
+                near.push(about);
+            }
+        }
         Ok(Arriving { arrivals, near, last: last.clone(), unfolded })
     }
 

@@ -48,13 +48,13 @@ const MAX_PRECISIONS: usize = 3;
 /// An observable with numbers in place of all symbols, as a function of the user's time.
 #[derive(Clone)]
 pub struct ClosedForm {
-    pub(super) recurrence: Recurrence,
-    pub(super) observation: Observation,
+    pub recurrence: Recurrence,
+    pub observation: Observation,
     /// What 1 in the scale of the waves is.
-    pub(super) unit: Root,
+    pub(crate) unit: Root,
     /// Time in the scale of the waves for one unit of the user's.
-    pub(super) slowness: Fraction,
-    pub(super) numbers: Rc<Numbers>,
+    pub(crate) slowness: Fraction,
+    pub(crate) numbers: Rc<Numbers>,
     /// The echoes, where arrivals lie on no grid.
     pub(super) lattice: Option<Rc<Arriving>>,
     /// By wave, the arrivals on a grid that are worked out, where others are left out.
@@ -209,31 +209,6 @@ impl ClosedForm {
         }
     }
 
-    /// The recurrence of the waves that are seen.
-    pub fn recurrence(&self) -> &Recurrence {
-        &self.recurrence
-    }
-
-    /// What is seen of them.
-    pub fn observation(&self) -> &Observation {
-        &self.observation
-    }
-
-    /// The numbers of its constants.
-    pub(crate) fn numbers(&self) -> &Numbers {
-        &self.numbers
-    }
-
-    /// What 1 in the scale of the waves is.
-    pub(crate) fn unit(&self) -> &Root {
-        &self.unit
-    }
-
-    /// Time in the scale of the waves for one unit of the user's.
-    pub fn slowness(&self) -> &Fraction {
-        &self.slowness
-    }
-
     /// The length of a period in the user's time, near it; `None` on a lattice.
     pub fn period(&self) -> Option<f64> {
         let period = self.numbers.enclose(&self.recurrence.statement().period, 128).ok()?;
@@ -345,9 +320,6 @@ impl ClosedForm {
 
     /// About how many bytes all waves of a scene take until a time; nothing to speak of where they are few. Foreseen
     /// for waves on one grid alone.
-    ///
-    /// # Errors
-    /// As [`ClosedForm::foresee`].
     pub fn foreseen(network: &Network, to: &Rational) -> Outcome<f64> {
         if network.lattice().periods().len() != 1 {
             return Ok(0.0);
@@ -356,9 +328,6 @@ impl ClosedForm {
     }
 
     /// The waves of a scene, of which nothing is seen.
-    ///
-    /// # Errors
-    /// As [`ClosedForm::of_scene`].
     pub fn of_nothing(network: &Network, to: &Rational) -> Outcome<ClosedForm> {
         let nothing = Observation { waves: Vec::new(), forcing: Expression::zero() };
         ClosedForm::of_scene(network, &nothing, Root::from(Fraction::one()), to)

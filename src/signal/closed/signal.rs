@@ -185,8 +185,8 @@ impl<'a> ClosedSignal<'a> {
         }
         let form = self.form()?;
         let stretches = form.stretches(&Rational::default(), at)?;
-        let at = form.slowness().scale(at);
-        let begins = |stretch: usize| form.numbers().compare(&stretches[stretch].from, &at);
+        let at = form.slowness.scale(at);
+        let begins = |stretch: usize| form.numbers.compare(&stretches[stretch].from, &at);
         let stretch = stretches[last_begun(stretches.len(), side, begins)?].clone();
         let enclose = move |bits| form.enclose(&stretch, 0, &at, bits);
         let negligible = Magnitude::power_of_two(-(SCALE_BITS as i64));
@@ -194,7 +194,7 @@ impl<'a> ClosedSignal<'a> {
     }
 
     fn has_no_forcing(&self) -> bool {
-        self.known_form().observation().forcing.is_zero()
+        self.known_form().observation.forcing.is_zero()
     }
 
     /// Whether echoes are left out, so that stretches tell nothing exact.
@@ -447,7 +447,7 @@ impl Signal for ClosedSignal<'_> {
     }
 
     fn begins(&self, stretch: usize, at: &Fraction) -> Outcome<Ordering> {
-        Ok(self.known_form().numbers().compare(&self.stretch(stretch).from, at)?)
+        Ok(self.known_form().numbers.compare(&self.stretch(stretch).from, at)?)
     }
 
     fn is_instant(&self, stretch: usize) -> bool {
@@ -465,14 +465,14 @@ impl Signal for ClosedSignal<'_> {
 
     fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational> {
         let at = self.scaled(stretch, At::End(end));
-        let slowness = self.known_form().slowness();
+        let slowness = &self.known_form().slowness;
         let own = self.window.iter().rev().find(|time| slowness.scale(time) == *at);
         own.cloned().or_else(|| Some(at.as_constant()? / slowness.as_constant()?))
     }
 
     fn time(&self, stretch: usize, end: Limit, bits: u64) -> Outcome<Ball> {
-        let numbers = self.known_form().numbers();
-        let slowness = numbers.enclose(self.known_form().slowness(), bits)?;
+        let numbers = &self.known_form().numbers;
+        let slowness = numbers.enclose(&self.known_form().slowness, bits)?;
         let inverse = slowness.reciprocal(bits).map_err(EvaluateError::Ball)?;
         let at = self.scaled(stretch, At::End(end));
         Ok(numbers.enclose(&at, bits)?.multiply(&inverse, bits))
@@ -500,7 +500,7 @@ impl Signal for ClosedSignal<'_> {
     ) -> Outcome<(Magnitude, Magnitude)> {
         let (size, error) = self.known_form().size(self.stretch(stretch), order, at, bits)?;
         let slowness =
-            self.known_form().numbers().enclose(self.known_form().slowness(), SCALE_BITS)?;
+            self.known_form().numbers.enclose(&self.known_form().slowness, SCALE_BITS)?;
         let slowness = slowness.magnitude();
         let scaled =
             |value| (0..order).fold(value, |value: Magnitude, _| value.multiply(&slowness));
@@ -551,14 +551,14 @@ impl Signal for ClosedSignal<'_> {
         if count > MAX_ZEROS || self.is_cut() {
             return Ok(false);
         }
-        let field = self.known_form().numbers().field(bits);
+        let field = self.known_form().numbers.field(bits);
         let mut fastest = Magnitude::ZERO;
         for rate in rates.keys() {
             fastest = fastest.max(field.embed(&rate.clone().into())?.imaginary().magnitude());
         }
         // Rates are those of the waves' own time.
         let slowness =
-            self.known_form().numbers().enclose(self.known_form().slowness(), bits)?.magnitude();
+            self.known_form().numbers.enclose(&self.known_form().slowness, bits)?.magnitude();
         let fastest = Rational::from(&fastest.multiply(&slowness));
         let mut length = to - from;
         if fastest > Rational::default() {
@@ -566,7 +566,7 @@ impl Signal for ClosedSignal<'_> {
         }
         for i in 1..=count {
             let share = Rational::new(i.into(), (count + 1).into());
-            let at = self.known_form().slowness().scale(&(from + &length * share));
+            let at = self.known_form().slowness.scale(&(from + &length * share));
             if self.exact_value(&at, Limit::Right)?.as_ref() != Some(value) {
                 return Ok(false);
             }

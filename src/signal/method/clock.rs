@@ -91,9 +91,9 @@ impl DoublePlaces {
 impl Clock {
     /// That of a signal on a grid.
     pub fn of(form: &ClosedForm) -> Clock {
-        let numbers = Numbers::new(form.recurrence().constants());
-        let period = form.recurrence().statement().period.clone();
-        Clock { numbers, slowness: form.slowness().clone(), period }
+        let numbers = Numbers::new(form.recurrence.constants());
+        let period = form.recurrence.statement().period.clone();
+        Clock { numbers, slowness: form.slowness.clone(), period }
     }
 
     /// The period and the place on it of a time that is seen with a delay; `None` before the start.

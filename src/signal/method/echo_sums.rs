@@ -126,11 +126,11 @@ impl EchoSums {
         }
         let clock = Clock::of(signal);
         let numbers = &clock.numbers;
-        let solution = Solution::new(signal.recurrence().clone());
+        let solution = Solution::new(signal.recurrence.clone());
         let recurrence = solution.recurrence();
         let statement = recurrence.statement();
         let mut seen = Vec::new();
-        for wave in &signal.observation().waves {
+        for wave in &signal.observation.waves {
             let template = closed_form(&solution, wave)?;
             let echoes = in_doubles(template, &statement.period, &statement.local, numbers)?;
             let weight = wave.coefficient.as_fraction().ok_or(NoTaps::Forcing)?;
@@ -142,10 +142,10 @@ impl EchoSums {
                 sum: EchoSum::new(echoes, order.max(1))?,
             });
         }
-        let forcing = &signal.observation().forcing;
+        let forcing = &signal.observation.forcing;
         let added = exponential_polynomials(forcing, &statement.time, numbers)?;
-        let unit = numbers.enclose_root(signal.unit(), 128)?;
-        let [high, low, _] = three(numbers, signal.slowness())?;
+        let unit = numbers.enclose_root(&signal.unit, 128)?;
+        let [high, low, _] = three(numbers, &signal.slowness)?;
         let end = |value: &Rational| crate::ball::Ball::from_rational(value, 128).to_double().0;
         let (unit, slowness) = (pair(three_of(unit))?, [high, low]);
         let arrivals = Arrivals::new(clock)?;

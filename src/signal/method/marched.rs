@@ -81,7 +81,7 @@ impl Marched {
         proven: bool,
     ) -> Result<Marched, MethodError> {
         let clock = Clock::of(form);
-        let mut response = Response::new(&taps, form.unit(), &clock.numbers)?;
+        let mut response = Response::new(&taps, &form.unit, &clock.numbers)?;
         let seen = taps.taps.into_iter().map(|tap| Delayed { delay: tap.delay, since: tap.since });
         let seen: Vec<Delayed> = seen.collect();
         let last = clock.last_period(&seen, window[1])?;
@@ -113,8 +113,8 @@ impl Marched {
         (march, seen): (March, Vec<Delayed>),
         functions: Vec<Extra>,
     ) -> Marched {
-        let local = form.recurrence().statement().local.clone();
-        let extras = Extras { functions, local, unit: form.unit().clone() };
+        let local = form.recurrence.statement().local.clone();
+        let extras = Extras { functions, local, unit: form.unit.clone() };
         Marched { clock, seen, march, extras, window: window.map(Clone::clone) }
     }
 

@@ -42,12 +42,12 @@ impl Waves {
     /// The waves of a signal on a grid, and when they are seen.
     pub fn new(signal: &ClosedForm, clock: &Clock) -> Result<(Waves, Vec<Delayed>), MethodError> {
         let numbers = &clock.numbers;
-        let (recurrence, field) = (signal.recurrence(), numbers.field(BITS));
+        let (recurrence, field) = (&signal.recurrence, numbers.field(BITS));
         let statement = recurrence.statement();
-        let unit = ComplexBall::from(numbers.enclose_root(signal.unit(), BITS)?);
+        let unit = ComplexBall::from(numbers.enclose_root(&signal.unit, BITS)?);
         let by_period = field.embed(&clock.period.clone().into())?.reciprocal(BITS)?;
         let mut builder = SystemBuilder::new(recurrence, clock)?;
-        let observation = signal.observation();
+        let observation = &signal.observation;
         let (mut seen, mut delays) = (Vec::new(), Vec::new());
         for wave in &observation.waves {
             let mut weight = field.embed(&wave.coefficient)?.multiply(&unit, BITS);

@@ -36,7 +36,7 @@ pub(super) struct PrintedEchoes {
 impl PrintedEchoes {
     pub(super) fn new(signal: &dyn Signal) -> Result<PrintedEchoes, MethodError> {
         let ([_, to], signal) = (signal.window(), signal.closed_form()?);
-        let numbers = signal.numbers();
+        let numbers = &*signal.numbers;
         let field = numbers.field(BITS);
         let number = |value: &Expression| -> Result<Complex, EvaluateError> {
             let ball = field.embed(value)?;
@@ -59,7 +59,7 @@ impl PrintedEchoes {
             };
         let (echoes, arrivals) = signal.echoes(to, MAX_ECHOES, BITS)?;
         let mut seen = Vec::new();
-        for wave in &signal.observation().waves {
+        for wave in &signal.observation.waves {
             let mut row = Vec::new();
             for (k, delay) in &arrivals {
                 let echo = &echoes[wave.wave][*k];
@@ -76,10 +76,10 @@ impl PrintedEchoes {
             seen.push(Seen { weight, delay, echoes: row });
         }
         let forcing =
-            Transform::of(&signal.observation().forcing, &signal.recurrence().statement().time);
+            Transform::of(&signal.observation.forcing, &signal.recurrence.statement().time);
         let added = function(&Transform::<crate::ball::ComplexBall>::embedded(&forcing, &field)?)?;
-        let unit = numbers.enclose_root(signal.unit(), BITS)?;
-        let slowness = number(&signal.slowness().clone().into())?.0;
+        let unit = numbers.enclose_root(&signal.unit, BITS)?;
+        let slowness = number(&signal.slowness.clone().into())?.0;
         Ok(PrintedEchoes { seen, added, unit: unit.to_double().0, slowness })
     }
 

@@ -2,8 +2,8 @@
 
 use super::{network_of, rational};
 use wavestep::history::History;
-use wavestep::network::Network;
-use wavestep::planner::{Origin, Purpose, cells, of_origin};
+use wavestep::network::{Network, Observed};
+use wavestep::planner::{Origin, Purpose, Together};
 use wavestep::scenes::SCENES;
 use wavestep::signal::{Limit, digits};
 use wavestep_polynomial::Rational;
@@ -37,12 +37,20 @@ fn networks() -> impl Iterator<Item = (&'static str, Network)> {
     })
 }
 
+/// How many cells are worked out where an observable is followed on a window, and how many of them are kept.
+fn cells(network: &Network, observed: &Observed, window: [&Rational; 2]) -> [usize; 2] {
+    let observed = [observed];
+    let together = Together::new(network, &observed, window, Purpose::Stretches);
+    together.cells(observed[0]).unwrap()
+}
+
 /// Just before and just after the end of a window.
 fn told(network: &Network, observable: usize, window: [&Rational; 2]) -> [String; 2] {
     let observed = &network.observables()[observable];
     let count = if network.local_contact().is_some() { 6 } else { 20 };
     let purpose = Purpose::Values { digits: count };
-    let signal = of_origin(Origin::Followed, network, observed, window, purpose);
+    let signal =
+        Together::new(network, &[observed], window, purpose).of_origin(Origin::Followed, observed);
     let signal = signal.unwrap_or_else(|error| panic!("{}: {error}", observed.name));
     [Limit::Left, Limit::Right].map(|limit| {
         let value = digits(&*signal, window[1], limit, count, 1 << 12);
@@ -71,8 +79,7 @@ fn what_is_forgotten_changes_no_digit() {
                 if network.local_contact().is_some() {
                     continue;
                 }
-                let [first, second] =
-                    windows.map(|window| cells(&network, observed, window).unwrap());
+                let [first, second] = windows.map(|window| cells(&network, observed, window));
                 assert_eq!(first[0], second[0], "{name}");
                 forgetful += usize::from(2 * second[1] < first[1]);
             }
@@ -88,7 +95,7 @@ fn few_cells_are_kept_for_late_values() {
     let kept = |name: &str, milliseconds: i64| {
         let observed = network.observables().iter().find(|own| own.name == name).unwrap();
         let at = rational(milliseconds, 1000);
-        cells(&network, observed, [&at, &at]).unwrap()
+        cells(&network, observed, [&at, &at])
     };
     for (name, count) in [("force", 23), ("gauge_output", 23), ("momentum", 34)] {
         assert_eq!([kept(name, 5), kept(name, 20)], [[231, count], [1005, count]], "{name}");
@@ -139,7 +146,7 @@ fn what_has_parted_is_followed_no_longer() {
     };
     let (start, at) = (Rational::default(), rational(40, 1));
     let count = |name: &str, until: &Rational| {
-        cells(&network, &network.observables()[observed(name)], [&start, until]).unwrap()[0]
+        cells(&network, &network.observables()[observed(name)], [&start, until])[0]
     };
     let whole = count("all", &at);
     for name in ["end", "far", "held"] {

@@ -4,7 +4,7 @@
 use crate::history::{ball, is_zero, network_of, rational, values};
 use wavestep::ball::Magnitude;
 use wavestep::history::{EventKind, History};
-use wavestep::planner::{Origin, Purpose, of_origin};
+use wavestep::planner::{Origin, Purpose, Together};
 use wavestep::signal::{At, Limit};
 use wavestep::{Goal, Place, Problem};
 use wavestep_polynomial::Rational;
@@ -117,8 +117,9 @@ fn long_windows_of_light_masses_have_extrema() -> Result<(), wavestep::Error> {
     let network = network_of(text, &[]);
     let [zero, to] = [0, 120].map(|time| rational(time, 1));
     let observed = &network.observables()[0];
-    let signal =
-        of_origin(Origin::Followed, &network, observed, [&zero, &to], Purpose::Search).unwrap();
+    let together = [observed];
+    let together = Together::new(&network, &together, [&zero, &to], Purpose::Search);
+    let signal = together.of_origin(Origin::Followed, observed).unwrap();
     assert!(signal.count().unwrap() > 1000 && signal.ready_bits() > 192);
     let end = signal.enclose(signal.count().unwrap() - 1, 0, At::Time(&to), 64).unwrap();
     assert!(*end.radius() < Magnitude::power_of_two(-90), "{end}");

@@ -55,7 +55,7 @@ const REFUSED: [(&str, &str, &str); 9] = [
         "spring k { stiffness = 1 }\nspring j { stiffness = 1 }\nline free - a - k - j - fixed",
         "a joint without mass moves next to k, and nothing resists it",
     ),
-    ("steps", "#units", "are incommensurable"),
+    ("steps", "#units", "has no common measure with the times before it"),
 ];
 
 #[test]

@@ -5,7 +5,7 @@ use num_traits::{FromPrimitive as _, Signed as _, ToPrimitive as _};
 use wavestep::answer::Accuracy;
 use wavestep::expression::Fraction;
 use wavestep::language::{Source, parse_recurrence, parse_scene, read_expression};
-use wavestep::planner::{Origin, Purpose, has_periods, of_origin};
+use wavestep::planner::{Origin, Purpose, Together, has_periods};
 use wavestep::problem::{Problem, ProblemError};
 use wavestep::signal::{ClosedSignal, Limit, Signal, Value, value};
 use wavestep::{Method, Tolerance};
@@ -249,7 +249,8 @@ fn sources<'a>(problem: &'a Problem, name: &str, window: [&Rational; 2]) -> Vec<
         ],
     };
     let made = |(source, origin, purpose): &(&'static str, _, _)| {
-        let signal = of_origin(*origin, network, observed, window, *purpose);
+        let signal =
+            Together::new(network, &[observed], window, *purpose).of_origin(*origin, observed);
         (*source, signal.map_err(ProblemError::from))
     };
     ways.iter().map(made).collect()

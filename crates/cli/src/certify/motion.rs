@@ -210,11 +210,13 @@ impl<'a> Line<'a> {
             // There terms fall like powers alone.
             terms = terms.max((bits / 3.0) as u32);
         }
-        if bits > MOST_BITS || terms > MOST_TERMS {
-            let message = format!(
-                "a checker would need {bits:.0} bits (limit {MOST_BITS}) and {terms} terms (limit {MOST_TERMS})"
-            );
-            return Err(Failure::usage(message, "ask for fewer digits, or for an earlier time"));
+        if bits > MOST_BITS {
+            let message = format!("a checker would need {bits:.0} bits (limit {MOST_BITS})");
+            return Err(Failure::usage(message, "ask for fewer digits, or end earlier"));
+        }
+        if terms > MOST_TERMS {
+            let message = format!("a checker would need more than {MOST_TERMS} terms");
+            return Err(Failure::usage(message, "end earlier"));
         }
         Ok(Precision { step, terms, bits: bits as u64 })
     }

@@ -121,7 +121,17 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let jump = ask("jump.wave --zero x --to 5/2");
     std::fs::write(folder.join("crossing.wave"), CROSSING).unwrap();
     let arriving = ask("crossing.wave --zero d --to 5/2");
-    let cases: [(&serde_json::Value, Change, &str); 171] = [
+    let cases: [(&serde_json::Value, Change, &str); 172] = [
+        (
+            &jump,
+            |own| {
+                let line = own["line"].as_array_mut().unwrap();
+                line.pop();
+                line.push(json!({ "is": "mass", "name": "m", "mass": one(), "velocity": one() }));
+                line.push(json!({ "is": "fixed" }));
+            },
+            "rigid bodies meet at the start",
+        ),
         (
             &jump,
             |own| {

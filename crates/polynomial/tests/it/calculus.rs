@@ -108,10 +108,13 @@ proptest! {
     #[test]
     fn dense_shifts_are_substitutions(p in univariates(), k in any::<u32>(), first in any::<bool>()) {
         let (x, y) = (symbol("m"), symbol(if first { "a" } else { "z" }));
-        let step = &Polynomial::symbol(&y) * &rational(k.into(), 1);
         let p = p.to_polynomial(&x);
-        let expected = p.substitute(&x, &(&Polynomial::symbol(&x) + &step));
-        prop_assert_eq!(valid(p.shift(&x, &step)), expected);
+        let [own, other] = [&x, &y].map(Polynomial::symbol);
+        for (step, below) in [(&other, 1), (&other, 3), (&own, 1), (&other.pow(2), 1)] {
+            let step = step * &rational(k.into(), below);
+            let expected = p.substitute(&x, &(&own + &step));
+            prop_assert_eq!(valid(p.shift(&x, &step)), expected);
+        }
     }
 
     #[test]

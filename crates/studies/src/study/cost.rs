@@ -101,7 +101,7 @@ pub fn cost_over_order(
 fn numeric(subject: Subject<'_>, period: f64) -> Option<(Recurrence, Observation)> {
     let question = subject.between(0.0, period).ok()?;
     let form = question.signal.closed_form().ok()?;
-    Some((form.recurrence().clone(), form.observation().clone()))
+    Some((form.recurrence.clone(), form.observation.clone()))
 }
 
 /// One way on the period that begins after so many.
