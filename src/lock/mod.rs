@@ -21,6 +21,7 @@ use wavestep_polynomial::Rational;
 
 pub use difference::Difference;
 pub use error::LockError;
+pub use pieces::Derivable;
 
 /// The highest precision of a value.
 const LIMIT_BITS: u64 = 1 << 18;

@@ -31,18 +31,29 @@ pub(super) struct Piece {
     pub expression: Expression,
 }
 
+/// What pieces and values are derived from.
+#[derive(Clone, Copy)]
+pub enum Derivable<'a> {
+    /// Equations between periods.
+    Equations(&'a Solution),
+    /// A scene, with its solution where it has periods, and not a lattice of them.
+    Scene(&'a Network, Option<&'a Solution>),
+}
+
 impl Lock {
     /// Derives the pieces of all waves on the periods from 0 through `through`, on a lattice the echoes that are
     /// known to come first within so many periods together, and values: of all waves and
-    /// observables; of the observables alone where a scene has units, constants or no periods. There is a scene, or a
-    /// solution, or both; on a lattice there is a scene alone.
+    /// observables; of the observables alone where a scene has units, constants or no periods.
     pub fn of_pieces(
-        network: Option<&Network>,
-        solution: Option<&Solution>,
+        from: Derivable<'_>,
         through: Option<usize>,
         request: &Request,
     ) -> Result<Lock, LockError> {
         let request = request.in_order()?;
+        let solution = match from {
+            Derivable::Equations(solution) => Some(solution),
+            Derivable::Scene(_, solution) => solution,
+        };
         let mut all = BTreeMap::new();
         if let (Some(solution), Some(through)) = (solution, through) {
             let statement = solution.recurrence().statement();
@@ -53,7 +64,7 @@ impl Lock {
                 }
             }
         }
-        if let (Some(network), None, Some(through)) = (network, solution, through) {
+        if let (Derivable::Scene(network, None), Some(through)) = (from, through) {
             let waves: Vec<WaveIndex> = (0..network.waves().len()).collect();
             let found = arrivals(network, &waves, through, usize::MAX)?;
             for Arrival { wave, counts, echo, .. } in found.expect("of any length") {
@@ -61,21 +72,20 @@ impl Lock {
                 all.insert((network.waves()[wave].name.clone(), counts), piece);
             }
         }
-        let is_scaled = |network: &Network, solution: &Solution| {
-            network.scene().dimensional || !solution.recurrence().constants().is_empty()
-        };
-        let values = match (network, solution) {
-            (Some(network), None) => of_observables(network, &request)?,
-            (Some(network), Some(solution)) if is_scaled(network, solution) => {
-                of_observables(network, &request)?
+        let values = match from {
+            Derivable::Equations(solution) => of_solution(solution, &request)?,
+            Derivable::Scene(network, Some(solution))
+                if !network.scene().dimensional && solution.recurrence().constants().is_empty() =>
+            {
+                of_solution(solution, &request)?
             }
-            (_, Some(solution)) => of_solution(solution, &request)?,
-            (None, None) => BTreeMap::new(),
+            Derivable::Scene(network, _) => of_observables(network, &request)?,
         };
-        let stated = match (network, solution) {
-            (_, Some(solution)) => of_recurrence(solution.recurrence().statement()),
-            (Some(network), None) => of_lattice(network),
-            (None, None) => BTreeMap::new(),
+        let stated = match from {
+            Derivable::Scene(network, None) => of_lattice(network),
+            Derivable::Equations(solution) | Derivable::Scene(_, Some(solution)) => {
+                of_recurrence(solution.recurrence().statement())
+            }
         };
         let contents = Contents::Pieces(Pieces { through, all });
         Ok(Lock { stated, request, contents, values })

@@ -176,16 +176,16 @@ impl<'a> Table<'a> {
                 }),
             );
         }
-        // What is one by the laws of a place adds up.
-        let places: Vec<_> = sum.iter().map(|term: &Term| self.place(&term.of)).collect();
-        let total = |place| {
-            let own = sum.iter().zip(&places).filter(|(_, other)| **other == place);
-            own.fold(Fraction::zero(), |total, (term, _)| &total + &term.coefficient)
+        // What is the same by the laws of a node adds up, perhaps to nothing.
+        let known: Vec<_> = sum.iter().map(|term: &Term| self.same(&term.of)).collect();
+        let cancels = |own: &Option<_>| {
+            let total = sum.iter().zip(&known).filter(|(_, other)| *other == own);
+            own.is_some()
+                && total.fold(Fraction::zero(), |sum, (term, _)| &sum + &term.coefficient).is_zero()
         };
-        let counts: Vec<bool> =
-            places.iter().map(|place| place.is_none() || !total(*place).is_zero()).collect();
-        let mut counts = counts.into_iter();
-        sum.retain(|_| counts.next().expect("one for each term"));
+        let cancels: Vec<bool> = known.iter().map(cancels).collect();
+        let sum: Vec<Term> =
+            sum.into_iter().zip(cancels).filter(|own| !own.1).map(|own| own.0).collect();
         let (unit, dimension) = first.unwrap_or((Fraction::one().into(), Dimension::NONE));
         let loads = sum.iter().map(|term: &Term| match &term.of {
             Reading::InBar(field, section) => loads_alone(self.scene, self.layout, *field, section),
@@ -229,38 +229,36 @@ impl<'a> Table<'a> {
         Ok((terms.map_err(refused)?, unit))
     }
 
-    /// Where a reading is the same as others by the laws of its node: what is read, the node, and of velocities the run, of
+    /// By what a reading is the same as others by the laws of its node: what is read, the node, and of velocities the run, of
     /// forces the first of the links from which no mass, support or load parts it.
-    fn place(&self, reading: &Reading) -> Option<(Field, usize, usize)> {
+    fn same(&self, reading: &Reading) -> Option<(Field, usize, usize)> {
         let of_run = |field, node, run| (!self.scene.contacts_open).then_some((field, node, run));
         let of_lump = |field, face: &Face| {
             let node = face.lump().node;
             of_run(field, node, self.layout.nodes[node].run_beside(*face))
         };
-        let (place, link) = match reading {
+        let (node, link) = match reading {
             Reading::InBar(field, section) => {
                 let side = section.end(Fraction::is_zero)?;
-                let place = self.layout.ends[section.bar][side]?;
+                let node = self.layout.ends[section.bar][side]?;
                 // The left end of a bar is at the right side of its node.
-                let run = self.layout.nodes[place].side_runs()[1 - side];
+                let run = self.layout.nodes[node].side_runs()[1 - side];
                 match field {
-                    Field::Force => (place, run + 1 - side),
-                    _ => return of_run(*field, place, run),
+                    Field::Force => (node, run + 1 - side),
+                    _ => return of_run(*field, node, run),
                 }
             }
             Reading::Velocity(face) => return of_lump(Field::Velocity, face),
             Reading::Displacement(face) => return of_lump(Field::Displacement, face),
             Reading::Force(Lump { node, place }) => {
-                let node_of = &self.layout.nodes[*node];
-                let own = &node_of.elements[*place];
+                let own = &self.layout.nodes[*node].elements[*place];
                 (*node, own.law.is_link().then_some(own.run + 1)?)
             }
             _ => return None,
         };
-        let node = &self.layout.nodes[place];
-        let is_bare = |run: &usize| node.attached(*run).next().is_none();
+        let is_bare = |run: &usize| self.layout.nodes[node].attached(*run).next().is_none();
         let bare = (0..link).rev().take_while(is_bare).count();
-        Some((Field::Force, place, link - bare))
+        Some((Field::Force, node, link - bare))
     }
 
     fn in_bar(&self, measure: Measure, section: Section) -> Result<Vec<Term>, Mistake> {

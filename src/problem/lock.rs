@@ -2,7 +2,7 @@
 
 use super::bounds::{refuse_echoes, refuse_pieces};
 use super::{Kind, LockRefusal, Problem, ProblemError};
-use crate::lock::{Difference, Extent, Lock, Request};
+use crate::lock::{Derivable, Difference, Extent, Lock, Request};
 use wavestep_polynomial::Rational;
 
 /// The results to lock.
@@ -60,13 +60,17 @@ impl Problem {
             if let Some(through) = through {
                 refuse_echoes(network, network.waves().len(), through)?;
             }
-            return Ok(Lock::of_pieces(Some(network), None, through, request)?);
+            return Ok(Lock::of_pieces(Derivable::Scene(network, None), through, request)?);
         }
         let solution = self.solution()?;
         if let Some(through) = through {
             refuse_pieces(solution.recurrence(), through)?;
         }
-        Ok(Lock::of_pieces(network, Some(solution), through, request)?)
+        let from = match network {
+            Some(network) => Derivable::Scene(network, Some(solution)),
+            None => Derivable::Equations(solution),
+        };
+        Ok(Lock::of_pieces(from, through, request)?)
     }
 
     fn events_to_lock(

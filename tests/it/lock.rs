@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use proptest::prelude::*;
 use wavestep::language::{Source, parse_number, read_recurrence};
 use wavestep::limits::MAX_LOCK_BYTES;
-use wavestep::lock::{Extent, Lock, Request};
+use wavestep::lock::{Derivable, Extent, Lock, Request};
 use wavestep::scenes::{self, SCENES};
 use wavestep::solution::Solution;
 
@@ -20,7 +20,7 @@ fn solution(text: &str, (_, request): &Asked) -> Solution {
 }
 
 fn derived(text: &str, asked: &Asked) -> Lock {
-    Lock::of_pieces(None, Some(&solution(text, asked)), Some(asked.0), &asked.1)
+    Lock::of_pieces(Derivable::Equations(&solution(text, asked)), Some(asked.0), &asked.1)
         .unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -6,7 +6,7 @@
 use num_traits::Signed;
 use wavestep::Problem;
 use wavestep::language::{Source, parse_number, read_recurrence};
-use wavestep::lock::{Lock, Request};
+use wavestep::lock::{Derivable, Lock, Request};
 use wavestep::signal::{Goal, Limit, Place, Root, Search, Signal, Value, of_recurrence, value};
 use wavestep::solution::Solution;
 use wavestep_polynomial::Rational;
@@ -169,7 +169,7 @@ fn products_are_locked_by_value_and_not_derived() {
     assert!(refused.contains("energy contains products of waves"), "{refused}");
     let rigid = solution(RIGID);
     let request = Request { times: vec![number("5/2")], digits: 20, ..Request::default() };
-    let lock = Lock::of_pieces(None, Some(&rigid), None, &request).unwrap().to_text();
+    let lock = Lock::of_pieces(Derivable::Equations(&rigid), None, &request).unwrap().to_text();
     for line in [
         "stated observable energy = 1/2*(f(t) + g(t))*(f(t) + g(t))\n",
         "stated observable mixed = 1/3*f(t)*g(t - 1) - 2*f(t)*f(t) + 1/2*g(t) + 1 - exp(-t)\n",

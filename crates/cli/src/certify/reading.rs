@@ -37,7 +37,8 @@ pub struct Read<'a> {
     /// Whether a force at the end of a bar or in a damper is read: beside an open contact it is zero because its parts cancel,
     /// which a checker cannot tell.
     is_beside_contact: bool,
-    is_beside_local: bool,
+    /// Whether a local contact is in the line: a checker's cells are short beside it, and need no other cuts.
+    pub is_beside_local: bool,
     /// Whether it never jumps, so that a checker goes on across an arrival at which it is zero.
     is_continuous: bool,
     document: Map<String, Json>,
@@ -119,11 +120,6 @@ impl<'a> Read<'a> {
         }))
     }
 
-    /// Whether a local contact is in the line: a checker's cells are short beside it, and need no other cuts.
-    pub fn is_beside_local(&self) -> bool {
-        self.is_beside_local
-    }
-
     fn claiming(mut self, kind: &str, claims: Json) -> Map<String, Json> {
         let Json::Object(claims) = claims else { unreachable!("claims have names") };
         self.document.insert("kind".into(), json!(kind));
@@ -182,42 +178,14 @@ impl<'a> Read<'a> {
         mut times: Vec<BigRational>,
     ) -> Result<Map<String, Json>, Failure> {
         let (mut zeros, mut rests) = (Vec::new(), Vec::new());
-        let bits = SPARE_BITS + 4 * self.digits as u64;
-        let value = |time: &BigRational| -> Result<Ball, Failure> {
-            let stretch = signal.stretch_at(time, Limit::Right)?;
-            Ok(signal.enclose(stretch.expect("it is in the window"), 0, At::Time(time), bits)?)
-        };
-        let mut begins: Vec<BigRational> = Vec::new();
-        for stretch in 0..signal.count()? {
-            begins.push(signal.time(stretch, Limit::Right, bits)?.midpoint().into());
-        }
-        let [_, last] = signal.window();
-        // Beside a local contact a checker's first cell has one order: it tells what begins like t from zero, nothing flatter.
+        let sides = Sides::of(signal, self.digits)?;
         let refuse_flat = |rest: &Value| {
-            let [low, high] = around(rest, self.digits);
-            let later =
-                |times: u32| &low + (&high - &low) * BigRational::from_integer(times.into());
-            let [once, twice] = [1 << 10, 1 << 11].map(later);
-            if !self.is_beside_local || twice >= *last {
+            if !self.is_beside_local || sides.is_steep_after(&around(rest, self.digits))? {
                 return Ok(());
             }
-            let thrice =
-                value(&once)?.multiply_rational(&BigRational::from_integer(3.into()), bits);
-            match [thrice.sign(), thrice.subtract(&value(&twice)?, bits).sign()] {
-                [Some(sign), Some(more)] if sign == more => Ok(()),
-                _ => {
-                    let message = "beside a local contact there are no certificates of zeros of what begins flat";
-                    Err(Failure::usage(message, "certify the zeros of its compression"))
-                }
-            }
-        };
-        // What never jumps, and has another sign after an arrival than before, goes through zero there.
-        let is_passed = |[low, high]: &[BigRational; 2]| -> Result<bool, Failure> {
-            let is_between = begins.iter().skip(1).any(|begin| low <= begin && begin <= high);
-            let signs = || Ok::<_, Failure>([value(low)?.sign(), value(high)?.sign()]);
-            Ok(!is_between
-                || self.is_continuous
-                    && matches!(signs()?, [Some(before), Some(after)] if before == after.reverse() && before.is_ne()))
+            let message =
+                "beside a local contact there are no certificates of zeros of what begins flat";
+            Err(Failure::usage(message, "certify the zeros of its compression"))
         };
         let told = |window: &[BigRational; 2]| {
             Ok::<_, Failure>(written(self.in_units(window)?, self.digits + SPARE_DIGITS))
@@ -252,7 +220,7 @@ impl<'a> Read<'a> {
                         _ => place(root, self.digits)?,
                     };
                     let Some(window) = &window else { continue };
-                    if !is_passed(window)? {
+                    if sides.has_arrival(window) && !(self.is_continuous && sides.differ(window)?) {
                         return Err(undecided("the sign where a wave arrives"));
                     }
                     times.retain(|time| *time <= window[0] || window[1] <= *time);
@@ -299,6 +267,55 @@ impl<'a> Read<'a> {
             })
         };
         times.iter().map(near).collect()
+    }
+}
+
+/// What is read on both sides of a time.
+struct Sides<'a> {
+    signal: &'a dyn Signal,
+    bits: u64,
+    /// When its stretches begin, about, but for the first.
+    arrivals: Vec<BigRational>,
+}
+
+impl<'a> Sides<'a> {
+    fn of(signal: &'a dyn Signal, digits: usize) -> Result<Sides<'a>, Failure> {
+        let bits = SPARE_BITS + 4 * digits as u64;
+        let time = |stretch| Ok(signal.time(stretch, Limit::Right, bits)?.midpoint().into());
+        let arrivals = (1..signal.count()?).map(time).collect::<Result<_, Failure>>()?;
+        Ok(Sides { signal, bits, arrivals })
+    }
+
+    fn value(&self, time: &BigRational) -> Result<Ball, Failure> {
+        let stretch = self.signal.stretch_at(time, Limit::Right)?;
+        let stretch = stretch.expect("it is in the window");
+        Ok(self.signal.enclose(stretch, 0, At::Time(time), self.bits)?)
+    }
+
+    fn has_arrival(&self, [low, high]: &[BigRational; 2]) -> bool {
+        self.arrivals.iter().any(|time| low <= time && time <= high)
+    }
+
+    /// Whether the signs at both ends differ: what never jumps goes through zero there.
+    fn differ(&self, [low, high]: &[BigRational; 2]) -> Result<bool, Failure> {
+        let signs = [self.value(low)?.sign(), self.value(high)?.sign()];
+        Ok(
+            matches!(signs, [Some(before), Some(after)] if before.is_ne() && after == before.reverse()),
+        )
+    }
+
+    /// Whether it begins like t at a time between two, and not flatter, or ends there: twice as late it is less than three times
+    /// as large. A checker's first cell beside a local contact has one order, and tells no more from zero.
+    fn is_steep_after(&self, [low, high]: &[BigRational; 2]) -> Result<bool, Failure> {
+        let integer = |number: u32| BigRational::from_integer(number.into());
+        let later = |widths: u32| low + (high - low) * integer(widths);
+        let [once, twice] = [1 << 10, 1 << 11].map(later);
+        if twice >= *self.signal.window()[1] {
+            return Ok(true);
+        }
+        let thrice = self.value(&once)?.multiply_rational(&integer(3), self.bits);
+        let more = thrice.subtract(&self.value(&twice)?, self.bits).sign();
+        Ok(more.is_some() && more == thrice.sign())
     }
 }
 

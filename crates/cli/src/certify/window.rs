@@ -80,7 +80,7 @@ pub fn certificate(
                 let alone = alone.roots(&BigRational::default(), digits, SEARCH_BITS)?;
                 refuse_equal(&found.all, &alone.all)?;
             }
-            if !read.is_beside_local() {
+            if !read.is_beside_local {
                 cover.run_nearly()?;
             }
             let times = cover.cells.into_iter().map(|cell| cell.to).collect();

@@ -4,7 +4,7 @@ use super::{ROOT, folder, run};
 use std::fs;
 use std::path::Path;
 use wavestep::language::{Source, read_recurrence};
-use wavestep::lock::{Lock, Request};
+use wavestep::lock::{Derivable, Lock, Request};
 use wavestep::scenes;
 use wavestep::solution::Solution;
 
@@ -33,7 +33,8 @@ fn the_command_locks_and_checks() {
     let (_, out, _) = run(&folder, &["lock", "two-bars", "--through", "2"]);
     let source = Source::new("two-bars", scene("two-bars")).unwrap();
     let solution = Solution::new(read_recurrence(&source, &Default::default()).unwrap());
-    let lock = Lock::of_pieces(None, Some(&solution), Some(2), &Request::default()).unwrap();
+    let lock =
+        Lock::of_pieces(Derivable::Equations(&solution), Some(2), &Request::default()).unwrap();
     assert_eq!(out, lock.to_text());
     let before = fs::read_to_string(folder.join("my.lock")).expect("a file");
     let (code, _, err) =

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use wavestep::language::{
     Diagnostic, Source, parse_listing, parse_number, parse_recurrence, read_recurrence, read_scene,
 };
-use wavestep::lock::{Lock, Request};
+use wavestep::lock::{Derivable, Lock, Request};
 use wavestep::scenes;
 use wavestep::solution::Solution;
 use wavestep_cli::diagnostic::{Style, render};
@@ -204,7 +204,8 @@ fn damaged_files_are_explained() {
     let times = vec![BigRational::from_integer(1.into())];
     let request = Request { times, ..Request::default() };
     let solution = Solution::new(recurrence);
-    let good = Lock::of_pieces(None, Some(&solution), Some(1), &request).unwrap().to_text();
+    let good =
+        Lock::of_pieces(Derivable::Equations(&solution), Some(1), &request).unwrap().to_text();
     let cases = [
         ("heading", good.replace("# wavestep lock 1", "# my notes")),
         ("version", good.replace("lock 1", "lock 3")),
