@@ -11,7 +11,8 @@ from math import comb, factorial, isqrt
 from exact import MINUS, ROOTS, Ball, accumulate, add, alike, coefficients, frozen, is_zero, put, rational, read, read_function, thawed
 from exact import slope as derivative
 from reading import Undecided, decided, need
-from series import ONE, PRECISION, ZERO, Duration, Number, ball, begins, dot, interval, is_positive, power, shifted, slope, total, value
+from series import ONE, PRECISION, ZERO, Duration, Number, ball, begins, dot, interval, is_positive, power, shifted, slope, total
+from series import value, weighted
 
 KEYS = {kind: {"is"} for kind in ("free", "fixed", "endless", "contact")}
 KEYS |= {kind: {"is", "name", "stiffness", "damping"} for kind in ("spring", "support")}
@@ -340,15 +341,17 @@ class System:
 
     def forces(self, known):
         """The forces on each run, of one order of the series."""
-        sum_of = lambda parts: total(known[key] if way == 1 else known[key].times(way) for key, way in parts)
-        return [dot((factor, sum_of(parts), 1) for factor, parts in row) for row in self.rows]
+        sum_of = lambda parts: weighted([(known[key], way) for key, way in parts])
+        return [dot([(factor, sum_of(parts), 1) for factor, parts in row]) for row in self.rows]
 
     def inverted(self):
         """The inverse of the matrix of velocities that follow from the balance of forces alone."""
-        size, columns = len(self.free), []
+        size, columns, shares = len(self.free), [], []
         for g in self.free:
-            one = [total(c.times(way) for c, parts in row for key, way in parts if key == ("v", g)) for row in self.rows]
+            one = [weighted((c, way) for c, parts in row for key, way in parts if key == ("v", g)) for row in self.rows]
             columns.append([total(one[r] for r in self.members[own]) for own in self.free])
+            shares.append(one)
+        self.shares = [*map(sparse, zip(*shares))]  # of the velocities in the force on each run
         rows = [[columns[c][r] for c in range(size)] + [ONE if c == r else ZERO for c in range(size)] for r in range(size)]
         for c in range(size):
             pivot = next((r for r in range(c, size) if rows[r][c].sign()), None)
@@ -359,7 +362,7 @@ class System:
                 share = rows[r][c]
                 if r != c and not share.is_zero():
                     rows[r] = [a - share * b for a, b in zip(rows[r], rows[c])]
-        return [row[size:] for row in rows]
+        return [sparse(row[size:]) for row in rows]
 
     def solve(self, start, incoming, loads, step, orders):
         """All orders of velocities, compressions, displacements, gaps and forces, from those of order 0."""
@@ -377,8 +380,9 @@ class System:
             forces = self.forces(known)
             if self.free:
                 open_ = [total(forces[r] for r in self.members[g]) for g in self.free]
-                v |= {g: -dot((a, b, 1) for a, b in zip(row, open_)) for g, row in zip(self.free, self.inverse)}
-                forces = self.forces(known | {("v", g): v[g] for g in self.free})
+                speeds = [dot([(c, open_[n], -1) for n, c in row]) for row in self.inverse]
+                v |= zip(self.free, speeds)
+                forces = [force + dot([(c, speeds[n], 1) for n, c in row]) for force, row in zip(forces, self.shares)]
             pushed = {g: total(forces[r] for r in self.members[g]) / self.mass[g] for g in groups if self.moved[g]}
             share = step / (k + 1)
             later = lambda rate: rate.times(share)
@@ -753,6 +757,11 @@ class Motion:
         for i in sorted(self.closed):
             if self.open[i]["idle"] is not None:
                 self.events.append(("release", i, self.open[i]["idle"]))
+
+
+def sparse(row):
+    """What is not zero in a row, with its place."""
+    return [(n, own) for n, own in enumerate(row) if not own.is_zero()]
 
 
 def rounded(number):

@@ -7,6 +7,7 @@ c_N x^N, by Lagrange's remainder.
 
 from fractions import Fraction
 from math import comb, gcd
+from operator import mul
 
 from exact import rational
 from reading import decided, need
@@ -183,11 +184,19 @@ class Duration:
 
 
 def total(numbers):
-    result = ZERO
-    for own in numbers:
-        if not own.is_zero():
-            result = result + own
-    return result
+    return weighted((own, 1) for own in numbers)
+
+
+def weighted(terms):
+    """A sum of numbers, each times an integer."""
+    sum_, mid, off = ZERO, 0, 0
+    for own, count in terms:
+        if not own.below:
+            mid += own.top * count
+            off += own.off * abs(count)
+        elif own.top:
+            sum_ = sum_ + (own if count == 1 else own.times(count))
+    return sum_ + ball(mid, off) if mid or off else sum_
 
 
 def shifted(series, x, reach=ONE):
@@ -201,11 +210,20 @@ def shifted(series, x, reach=ONE):
         small = lambda k: Fraction(1, 1 << tiny * k)
         there = shifted([own.times(small(k)) for k, own in enumerate(series)], x.times(1 / small(1)))
         return [own.times(1 / small(k)) for k, own in enumerate(there)]
-    powers = [ONE]
-    for _ in range(some[-1]):
+    last, powers = some[-1], [ONE]
+    for _ in range(last):
         powers.append(powers[-1] * x)
-    part = lambda k: dot((series[j], powers[j - k], comb(j, k)) for j in some if j >= k)
-    return [part(k) if k <= some[-1] else ZERO for k in range(count)]
+    # From the last ball on all is exact about an exact place, else the last order alone.
+    exact = max((j for j in some if not series[j].below), default=-1) + 1 if x.below else last + (not series[last].below)
+    known = [dot((series[j], powers[j - k], comb(j, k)) for j in some if j >= k) for k in range(exact, last + 1)]
+    (a, i), (b, h) = (zip(*(own.units() for own in numbers)) for numbers in (series[: last + 1], powers))
+    size, wide = list(map(abs, a)), [abs(own) + off for own, off in zip(b, h)]
+    balls, bits = [], PRECISION["bits"]
+    for k in range(exact):
+        counts = [comb(j, k) for j in range(k, last + 1)]
+        of = lambda left, right: sum(map(mul, map(mul, left[k:], counts), right))
+        balls.append(ball(of(a, b) >> bits, (of(i, wide) + of(size, h) >> bits) + 2))
+    return balls + known + [ZERO] * (count - 1 - last)
 
 
 def squared(series, reach=ONE):

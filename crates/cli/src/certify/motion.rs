@@ -21,6 +21,7 @@ use wavestep_polynomial::Symbol;
 
 /// Bits and digits beyond those asked for: errors grow from event to event.
 const SPARE_BITS: f64 = 96.0;
+const LEAST_SPARE_BITS: f64 = 24.0;
 const SPARE_DIGITS: usize = 6;
 
 /// The least digits of the time of an event: its interval is within a step.
@@ -198,16 +199,19 @@ impl<'a> Line<'a> {
         }
         let two = BigRational::from_integer(2.into());
         let step = two.pow(exponent as i32);
-        // Errors may grow as exp(rate t); n!/2^n is beyond the last bit.
+        // What is left out grows at most as exp(rate t), what is rounded some more from step to step. n!/2^n is beyond both
+        // beside a local contact, where terms fall like powers alone, else beyond the first.
         let bits = SPARE_BITS + 4.0 * digits as f64 + 2.0 * rate * to;
+        let is_local = self.network.local_contact().is_some();
+        let left_out = LEAST_SPARE_BITS + 3.4 * digits as f64 + 1.5 * rate * to;
+        let wanted = if is_local { bits } else { left_out };
         let (mut terms, mut factorial) = (4_u32, 0.0);
-        while factorial < bits && terms <= MOST_TERMS {
+        while factorial < wanted && terms <= MOST_TERMS {
             terms += 1;
             factorial += f64::from(terms).log2() - 1.0;
         }
         terms += power;
-        if self.network.local_contact().is_some() {
-            // There terms fall like powers alone.
+        if is_local {
             terms = terms.max((bits / 3.0) as u32);
         }
         if bits > MOST_BITS {
