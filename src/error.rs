@@ -402,6 +402,9 @@ fn remedy_of_evaluate(error: &EvaluateError) -> &'static str {
         EvaluateError::TooMuchMemory { .. } => {
             "choose an earlier time, raise --memory, or use doubles by the method marched"
         }
+        EvaluateError::TooManyEchoes { .. } => {
+            "choose an earlier time; fewer waves arrive where travel times are multiples of one of them"
+        }
         EvaluateError::AccuracyNotReached { .. } => OTHER_DIGITS,
         EvaluateError::InstantsUndecided { .. } => "choose a time slightly earlier or later",
         _ => "choose an earlier time",

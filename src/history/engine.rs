@@ -442,7 +442,7 @@ impl Engine {
     }
 
     fn follow_all(&mut self, until: &Moment) -> Outcome<()> {
-        let (mut looked, end) = (0.0, self.clock.about(until));
+        let (mut looked, end) = (Vec::new(), self.clock.about(until));
         self.whole = self.whole.max(end);
         while let Some((node, now)) = self.behind() {
             if self.clock.compare(now, until)? == Ordering::Greater {
@@ -451,9 +451,10 @@ impl Engine {
             pause();
             let passed = self.states[node].about / end;
             tell_done(self.states[node].about / self.whole, "of the window");
-            if passed > OFTEN * looked {
-                looked = passed;
+            if looked.last().is_none_or(|(last, _)| passed > OFTEN * last) {
+                looked.push((passed, self.count as f64));
                 self.foresee_memory(node, until)?;
+                self.foresee_growth(node, &looked)?;
             }
             self.advance(node)?;
         }

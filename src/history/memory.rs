@@ -14,7 +14,7 @@ use crate::network::{Network, Observed, Reading, Side};
 use std::cell::RefCell;
 use wavestep_polynomial::Rational;
 
-/// Memory is foreseen from this share of it on.
+/// Memory and cells are foreseen from this share of the most on.
 const TELLING: f64 = 1.0 / 16.0;
 
 /// What short cells take is known to this factor at best.
@@ -181,6 +181,20 @@ impl Engine {
         match gone.is_some_and(|cells| cells <= enough) {
             true => Ok(()),
             false => Err(self.too_many_cells(node)?),
+        }
+    }
+
+    /// Refuses what will take far too many cells, once there are many: where travel times have no common measure, ever more waves
+    /// arrive. Of shares of the window, and how many cells there were, the number grows on as it did since half the time.
+    pub fn foresee_growth(&self, node: usize, looked: &[(f64, f64)]) -> Outcome<()> {
+        let most = MAX_HISTORY_CELLS as f64;
+        let Some(&(now, count)) = looked.last() else { return Ok(()) };
+        let before = looked.iter().rev().find(|(share, _)| 2.0 * share <= now);
+        let Some(&(half, fewer)) = before.filter(|_| count > most * TELLING) else { return Ok(()) };
+        let power = (count / fewer).ln() / (now / half).ln();
+        match count * now.recip().powf(power) > MUCH_MORE as f64 * most {
+            true => Err(self.too_many_cells(node)?),
+            false => Ok(()),
         }
     }
 

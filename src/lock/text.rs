@@ -40,6 +40,7 @@ use wavestep_polynomial::Rational;
 const PIECES: u32 = 1;
 const EVENTS: u32 = 2;
 
+const TWICE: &str = "it stands there twice: remove one of the two";
 const HEADING: &str = "# wavestep lock ";
 
 /// One line of a file with its place.
@@ -139,17 +140,22 @@ impl Lock {
         };
         let (stated, values) = (BTreeMap::new(), Values::new());
         let mut lock = Lock { stated, request: Request::default(), contents, values };
-        let mut said = None;
+        let (mut said, mut has_digits) = (None, false);
         // The listing of pieces is read with everything else blanked out, so that places stay the same.
         let mut listing = source.text().to_owned().into_bytes();
         for line in &lines {
             let is_setting = match line.text.split_once(' ') {
                 _ if line.text.is_empty() || line.text.starts_with('#') => true,
+                Some(("holds", _)) if said.is_some() => return Err(line.refused(TWICE)),
+                Some(("digits", _)) if has_digits => return Err(line.refused(TWICE)),
                 Some(("holds", rest)) => {
                     said = Some((rest.trim(), *line));
                     true
                 }
-                Some((word, rest)) => lock.read_line(*line, word, rest)?,
+                Some((word, rest)) => {
+                    has_digits |= word == "digits";
+                    lock.read_line(*line, word, rest)?
+                }
                 None => false,
             };
             match (is_setting, &lock.contents) {
@@ -218,7 +224,7 @@ impl Lock {
         };
         match is_new {
             true => Ok(true),
-            false => Err(line.refused("it stands there twice: remove one of the two")),
+            false => Err(line.refused(TWICE)),
         }
     }
 }

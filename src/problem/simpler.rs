@@ -207,7 +207,7 @@ impl Problem {
             return Ok((model, None));
         }
         // A name that is taken means something else.
-        if self.source.text().contains("omega") {
+        if ["omega", "ω"].iter().any(|name| self.source.text().contains(name)) {
             return Ok((model, None));
         }
         let Some(square) = scene.square_of_rate() else { return Ok((model, None)) };

@@ -269,6 +269,11 @@ pub trait Signal {
         false
     }
 
+    /// Which way it goes, where it is known that it never goes the other way.
+    fn trend(&self) -> Option<Ordering> {
+        None
+    }
+
     /// Whether the function is known to be zero on a stretch.
     fn is_zero(&self, stretch: usize) -> bool;
 

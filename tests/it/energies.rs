@@ -216,6 +216,59 @@ fn extrema_are_those_of_dense_samples() {
 }
 
 /// Digits far beyond those of a search, where contacts open.
+/// What a line loses in dampers alone never comes back: it holds most at the start and least at the end, without a search; with a
+/// load, or of one element, it does not.
+#[test]
+fn what_only_flows_out_is_largest_at_the_start() {
+    let text = |load: &str, before: &str| {
+        format!(
+            "scene \"Damped\"\nmass hammer {{ mass = 3/2, velocity = 1 }}\nbar rod {{ impedance = 1, travel = 1 }}\n\
+             spring pad {{ stiffness = 2, damping = 1/3 }}\nmass anvil {{ mass = 2 }}\n\
+             support soil {{ stiffness = 1, damping = 1/5 }}\n{load}\
+             line free - {before}hammer - rod - pad - anvil - soil - free\n\
+             observe all = energy(line)\nobserve lost = -energy(line)\nobserve held = energy(anvil)\n\
+             observe mixed = energy(line) + work(rod.right)\n"
+        )
+    };
+    let end = rational(9, 1);
+    let passive = network(&text("", ""));
+    let pushed = network(&text("load push { force = sin(t) }\n", "push - "));
+    for (network, name, first) in [
+        (&passive, "all", Some(Goal::Largest)),
+        (&passive, "lost", Some(Goal::Smallest)),
+        (&passive, "held", None),
+        (&passive, "mixed", None),
+        (&pushed, "all", None),
+    ] {
+        let observed = network.observables().iter().find(|own| own.name == name).unwrap();
+        let window = [&Rational::default(), &end];
+        let signal = of_scene(network, observed, window, Purpose::Search).unwrap();
+        assert_eq!(signal.trend().is_some(), first.is_some(), "{name}");
+        let at = |tenths| value(&*signal, &rational(tenths, 10), Limit::Right, 30, 1 << 12);
+        let samples: Vec<f64> = (0..=90).map(|tenths| at(tenths).unwrap().to_f64()).collect();
+        let search = Search::new(&*signal).unwrap();
+        for goal in [Goal::Largest, Goal::Smallest] {
+            let found = search.extremum(goal, 12, 1 << 12).unwrap();
+            let best = match goal {
+                Goal::Largest => samples.iter().copied().fold(f64::MIN, f64::max),
+                Goal::Smallest => samples.iter().copied().fold(f64::MAX, f64::min),
+            };
+            let off = (found.value.to_f64() - best).abs();
+            assert!(off < if first.is_some() { 1e-9 } else { 0.02 }, "{name} {goal:?}: {best}");
+            // Nothing is lost before the wave comes to the pad.
+            let exact = |time| Value::Exact(rational(time, 1));
+            let place = match first {
+                Some(first) if first == goal => {
+                    Place::Plateau { from: exact(0), to: exact(1), closed: true }
+                }
+                Some(_) => Place::End(exact(9)),
+                None => continue,
+            };
+            assert_eq!(found.places, [place], "{name} {goal:?}");
+        }
+    }
+}
+
 #[test]
 fn energies_have_many_digits() {
     let network = open();

@@ -388,6 +388,13 @@ fn formulas_of_a_third_hold_the_rate_by_name() {
     let (own, exact) =
         (doubles(&near, "strain_fixed", &[0.7])[0], doubles(&third, "strain_fixed", &[0.7])[0]);
     assert!((own - exact).abs() < 1e-7, "{own} {exact}");
+    // Where the scene has that name, in either spelling, the rate has none.
+    for name in ["omega", "ω"] {
+        let text = format!("{}\nsymbol {name} > 0\n", rod.source().text());
+        let named = Problem::read("named.wave", text).unwrap();
+        let (_, told) = named.model(&[Change::Spring(None, None)]).unwrap();
+        assert_eq!(told, None, "{name}");
+    }
 }
 
 /// A vibration as a signal is the sum of its modes, with its derivatives.

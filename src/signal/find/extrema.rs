@@ -287,7 +287,13 @@ impl<'s> Search<'s> {
         let (mut left, mut moving) = (Vec::new(), Vec::new());
         let left_over = RefCell::default();
         let contenders = Contenders { search: self, goal, limit_bits, least, left: left_over };
-        for stretch in 0..self.count {
+        // What never goes towards the extremum has it at the start, and what never goes the other way at the end.
+        let trend = self.function.trend().filter(|_| self.function.is_continuous());
+        let mut stretches: Vec<usize> = (0..self.count).collect();
+        if trend == Some(goal.lesser().reverse()) {
+            stretches.reverse();
+        }
+        for stretch in stretches {
             let instant = self.function.is_instant(stretch);
             if !instant && self.is_constant(stretch)? {
                 left.push(Candidate::Plateau { stretch, side: Limit::Right });
@@ -299,6 +305,9 @@ impl<'s> Search<'s> {
             }
             if !instant {
                 left.push(Candidate::Limit { stretch, side: Limit::Left });
+                if trend.is_some() {
+                    break;
+                }
                 moving.push(stretch);
             }
         }

@@ -18,11 +18,12 @@ const STILL_BITS: u64 = 192;
 
 /// # Invariants
 /// - both have the window of the result; `flow` is the derivative of `of` with respect to the time of the
-///   scene.
+///   scene, and never has the sign that is opposite to `trend`.
 pub(crate) struct Balanced<'a> {
     scale: Rc<Scale<'a>>,
     of: Box<dyn Signal + 'a>,
     flow: Box<dyn Signal + 'a>,
+    trend: Option<Ordering>,
     /// The stretches of the flow with which those of the quantity begin: all but the last instant, and those
     /// on which nothing flows as before.
     kept: OnceCell<Vec<usize>>,
@@ -33,8 +34,9 @@ impl<'a> Balanced<'a> {
         scale: &Rc<Scale<'a>>,
         of: Box<dyn Signal + 'a>,
         flow: Box<dyn Signal + 'a>,
+        trend: Option<Ordering>,
     ) -> Balanced<'a> {
-        Balanced { scale: Rc::clone(scale), of, flow, kept: OnceCell::new() }
+        Balanced { scale: Rc::clone(scale), of, flow, trend, kept: OnceCell::new() }
     }
 
     fn slowness(&self, bits: u64) -> Outcome<Ball> {
@@ -138,6 +140,10 @@ impl Rule for Balanced<'_> {
 
     fn is_continuous(&self) -> bool {
         true
+    }
+
+    fn trend(&self) -> Option<Ordering> {
+        self.trend
     }
 
     fn is_zero(&self, places: &[usize]) -> bool {

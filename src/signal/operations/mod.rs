@@ -67,7 +67,7 @@ pub(crate) struct Scale<'a> {
     clock: &'a Symbol,
     assumptions: &'a Assumptions,
     constants: &'a [Named],
-    numbers: Numbers,
+    pub(crate) numbers: Numbers,
     /// Lengths of time in the user's, by bits: breaks are asked for again and again.
     times: RefCell<HashMap<u64, HashMap<Fraction, Ball>>>,
 }
@@ -295,6 +295,11 @@ pub(crate) trait Rule {
     /// As [`Signal::is_continuous`].
     fn is_continuous(&self) -> bool {
         false
+    }
+
+    /// As [`Signal::trend`].
+    fn trend(&self) -> Option<Ordering> {
+        None
     }
 
     fn is_zero(&self, places: &[usize]) -> bool;
@@ -575,6 +580,10 @@ impl<R: Rule> Signal for Operation<'_, R> {
     fn is_instant(&self, stretch: usize) -> bool {
         let Step { begins, places, .. } = self.step(stretch);
         places.get(*begins).is_some_and(|place| self.rule.is_instant(*begins, *place))
+    }
+
+    fn trend(&self) -> Option<Ordering> {
+        self.rule.trend()
     }
 
     fn is_continuous(&self) -> bool {

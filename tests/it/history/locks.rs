@@ -198,6 +198,8 @@ fn damaged_files_are_refused() {
         ("digits 20", "through 3", "remove it, or lock again"),
         ("ending = parted", "ending parted", "write it as `ending = parted`"),
         ("ending = parted", "ending = parted\nending = parted", "stands there twice"),
+        ("digits ", "digits 9\ndigits ", "stands there twice"),
+        ("holds ", "holds nothing\nholds ", "stands there twice"),
         ("ending = parted", "", "does not say how the events end"),
         ("event 2 kind = opening", "event 2 kind = leap", "this line cannot be read"),
         ("event 2 kind = opening", "event two kind = opening", "write a whole number"),
