@@ -257,7 +257,7 @@ impl<'p> Choice<'p, '_> {
         (times, limit, values): (&[Rational], Limit, &[f64]),
     ) -> Result<(), WayError> {
         let certified = Way::new(Method::Certified, self.whole, None)?;
-        let stride = times.len().div_ceil(COMPARED);
+        let stride = times.len().div_ceil(COMPARED).max(1);
         let (mut worst, mut error) = (0, 0.0);
         let mut scale = 0.0_f64;
         for i in (0..times.len()).step_by(stride) {

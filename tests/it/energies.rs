@@ -269,6 +269,29 @@ fn what_only_flows_out_is_largest_at_the_start() {
     }
 }
 
+/// What can only rise, and does no more once all is at rest, is as large from then on: that is not left out where nothing proves that
+/// it is constant.
+#[test]
+fn what_comes_to_rest_is_largest_until_the_end() {
+    let network = network(
+        "scene \"Comes to rest\"\nbar rod { impedance = 1, travel = 1 }\n\
+         load push { force = exp(-t), until = 3 }\nsupport toe { damping = 1 }\n\
+         line free - push - rod - toe - free\nobserve lost = work(push) - energy(line)\n",
+    );
+    let window = [&Rational::default(), &rational(8, 1)];
+    let signal = of_scene(&network, &network.observables()[0], window, Purpose::Search).unwrap();
+    assert_eq!(signal.trend(), Some(std::cmp::Ordering::Greater));
+    let found = Search::new(&*signal).unwrap().extremum(Goal::Largest, 12, 1 << 12).unwrap();
+    let holds = |time: Rational| {
+        found.places.iter().any(|place| match place {
+            Place::Undecided { from, to } => *from <= time && time <= *to,
+            Place::Plateau { from, to, .. } => from.bounds()[0] <= time && time <= to.bounds()[1],
+            _ => false,
+        })
+    };
+    assert!(holds(rational(41, 10)) && holds(rational(79, 10)), "{:?}", found.places);
+}
+
 #[test]
 fn energies_have_many_digits() {
     let network = open();

@@ -14,7 +14,7 @@ use wavestep::answer::Accuracy;
 use wavestep::problem::{Digits, Problem, Undecided};
 use wavestep::signal::Value;
 
-/// Says where a contact that stays closed would pull before the last of some times.
+/// Values at times, with as many digits as asked or by one method.
 pub fn run(options: &Eval) -> Result<String, Failure> {
     input::digits(options.digits)?;
     let mut problem = input::problem(&options.scene)?;

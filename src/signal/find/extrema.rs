@@ -305,7 +305,7 @@ impl<'s> Search<'s> {
             }
             if !instant {
                 left.push(Candidate::Limit { stretch, side: Limit::Left });
-                if trend.is_some() {
+                if trend.is_some() && self.changes(stretch, limit_bits)? {
                     break;
                 }
                 moving.push(stretch);
@@ -328,6 +328,20 @@ impl<'s> Search<'s> {
         }
         contenders.left.replace(left);
         Ok(contenders)
+    }
+
+    /// Whether the values at the ends of a stretch are told apart.
+    fn changes(&self, stretch: usize, limit_bits: u64) -> Outcome<bool> {
+        let zero = Rational::default();
+        let target = Target { order: 0, level: &zero, limit_bits };
+        for bits in comparisons().iter() {
+            let end = |side| self.enclose(stretch, target, At::End(side), bits + SPARE_BITS);
+            let change = end(Limit::Left)?.subtract(&end(Limit::Right)?, bits);
+            if change.sign().is_some_and(Ordering::is_ne) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     fn critical_points(

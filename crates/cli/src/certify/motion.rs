@@ -13,7 +13,7 @@ use wavestep::ball::{Bound, Decimal, Number};
 use wavestep::enclosure::Numbers;
 use wavestep::expression::{Expression, Fraction, PI, Root};
 use wavestep::history::{Event, EventKind};
-use wavestep::network::{Contacts, ElementLaw, Layout, Lumped, Network, Node};
+use wavestep::network::{Contacts, ElementLaw, Layout, Lumped, Network, Node, Side};
 use wavestep::problem::{Problem, ProblemError, constants_of};
 use wavestep::scene::Drive;
 use wavestep::signal::EvaluateError;
@@ -199,12 +199,12 @@ impl<'a> Line<'a> {
         }
         let two = BigRational::from_integer(2.into());
         let step = two.pow(exponent as i32);
-        // What is left out grows at most as exp(rate t), what is rounded some more from step to step. n!/2^n is beyond both
-        // beside a local contact, where terms fall like powers alone, else beyond the first.
-        let bits = SPARE_BITS + 4.0 * digits as f64 + 2.0 * rate * to;
+        // Balls may grow as exp(rate t), and with each passage. n!/2^n is beyond what is left out; beside a local contact, where
+        // terms fall like powers alone, it is beyond all.
+        let wanted = 3.4 * digits as f64 + 1.5 * rate * to + to * self.bits_of_passages();
+        let bits = SPARE_BITS + wanted;
         let is_local = self.network.local_contact().is_some();
-        let left_out = LEAST_SPARE_BITS + 3.4 * digits as f64 + 1.5 * rate * to;
-        let wanted = if is_local { bits } else { left_out };
+        let wanted = if is_local { bits } else { LEAST_SPARE_BITS + wanted };
         let (mut terms, mut factorial) = (4_u32, 0.0);
         while factorial < wanted && terms <= MOST_TERMS {
             terms += 1;
@@ -236,6 +236,41 @@ impl<'a> Line<'a> {
 
     fn travels(&self) -> impl Iterator<Item = &Fraction> {
         self.network.model().bars.values().filter_map(|bar| bar.travel.as_ref())
+    }
+
+    /// About how many bits of a wave a unit of time costs: the sums of its passages through nodes, there and back along the bar where
+    /// these cost the most.
+    fn bits_of_passages(&self) -> f64 {
+        let bars = self.layout.bars.iter().zip(&self.layout.ends);
+        let bits = bars.filter_map(|(bar, ends)| {
+            let travel = self.size(self.network.model().bars[bar].travel.as_ref()?);
+            let [left, right] =
+                ends.map(|node| Some(self.passage(&self.layout.nodes[node?], travel)));
+            Some((left? + right?) / (2.0 * travel))
+        });
+        bits.fold(0.0, f64::max)
+    }
+
+    /// How many bits a wave loses where it is reflected: none at a wall. What leaves is the velocity less what arrives, two balls: of
+    /// what has no mass up to three times as wide, of a mass in the measure in which it follows in a travel time.
+    fn passage(&self, node: &Node<Fraction>, travel: f64) -> f64 {
+        let is_bare = node.elements.is_empty() && node.links.is_empty();
+        if is_bare && [node.left, node.right].contains(&Side::Fixed) {
+            return 0.0;
+        }
+        let mass = node.elements.iter().fold(0.0, |sum, own| match &own.law {
+            ElementLaw::Mass { mass, .. } => sum + self.size(mass),
+            _ => sum,
+        });
+        let most = 3.0_f64;
+        if mass == 0.0 || !node.links.is_empty() {
+            return most.log2();
+        }
+        // The larger eigenvalue of what balls of the velocity and of the wave become.
+        let grown =
+            (node.impedance.iter().map(|own| self.size(own)).sum::<f64>() * travel / mass).exp();
+        let half = (3.0 * grown - 1.0) / 2.0;
+        (half + (half * half - grown).sqrt()).min(most).log2()
     }
 
     /// About how fast anything at a node changes: impedances and dampers over the least mass, stiffness over what damps it,

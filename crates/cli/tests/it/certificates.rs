@@ -209,7 +209,7 @@ const MORE_ZEROS: [&str; 11] = [
 ];
 
 /// The same later, between jumps, with more digits.
-const MORE_READINGS: [&str; 8] = [
+const MORE_READINGS: [&str; 9] = [
     "incommensurate --quantity contact_force --at 200us",
     "hopkinson --quantity force --at 1ms --digits 30",
     "hopkinson --quantity compression --at 200us",
@@ -218,7 +218,12 @@ const MORE_READINGS: [&str; 8] = [
     "saint-venant --set mu=1/4 --quantity strain_fixed --at 17/4",
     "bars-of-unequal-length --quantity right --at 11/2",
     "pi.wave --quantity v --at 1",
+    "long.wave --quantity f --at 90 --digits 5",
 ];
+
+/// A heavy mass on a short bar: balls grow with each of many passages.
+const LONG: &str = "scene \"Long\"\nmass a { mass = 3, velocity = 1 }\nbar r { impedance = 1, travel = 1/4 }\n\
+    line free - a - r - fixed\nobserve f = force(r.right)\n";
 
 /// The same with units, a load, a release that ends, several contacts; longer windows.
 const MORE_EVENTS: [&str; 11] = [
@@ -403,6 +408,7 @@ fn motions_of_shipped_scenes_are_verified() {
     std::fs::write(folder.join("nice.wave"), NICE).unwrap();
     std::fs::write(folder.join("blow.wave"), BLOW).unwrap();
     std::fs::write(folder.join("gaps.wave"), GAPS).unwrap();
+    std::fs::write(folder.join("long.wave"), LONG).unwrap();
     std::fs::write(folder.join("crossing.wave"), CROSSING).unwrap();
     // A longer pile of another wave speed, and a load that ends later.
     let slow = BLOW.replace("10 m", "11 m").replace("density = 7850", "density = 8000");
