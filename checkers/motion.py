@@ -11,8 +11,24 @@ from math import comb, factorial, isqrt
 from exact import MINUS, ROOTS, Ball, accumulate, add, alike, coefficients, frozen, is_zero, put, rational, read, read_function, thawed
 from exact import slope as derivative
 from reading import Undecided, decided, need
-from series import ONE, PRECISION, ZERO, Duration, Number, ball, begins, dot, interval, is_positive, power, shifted, slope, total
-from series import value, weighted
+from series import (
+    ONE,
+    PRECISION,
+    ZERO,
+    Duration,
+    Number,
+    ball,
+    begins,
+    dot,
+    interval,
+    is_positive,
+    power,
+    shifted,
+    slope,
+    total,
+    value,
+    weighted,
+)
 
 KEYS = {kind: {"is"} for kind in ("free", "fixed", "endless", "contact")}
 KEYS |= {kind: {"is", "name", "stiffness", "damping"} for kind in ("spring", "support")}
@@ -288,7 +304,7 @@ class System:
         self.free = [g for g in range(self.count) if not self.fixed[g] and not self.moved[g] and not self.endless[g]]
         self.mover = [next((r for r in own if line.masses[r].sign()), own[0]) for own in self.members]
         self.rows = self.balances()
-        self.inverse = self.inverted()
+        self.inverse, self.shares = self.inverted()
 
     def is_loose(self, i, rigid):
         """Whether one end of a spring touches open contacts only."""
@@ -345,13 +361,13 @@ class System:
         return [dot([(factor, sum_of(parts), 1) for factor, parts in row]) for row in self.rows]
 
     def inverted(self):
-        """The inverse of the matrix of velocities that follow from the balance of forces alone."""
+        """The inverse of the matrix of velocities that follow from the balance of forces alone, and by how much each of these changes
+        the force on each run."""
         size, columns, shares = len(self.free), [], []
         for g in self.free:
             one = [weighted((c, way) for c, parts in row for key, way in parts if key == ("v", g)) for row in self.rows]
             columns.append([total(one[r] for r in self.members[own]) for own in self.free])
             shares.append(one)
-        self.shares = [*map(sparse, zip(*shares))]  # of the velocities in the force on each run
         rows = [[columns[c][r] for c in range(size)] + [ONE if c == r else ZERO for c in range(size)] for r in range(size)]
         for c in range(size):
             pivot = next((r for r in range(c, size) if rows[r][c].sign()), None)
@@ -362,7 +378,7 @@ class System:
                 share = rows[r][c]
                 if r != c and not share.is_zero():
                     rows[r] = [a - share * b for a, b in zip(rows[r], rows[c])]
-        return [sparse(row[size:]) for row in rows]
+        return [sparse(row[size:]) for row in rows], [sparse(row) for row in zip(*shares)]
 
     def solve(self, start, incoming, loads, step, orders):
         """All orders of velocities, compressions, displacements, gaps and forces, from those of order 0."""
@@ -760,7 +776,7 @@ class Motion:
 
 
 def sparse(row):
-    """What is not zero in a row, with its place."""
+    """The entries of a row that are not zero, each with its place."""
     return [(n, own) for n, own in enumerate(row) if not own.is_zero()]
 
 

@@ -213,13 +213,13 @@ def shifted(series, x, reach=ONE):
     last, powers = some[-1], [ONE]
     for _ in range(last):
         powers.append(powers[-1] * x)
-    # From the last ball on all is exact about an exact place, else the last order alone.
-    exact = max((j for j in some if not series[j].below), default=-1) + 1 if x.below else last + (not series[last].below)
-    known = [dot((series[j], powers[j - k], comb(j, k)) for j in some if j >= k) for k in range(exact, last + 1)]
+    # Orders from this one on are exact: those above the last ball if the place is exact, else at most the last.
+    blurred = max((j for j in some if not series[j].below), default=-1) + 1 if x.below else last + (not series[last].below)
+    known = [dot((series[j], powers[j - k], comb(j, k)) for j in some if j >= k) for k in range(blurred, last + 1)]
     (a, i), (b, h) = (zip(*(own.units() for own in numbers)) for numbers in (series[: last + 1], powers))
     size, wide = list(map(abs, a)), [abs(own) + off for own, off in zip(b, h)]
     balls, bits = [], PRECISION["bits"]
-    for k in range(exact):
+    for k in range(blurred):
         counts = [comb(j, k) for j in range(k, last + 1)]
         of = lambda left, right: sum(map(mul, map(mul, left[k:], counts), right))
         balls.append(ball(of(a, b) >> bits, (of(i, wide) + of(size, h) >> bits) + 2))

@@ -403,7 +403,7 @@ fn remedy_of_evaluate(error: &EvaluateError) -> &'static str {
             "choose an earlier time, raise --memory, or use doubles by the method marched"
         }
         EvaluateError::TooManyEchoes { .. } => {
-            "choose an earlier time; fewer waves arrive where travel times are multiples of one of them"
+            "choose an earlier time; if travel times have no common measure, round them so that they do: fewer echoes arrive"
         }
         EvaluateError::AccuracyNotReached { .. } => OTHER_DIGITS,
         EvaluateError::InstantsUndecided { .. } => "choose a time slightly earlier or later",

@@ -39,7 +39,7 @@ const MAX_CHANGES: usize = 16;
 const SPARE_BITS: i64 = 48;
 const LEAST_BITS: u64 = 96;
 
-/// Memory is foreseen each time that so many times as much of a window has passed.
+/// Memory and cells are foreseen each time a window has grown by this factor.
 const OFTEN: f64 = 1.125;
 
 /// After each so many cells it is asked how long they will be as short as fast motions need.
@@ -452,7 +452,7 @@ impl Engine {
             let passed = self.states[node].about / end;
             tell_done(self.states[node].about / self.whole, "of the window");
             if looked.last().is_none_or(|(last, _)| passed > OFTEN * last) {
-                looked.push((passed, self.count as f64));
+                looked.push((passed, self.count));
                 self.foresee_memory(node, until)?;
                 self.foresee_growth(node, &looked)?;
             }

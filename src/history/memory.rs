@@ -14,7 +14,7 @@ use crate::network::{Network, Observed, Reading, Side};
 use std::cell::RefCell;
 use wavestep_polynomial::Rational;
 
-/// Memory and cells are foreseen from this share of the most on.
+/// Memory and cells are foreseen once this share of the limit is used.
 const TELLING: f64 = 1.0 / 16.0;
 
 /// What short cells take is known to this factor at best.
@@ -184,15 +184,27 @@ impl Engine {
         }
     }
 
-    /// Refuses what will take far too many cells, once there are many: where travel times have no common measure, ever more waves
-    /// arrive. Of shares of the window, and how many cells there were, the number grows on as it did since half the time.
-    pub fn foresee_growth(&self, node: usize, looked: &[(f64, f64)]) -> Outcome<()> {
+    /// Refuses a window that will take far too many cells, once there are many: without a common measure of travel times ever more
+    /// echoes arrive. `looked` has shares of the window with the number of cells until then; that is assumed to grow on by the power of
+    /// time that it had for some while.
+    pub fn foresee_growth(&self, node: usize, looked: &[(f64, usize)]) -> Outcome<()> {
         let most = MAX_HISTORY_CELLS as f64;
-        let Some(&(now, count)) = looked.last() else { return Ok(()) };
-        let before = looked.iter().rev().find(|(share, _)| 2.0 * share <= now);
-        let Some(&(half, fewer)) = before.filter(|_| count > most * TELLING) else { return Ok(()) };
-        let power = (count / fewer).ln() / (now / half).ln();
-        match count * now.recip().powf(power) > MUCH_MORE as f64 * most {
+        let until = |share: f64| {
+            let (share, count) = looked.iter().rev().find(|(own, _)| *own <= share)?;
+            (*share > 0.0).then_some((*share, *count as f64))
+        };
+        let Some(now) = until(1.0).filter(|(_, count)| *count > most * TELLING) else {
+            return Ok(());
+        };
+        let (Some(half), Some(quarter)) = (until(now.0 / 2.0), until(now.0 / 4.0)) else {
+            return Ok(());
+        };
+        let power = |(early, few): (f64, f64), (late, many): (f64, f64)| {
+            (many / few).ln() / (late / early).ln()
+        };
+        // What only begins late, and dies out, has none before.
+        let power = power(half, now).min(power(quarter, half));
+        match now.1 * now.0.recip().powf(power) > MUCH_MORE as f64 * most {
             true => Err(self.too_many_cells(node)?),
             false => Ok(()),
         }

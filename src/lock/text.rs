@@ -32,7 +32,7 @@ use crate::lock::events::{Events, Facts};
 use crate::lock::pieces::{ECHO, Piece, Pieces, name};
 use crate::lock::{Contents, Lock, Request, Values};
 use num_traits::Signed as _;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use wavestep_polynomial::Rational;
 
@@ -140,22 +140,20 @@ impl Lock {
         };
         let (stated, values) = (BTreeMap::new(), Values::new());
         let mut lock = Lock { stated, request: Request::default(), contents, values };
-        let (mut said, mut has_digits) = (None, false);
+        let (mut said, mut once) = (None, BTreeSet::new());
         // The listing of pieces is read with everything else blanked out, so that places stay the same.
         let mut listing = source.text().to_owned().into_bytes();
         for line in &lines {
             let is_setting = match line.text.split_once(' ') {
                 _ if line.text.is_empty() || line.text.starts_with('#') => true,
-                Some(("holds", _)) if said.is_some() => return Err(line.refused(TWICE)),
-                Some(("digits", _)) if has_digits => return Err(line.refused(TWICE)),
+                Some((word @ ("digits" | "holds"), _)) if !once.insert(word) => {
+                    return Err(line.refused(TWICE));
+                }
                 Some(("holds", rest)) => {
                     said = Some((rest.trim(), *line));
                     true
                 }
-                Some((word, rest)) => {
-                    has_digits |= word == "digits";
-                    lock.read_line(*line, word, rest)?
-                }
+                Some((word, rest)) => lock.read_line(*line, word, rest)?,
                 None => false,
             };
             match (is_setting, &lock.contents) {

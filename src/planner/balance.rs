@@ -10,7 +10,7 @@ use crate::signal::{Balanced, Constant, Operation, Scale, Signal};
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
-/// The precision at which a coefficient without a sign counts as unknown.
+/// Bits with which the sign of a coefficient is looked for.
 const SIGN_BITS: u64 = 128;
 
 /// An energy or a momentum on a window of the user's time; one value where nothing flows in.
@@ -38,43 +38,37 @@ pub(super) fn of_sources<'a>(
     Ok(Box::new(Operation::new(&scale, rule, unit, window)))
 }
 
-/// The sign that a flow has wherever it is not zero: that of squares which outweigh the products of different readings, as what
-/// dampers take up, `−c (v₁ − v₂)²`. `|2 v₁ v₂| ≤ v₁² + v₂²`.
+/// The sign that a flow has wherever it is not zero, if that is known: products of two readings, of which the squares outweigh the
+/// rest, by `2 |v₁ v₂| ≤ v₁² + v₂²`. What a damper takes up, `−c (v₁ − v₂)²`, is one.
 fn trend(numbers: &Numbers, flow: &[FlowTerm]) -> Option<Ordering> {
+    let signs = [Ordering::Less, Ordering::Greater];
+    signs.into_iter().find(|sign| has_sign(numbers, flow, *sign) == Some(true))
+}
+
+fn has_sign(numbers: &Numbers, flow: &[FlowTerm], wanted: Ordering) -> Option<bool> {
     let sign = |value: &Fraction| match value.is_zero() {
         true => Some(Ordering::Equal),
         false => numbers.enclose(value, SIGN_BITS).ok()?.sign(),
     };
-    let (mut trend, mut weights) = (None, Vec::<(&Reading, Fraction)>::new());
-    let squares = flow.iter().filter_map(|term| match &term.factors[..] {
-        [(one, _), (other, _)] if one == other => Some(&term.coefficient),
-        _ => None,
-    });
-    for coefficient in squares {
-        let own = sign(coefficient)?;
-        if *trend.get_or_insert(own) != own {
-            return None;
-        }
-    }
-    let trend = trend?;
-    let mut weigh =
-        |reading, share: &Fraction| match weights.iter_mut().find(|(own, _)| *own == reading) {
-            Some((_, weight)) => *weight = &*weight + share,
-            None => weights.push((reading, share.clone())),
-        };
+    // Of each reading twice what its square counts, less what its products may count against it.
+    let mut weights: Vec<(&Reading, Fraction)> = Vec::new();
     for FlowTerm { coefficient, factors, acts, course } in flow {
         let ([(one, _), (other, _)], None, None) = (&factors[..], acts, course) else {
             return None;
         };
-        // Half of a product counts for each square, and a square of one reading twice for it.
-        let against = match one != other && sign(coefficient)? == trend {
+        let share = match one != other && sign(coefficient)? == wanted {
             true => -coefficient,
             false => coefficient.clone(),
         };
-        [one, other].into_iter().for_each(|reading| weigh(reading, &against));
+        for reading in [one, other] {
+            match weights.iter_mut().find(|(own, _)| *own == reading) {
+                Some((_, weight)) => *weight = &*weight + &share,
+                None => weights.push((reading, share.clone())),
+            }
+        }
     }
     let outweighs = |(_, weight): &(&Reading, Fraction)| {
-        sign(weight).is_some_and(|own| own.is_eq() || own == trend)
+        sign(weight).is_some_and(|own| own.is_eq() || own == wanted)
     };
-    weights.iter().all(outweighs).then_some(trend)
+    Some(weights.iter().all(outweighs))
 }

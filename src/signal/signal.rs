@@ -269,7 +269,7 @@ pub trait Signal {
         false
     }
 
-    /// Which way it goes, where it is known that it never goes the other way.
+    /// The sign that the slope of a continuous function has wherever it is not zero, if that is known.
     fn trend(&self) -> Option<Ordering> {
         None
     }

@@ -215,9 +215,8 @@ fn extrema_are_those_of_dense_samples() {
     }
 }
 
-/// Digits far beyond those of a search, where contacts open.
-/// What a line loses in dampers alone never comes back: it holds most at the start and least at the end, without a search; with a
-/// load, or of one element, it does not.
+/// Energy lost in dampers never comes back: a line has most at the start and least at the end, and no search is needed. Under a load,
+/// of one element, or with work, this does not hold.
 #[test]
 fn what_only_flows_out_is_largest_at_the_start() {
     let text = |load: &str, before: &str| {
@@ -269,8 +268,7 @@ fn what_only_flows_out_is_largest_at_the_start() {
     }
 }
 
-/// What can only rise, and does no more once all is at rest, is as large from then on: that is not left out where nothing proves that
-/// it is constant.
+/// What is lost stays largest once all is at rest, and the rest is listed even where nothing proves it constant.
 #[test]
 fn what_comes_to_rest_is_largest_until_the_end() {
     let network = network(
@@ -292,6 +290,7 @@ fn what_comes_to_rest_is_largest_until_the_end() {
     assert!(holds(rational(41, 10)) && holds(rational(79, 10)), "{:?}", found.places);
 }
 
+/// Digits far beyond those of a search, where contacts open.
 #[test]
 fn energies_have_many_digits() {
     let network = open();

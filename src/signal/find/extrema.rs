@@ -219,10 +219,7 @@ impl<'s> Search<'s> {
             return Ok(Some(extremum));
         }
         let contenders = self.contenders(goal, least, limit_bits)?;
-        // Whether places differ by less than is known already is not worth following a scene once more.
-        let ready =
-            self.function.ready_bits().saturating_sub(SPARE_BITS).max(comparisons().first());
-        for bits in comparisons().iter().take_while(|bits| *bits <= ready) {
+        for bits in self.comparisons() {
             let before = contenders.left.borrow().len();
             contenders.compare(bits)?;
             let left = contenders.left.borrow().len();
@@ -287,8 +284,8 @@ impl<'s> Search<'s> {
         let (mut left, mut moving) = (Vec::new(), Vec::new());
         let left_over = RefCell::default();
         let contenders = Contenders { search: self, goal, limit_bits, least, left: left_over };
-        // What never goes towards the extremum has it at the start, and what never goes the other way at the end.
-        let trend = self.function.trend().filter(|_| self.function.is_continuous());
+        // A value that never rises is largest at the start, one that never falls at the end; smallest the other way round.
+        let trend = self.function.trend();
         let mut stretches: Vec<usize> = (0..self.count).collect();
         if trend == Some(goal.lesser().reverse()) {
             stretches.reverse();
@@ -305,7 +302,7 @@ impl<'s> Search<'s> {
             }
             if !instant {
                 left.push(Candidate::Limit { stretch, side: Limit::Left });
-                if trend.is_some() && self.changes(stretch, limit_bits)? {
+                if trend.is_some() && self.changes(stretch)? {
                     break;
                 }
                 moving.push(stretch);
@@ -330,12 +327,18 @@ impl<'s> Search<'s> {
         Ok(contenders)
     }
 
-    /// Whether the values at the ends of a stretch are told apart.
-    fn changes(&self, stretch: usize, limit_bits: u64) -> Outcome<bool> {
-        let zero = Rational::default();
-        let target = Target { order: 0, level: &zero, limit_bits };
-        for bits in comparisons().iter() {
-            let end = |side| self.enclose(stretch, target, At::End(side), bits + SPARE_BITS);
+    /// The precisions at which values are compared: whether they differ by less than is known already is not worth following a scene
+    /// once more.
+    fn comparisons(&self) -> impl Iterator<Item = u64> {
+        let ready = self.function.ready_bits().saturating_sub(SPARE_BITS);
+        let ready = ready.max(comparisons().first());
+        comparisons().iter().take_while(move |bits| *bits <= ready)
+    }
+
+    /// Whether the values at the two ends of a stretch differ for certain.
+    fn changes(&self, stretch: usize) -> Outcome<bool> {
+        for bits in self.comparisons() {
+            let end = |side| self.function.enclose(stretch, 0, At::End(side), bits + SPARE_BITS);
             let change = end(Limit::Left)?.subtract(&end(Limit::Right)?, bits);
             if change.sign().is_some_and(Ordering::is_ne) {
                 return Ok(true);

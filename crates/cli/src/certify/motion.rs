@@ -21,8 +21,14 @@ use wavestep_polynomial::Symbol;
 
 /// Bits and digits beyond those asked for: errors grow from event to event.
 const SPARE_BITS: f64 = 96.0;
-const LEAST_SPARE_BITS: f64 = 24.0;
 const SPARE_DIGITS: usize = 6;
+
+/// Bits beyond those asked for below which a Taylor polynomial leaves out what follows.
+const SPARE_BITS_OF_TERMS: f64 = 24.0;
+
+/// By how much the radius of a wave grows at most where it is reflected: what leaves is the velocity, which may be twice what
+/// arrives, less what arrives.
+const MOST_GROWTH: f64 = 3.0;
 
 /// The least digits of the time of an event: its interval is within a step.
 const LEAST_DIGITS: usize = 9;
@@ -199,12 +205,17 @@ impl<'a> Line<'a> {
         }
         let two = BigRational::from_integer(2.into());
         let step = two.pow(exponent as i32);
-        // Balls may grow as exp(rate t), and with each passage. n!/2^n is beyond what is left out; beside a local contact, where
-        // terms fall like powers alone, it is beyond all.
-        let wanted = 3.4 * digits as f64 + 1.5 * rate * to + to * self.bits_of_passages();
-        let bits = SPARE_BITS + wanted;
+        // Radii grow as exp(√2 rate t) at most, and with each passage. What a Taylor polynomial leaves out is below 2^n/n!, and
+        // nothing where nothing has a rate. Beside a local contact, where terms fall only like powers, it has to be below the last bit.
+        let asked = 3.4 * digits as f64;
+        let lost = 2.1 * rate * to + to * self.bits_of_passages();
+        let bits = SPARE_BITS + asked + lost;
         let is_local = self.network.local_contact().is_some();
-        let wanted = if is_local { bits } else { LEAST_SPARE_BITS + wanted };
+        let wanted = match is_local {
+            true => bits,
+            false if rate == 0.0 => SPARE_BITS_OF_TERMS + asked,
+            false => SPARE_BITS_OF_TERMS + asked + lost,
+        };
         let (mut terms, mut factorial) = (4_u32, 0.0);
         while factorial < wanted && terms <= MOST_TERMS {
             terms += 1;
@@ -238,21 +249,18 @@ impl<'a> Line<'a> {
         self.network.model().bars.values().filter_map(|bar| bar.travel.as_ref())
     }
 
-    /// About how many bits of a wave a unit of time costs: the sums of its passages through nodes, there and back along the bar where
-    /// these cost the most.
+    /// About how many bits a wave loses per unit of time: on the way there and back along the bar where it loses most.
     fn bits_of_passages(&self) -> f64 {
         let bars = self.layout.bars.iter().zip(&self.layout.ends);
         let bits = bars.filter_map(|(bar, ends)| {
             let travel = self.size(self.network.model().bars[bar].travel.as_ref()?);
-            let [left, right] =
-                ends.map(|node| Some(self.passage(&self.layout.nodes[node?], travel)));
-            Some((left? + right?) / (2.0 * travel))
+            let nodes = ends.iter().flatten().map(|node| &self.layout.nodes[*node]);
+            Some(nodes.map(|node| self.passage(node, travel)).sum::<f64>() / (2.0 * travel))
         });
         bits.fold(0.0, f64::max)
     }
 
-    /// How many bits a wave loses where it is reflected: none at a wall. What leaves is the velocity less what arrives, two balls: of
-    /// what has no mass up to three times as wide, of a mass in the measure in which it follows in a travel time.
+    /// How many bits a wave loses at a node; none at a wall. A mass takes fewer, the less its velocity changes in a travel time.
     fn passage(&self, node: &Node<Fraction>, travel: f64) -> f64 {
         let is_bare = node.elements.is_empty() && node.links.is_empty();
         if is_bare && [node.left, node.right].contains(&Side::Fixed) {
@@ -262,15 +270,14 @@ impl<'a> Line<'a> {
             ElementLaw::Mass { mass, .. } => sum + self.size(mass),
             _ => sum,
         });
-        let most = 3.0_f64;
-        if mass == 0.0 || !node.links.is_empty() {
-            return most.log2();
+        let impedance: f64 = node.impedance.iter().map(|own| self.size(own)).sum();
+        let exponent = impedance * travel / mass;
+        if exponent > 1.0 || mass == 0.0 || !node.links.is_empty() {
+            return MOST_GROWTH.log2();
         }
-        // The larger eigenvalue of what balls of the velocity and of the wave become.
-        let grown =
-            (node.impedance.iter().map(|own| self.size(own)).sum::<f64>() * travel / mass).exp();
-        let half = (3.0 * grown - 1.0) / 2.0;
-        (half + (half * half - grown).sqrt()).min(most).log2()
+        // The larger eigenvalue of what the radii of the velocity and of the wave become.
+        let half = (3.0 * exponent.exp() - 1.0) / 2.0;
+        (half + (half * half - exponent.exp()).sqrt()).min(MOST_GROWTH).log2()
     }
 
     /// About how fast anything at a node changes: impedances and dampers over the least mass, stiffness over what damps it,
