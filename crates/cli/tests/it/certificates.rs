@@ -575,6 +575,18 @@ fn altered_certificates_are_not() {
     assert!(passed && told.contains("1000 alterations") && told.contains(" 0 missed"), "{told}");
 }
 
+/// The balls of the first checker hold what they stand for.
+#[test]
+fn numbers_of_the_checker_are_enclosed() {
+    let folder = folder("enclosed-numbers");
+    let Some((passed, told)) =
+        run_script(&folder, "python3", "inclusions.py", &["2000".to_owned()])
+    else {
+        return;
+    };
+    assert!(passed && told.contains(" results, all enclosed"), "{told}");
+}
+
 /// One line for each file, whatever it holds.
 #[test]
 fn no_file_forges_or_breaks_what_is_told() {
