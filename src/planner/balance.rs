@@ -45,6 +45,7 @@ fn trend(numbers: &Numbers, flow: &[FlowTerm]) -> Option<Ordering> {
     signs.into_iter().find(|sign| has_sign(numbers, flow, *sign) == Some(true))
 }
 
+/// Whether a flow has this sign wherever it is not zero; `None` or false where that is not known.
 fn has_sign(numbers: &Numbers, flow: &[FlowTerm], wanted: Ordering) -> Option<bool> {
     let sign = |value: &Fraction| match value.is_zero() {
         true => Some(Ordering::Equal),

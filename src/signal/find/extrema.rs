@@ -219,7 +219,7 @@ impl<'s> Search<'s> {
             return Ok(Some(extremum));
         }
         let contenders = self.contenders(goal, least, limit_bits)?;
-        for bits in self.comparisons() {
+        for bits in self.ready_comparisons() {
             let before = contenders.left.borrow().len();
             contenders.compare(bits)?;
             let left = contenders.left.borrow().len();
@@ -329,7 +329,7 @@ impl<'s> Search<'s> {
 
     /// The precisions at which values are compared: whether they differ by less than is known already is not worth following a scene
     /// once more.
-    fn comparisons(&self) -> impl Iterator<Item = u64> {
+    fn ready_comparisons(&self) -> impl Iterator<Item = u64> {
         let ready = self.function.ready_bits().saturating_sub(SPARE_BITS);
         let ready = ready.max(comparisons().first());
         comparisons().iter().take_while(move |bits| *bits <= ready)
@@ -337,7 +337,7 @@ impl<'s> Search<'s> {
 
     /// Whether the values at the two ends of a stretch differ for certain.
     fn changes(&self, stretch: usize) -> Outcome<bool> {
-        for bits in self.comparisons() {
+        for bits in self.ready_comparisons() {
             let end = |side| self.function.enclose(stretch, 0, At::End(side), bits + SPARE_BITS);
             let change = end(Limit::Left)?.subtract(&end(Limit::Right)?, bits);
             if change.sign().is_some_and(Ordering::is_ne) {
