@@ -6,7 +6,7 @@ use crate::history::engine::Engine;
 use crate::history::error::Outcome;
 use crate::history::moment::Moment;
 use crate::network::{ElementLaw, Network};
-use crate::scene::{ElementIndex, End, Kind};
+use crate::scene::{Drive, ElementIndex, End, Kind};
 use crate::signal::Limit;
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -116,6 +116,14 @@ impl Engine {
         Ok(Some(mass))
     }
 
+    /// Whether the velocity of a place in a part of the line is imposed: at rest once that has ended.
+    fn is_driven(&self, part: &[ElementIndex]) -> bool {
+        let mut loads = self.nodes.iter().flat_map(|node| &node.elements);
+        loads.any(|own| {
+            own.law == ElementLaw::Load(Drive::Velocity) && part.contains(&own.element)
+        })
+    }
+
     /// Whether a part of the line cannot fly away: it has a fixed end, or a spring to the ground.
     pub fn is_grounded(&self, network: &Network, part: &Range<usize>) -> bool {
         let line = &network.scene().line;
@@ -132,7 +140,7 @@ impl Engine {
     }
 
     /// The mean velocity of a part of the line: of its centre of mass, zero where it is grounded, and what
-    /// it had at the start where it is endless. None where dampers hold it.
+    /// it had at the start where it is endless. None where dampers hold it, and where a velocity is imposed.
     pub fn mean_velocity(
         &self,
         network: &Network,
@@ -140,6 +148,9 @@ impl Engine {
         moment: &Moment,
     ) -> Outcome<Option<Number>> {
         let bits = self.cut.bits;
+        if self.is_driven(&network.scene().line.elements[part.clone()]) {
+            return Ok(None);
+        }
         if self.is_grounded(network, part) {
             return Ok(Some(Number::zero()));
         }
@@ -206,7 +217,7 @@ impl Engine {
             [bar] => return self.drift_of_endless(network, elements, bar, &softness, moment),
             _ => return Ok(Drift::Unknown),
         }
-        let grounded = self.is_grounded(network, part);
+        let grounded = self.is_grounded(network, part) || self.is_driven(elements);
         let held = self.held_by(network, part, moment, Integrand::ROUGH_SQUARE)?;
         let (Some(mut energy), Some(momentum)) = (held.energy, held.momentum) else {
             return Ok(Drift::Unknown);

@@ -536,6 +536,18 @@ impl Engine {
         }
     }
 
+    /// Whether a contact has no force on a cell: exactly, or by a tie that was taken for granted at its start.
+    pub fn has_no_force(&self, guard: &Guard, norm: &CellNorm) -> bool {
+        let is_tied = |tie: Magnitude| {
+            let force = &guard.series;
+            matches!(guard.kept, Kept::Force)
+                && beginning(force, &guard.starts) == Beginning::Undecided
+                && tied_beginning(&guard.starts) == Beginning::Zero
+                && force.size_from(0, &norm.length).add(&force.error) <= tie
+        };
+        guard.has_no_force() || self.clock.tie_size().is_some_and(is_tied)
+    }
+
     /// Whether a contact is open, or touches without force since an instant.
     pub fn is_open(&self, contact: usize) -> bool {
         !self.open[contact].closed

@@ -24,7 +24,7 @@ use crate::limits::{MAX_CONTACTS, MAX_HISTORY_CELLS, memory, pause, tell_done};
 use crate::network::{
     Contacts, ElementLaw, Layout, Lumped, Network, Node, Side, System, Unresisted,
 };
-use crate::scene::{Dimension, Drive, ElementIndex};
+use crate::scene::{Dimension, ElementIndex};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
@@ -201,14 +201,10 @@ fn before(network: &Network, layout: &Layout, clock: &Clock, bar: usize) -> Outc
 
 /// All loads of a scene.
 fn loads(network: &Network, clock: &Clock) -> Outcome<BTreeMap<ElementIndex, Load>> {
-    let scene = network.scene();
+    let time = &network.scene().time;
     let mut loads = BTreeMap::new();
     for (element, load) in &network.model().loads {
-        if network.model().lumps[element] == ElementLaw::Load(Drive::Velocity) {
-            let name = scene.elements[*element].name.clone();
-            return Err(NotFollowed::ImposedVelocity(name).into());
-        }
-        let course = Course::of(&clock.numbers, &load.course, &scene.time, clock.bits)?;
+        let course = Course::of(&clock.numbers, &load.course, time, clock.bits)?;
         let (from, until) = (load.from.clone(), load.until.clone());
         loads.insert(*element, Load { course, from, until });
     }
@@ -231,6 +227,10 @@ fn nodes(network: &Network, layout: &Layout, clock: &Clock) -> Outcome<Vec<Node<
     let mut nodes = Vec::with_capacity(layout.nodes.len());
     for node in &layout.nodes {
         let node = node.map(|value| clock.number(value))?;
+        if let Some(load) = node.imposed_beside_inertia() {
+            let name = network.scene().elements[load.element].name.clone();
+            return Err(NotFollowed::ImposedVelocity(name).into());
+        }
         nodes.push(node.with_typical_compressions(fastest, clock.bits)?);
     }
     Ok(nodes)
@@ -723,11 +723,12 @@ impl Engine {
         let own = &self.nodes[node];
         let now = self.states[node].now.clone();
         for (guard, (contact, _)) in guards.iter().zip(own.contacts()) {
+            let has_no_force = self.has_no_force(guard, &norm);
             let contact = &mut self.open[contact];
             contact.flat = 0;
             contact.gap = guard.gap_after(length, cut.bits);
             if contact.closed {
-                match guard.has_no_force() {
+                match has_no_force {
                     true if !contact.pressed => {}
                     false if contact.pressed || !guard.may_be_idle() => contact.push(&now),
                     // No force any more, or none yet that is known of.

@@ -99,10 +99,9 @@ impl fmt::Display for When {
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotFollowed {
-    /// A load, by its name, that imposes a velocity.
+    /// A load, by its name, that imposes the velocity of what touches a mass.
     #[error(
-        "the load {0} imposes a velocity, and contacts that open are not supported with it: \
-         replace it by a force"
+        "the load {0} imposes the velocity of what touches a mass: put a spring or a bar between them"
     )]
     ImposedVelocity(String),
     /// Too many contacts in one place.

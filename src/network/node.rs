@@ -169,6 +169,22 @@ impl<V> Node<V> {
         self.attached(run).filter(|own| matches!(own.law, ElementLaw::Load(Drive::Velocity)))
     }
 
+    /// A load that imposes the velocity of a run which a contact may join to a mass, a wall or another such run: what presses
+    /// there depends on how the velocity changes.
+    pub fn imposed_beside_inertia(&self) -> Option<&Lumped<V>> {
+        let is_contact = |link: &usize| matches!(self.links.get(*link), Some(Link::Contact(_)));
+        let is_heavy = |run: usize| {
+            let is_mass = |own: &Lumped<V>| matches!(own.law, ElementLaw::Mass { .. });
+            self.is_imposed(run) || self.attached(run).any(is_mass)
+        };
+        (0..self.runs()).find_map(|run| {
+            let load = self.imposing(run).next()?;
+            let left = (0..run).rev().take_while(is_contact);
+            let right = (run..self.links.len()).take_while(is_contact).map(|link| link + 1);
+            left.chain(right).any(is_heavy).then_some(load)
+        })
+    }
+
     /// Whether nothing acts on a run but the links beside it: no element, bar or wall.
     pub fn is_bare(&self, run: usize) -> bool {
         self.attached(run).next().is_none() && self.sides(run).all(|side| side == Side::Free)
