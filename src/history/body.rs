@@ -119,9 +119,7 @@ impl Engine {
     /// Whether the velocity of a place in a part of the line is imposed: at rest once that has ended.
     fn is_driven(&self, part: &[ElementIndex]) -> bool {
         let mut loads = self.nodes.iter().flat_map(|node| &node.elements);
-        loads.any(|own| {
-            own.law == ElementLaw::Load(Drive::Velocity) && part.contains(&own.element)
-        })
+        loads.any(|own| own.law == ElementLaw::Load(Drive::Velocity) && part.contains(&own.element))
     }
 
     /// Whether a part of the line cannot fly away: it has a fixed end, or a spring to the ground.

@@ -144,9 +144,19 @@ pub fn follow(
         }
         let near = f.shift(&Number::Exact(middle.clone()), cut);
         let value = near.coefficient(0).ball(cut.bits).widened(&here[0]);
-        let lowest = value.clone().widened(&near.size_from(1, &w).multiply(&w));
-        if is_positive(&lowest) || lower.is_zero() && rises(&upper) {
+        let bound = value.clone().widened(&near.size_from(1, &w).multiply(&w));
+        if is_positive(&bound) || lower.is_zero() && rises(&upper) {
             continue;
+        }
+        if let Some(Lowest { place, value, least }) = lowest(f, &near, (&middle, &half), cut) {
+            let [value, least] = [value, least].map(|own| own.widened(&here[0]));
+            if is_positive(&least) {
+                continue;
+            }
+            // No shorter part tells more.
+            if sign(&value).is_none() {
+                return Course::Undecided(Ball::from_rational(&place, cut.bits));
+            }
         }
         let slope = near.coefficient(1).ball(cut.bits).widened(&here[1]);
         // Where neither value nor slope is told from zero, no shorter part tells more.
@@ -182,6 +192,56 @@ pub fn follow(
 
 fn sign(ball: &Ball) -> Option<Ordering> {
     Number::Enclosed(ball.clone()).sign()
+}
+
+/// About where a polynomial is smallest, what it is there, and what it is at least.
+struct Lowest {
+    place: Rational,
+    value: Ball,
+    least: Ball,
+}
+
+/// The lowest point of a part on which the polynomial bends upwards: `near` is its series at the middle. None where it is not
+/// known to, or where its lowest point is not known to be inside.
+///
+/// With `p''` enclosed by `B > 0` the slope is zero at `m + x*` with `x* = −c₁/B`, and `c₀ ≥ p(m + x*) ≥ c₀ + c₁ x*`. From
+/// there on by Newton's method, each step of which doubles the digits.
+fn lowest(
+    f: &Series,
+    near: &Series,
+    (middle, half): (&Rational, &Rational),
+    cut: &Truncation,
+) -> Option<Lowest> {
+    let bits = cut.bits;
+    let (mut near, mut place, mut reach) = (near.clone(), middle.clone(), half.clone());
+    loop {
+        let w = Magnitude::from_rational(&reach);
+        let further = near.coefficients.iter().enumerate().skip(3).rev();
+        let further = further.fold(Magnitude::ZERO, |sum, (k, c)| {
+            let factor = Magnitude::from_u64((k * (k - 1)) as u64);
+            sum.multiply(&w).add(&c.magnitude().multiply(&factor))
+        });
+        let twice = near.coefficient(2).multiply(&Number::integer(2), bits).ball(bits);
+        let bend = twice.widened(&further.multiply(&w));
+        let slope = near.coefficient(1).ball(bits);
+        if sign(&bend) != Some(Ordering::Greater) {
+            return None;
+        }
+        let step = slope.multiply(&bend.reciprocal(bits).ok()?, bits).negate();
+        if step.magnitude() > w {
+            return None;
+        }
+        let value = near.coefficient(0).ball(bits);
+        let dip = slope.magnitude().multiply(&step.magnitude());
+        // What the value itself leaves open is not told by more steps.
+        if dip <= *value.radius() || step.radius().scale(1) > w {
+            let least = value.clone().widened(&dip);
+            return Some(Lowest { place, value, least });
+        }
+        place += Rational::from(step.midpoint());
+        reach = Rational::from(step.radius()) * Rational::from_integer(2.into());
+        near = f.shift(&Number::Exact(place.clone()), cut);
+    }
 }
 
 /// The root near a point where the function falls: `near` is its series at `middle`. `None` where the

@@ -171,7 +171,7 @@ fn characteristics_agree_on_every_shipped_scene() {
         let limit = (until * unit * 1e9) as i64;
         let limit = crate::history::rational(limit, 1_000_000_000);
         let history = History::of(&network, Some(&limit), 9).unwrap();
-        let told: Vec<(EventKind, f64)> = (super::by_force(&history).into_iter())
+        let told: Vec<(EventKind, f64)> = (super::by_force(&history.events).into_iter())
             .map(|(kind, event)| (kind, ball(&event.time).rounded().unwrap_or(f64::NAN) / unit))
             .collect();
         let mut seen = simulate(&scene(name, value), until);

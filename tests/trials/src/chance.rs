@@ -69,6 +69,7 @@ impl Chance {
         let turns = if self.is(3) { self.one_of(&[(1, 1), (2, 1), (1, 2), (2, 3)]) } else { none };
         let strength = self.one_of(&[(1, 4), (-1, 4), (1, 10), (1, 2), (-1, 3)]);
         Load {
+            is_imposed: self.is(4),
             constant: strength,
             slope: if is_short { self.one_of(&[(1, 2), (-1, 2), (0, 1)]) } else { none },
             rate: if is_short { self.one_of(&[(1, 1), (1, 2), (2, 1)]) } else { none },

@@ -15,8 +15,7 @@ const FINE: f64 = 0.6;
 
 /// Events by the force alone, as solvers in doubles see them: a contact that touches without force before it separates has
 /// opened when the force went.
-pub fn by_force(history: &History) -> Vec<(EventKind, &Event)> {
-    let events = &history.events;
+pub fn by_force(events: &[Event]) -> Vec<(EventKind, &Event)> {
     let mut told = Vec::new();
     for (i, event) in events.iter().enumerate() {
         let same = |other: &&Event| other.contact == event.contact;
@@ -81,9 +80,11 @@ fn settled(all: &[Happening]) -> Vec<Happening> {
 }
 
 /// What the history tells. A release is told where nothing follows it: by the force alone it may be an opening.
-fn told(scene: &Scene, history: &History) -> Vec<Happening> {
+/// What happens at the end is not told, nor of what follows from it.
+fn told(scene: &Scene, history: &History, end: f64) -> Vec<Happening> {
     let second = scene.units.map_or(1.0, |units| units.per_second as f64);
-    let events = by_force(history);
+    let before = history.events.partition_point(|own| own.time.to_f64() * second < end);
+    let events = by_force(&history.events[..before]);
     let is_last =
         |at: usize| events[at + 1..].iter().all(|(_, own)| own.contact != events[at].1.contact);
     let told = events.iter().enumerate();
@@ -122,16 +123,16 @@ pub fn compare(
     let Some(near) = second.follow(until, usize::MAX) else { return no_motion() };
     let seconds = scene.units.map_or(1, |units| units.per_second);
     let end = Rational::new(((until * 1e9) as i64).into(), (1_000_000_000 * seconds).into());
+    let last = near.min(until) - 1e-6;
     let history = match History::of(network, Some(&end), 12) {
-        Ok(history) => told(scene, &history),
+        Ok(history) => told(scene, &history, last),
         Err(error @ HistoryError::Refused(_)) => return Followed::Not(error.to_string()),
         Err(error) => return Followed::Wrong(error.to_string()),
     };
     // Where two meshes differ, doubles do not tell.
     let close = TOLERANCE * period;
-    let end = near.min(until) - 1e-6;
-    let unsure = difference(&solver.happenings, &second.happenings, end, close / 10.0);
-    let sure = unsure.unwrap_or(end);
+    let unsure = difference(&solver.happenings, &second.happenings, last, close / 10.0);
+    let sure = unsure.unwrap_or(last);
     let doubt = solver.doubt.min(second.doubt).min(sure);
     let differs = difference(&solver.happenings, &history, sure, close);
     if let Some(time) = differs.filter(|time| *time < doubt) {
@@ -140,6 +141,6 @@ pub fn compare(
     }
     let sure = differs.unwrap_or(sure);
     let events = history.iter().filter(|event| event.time < sure).count();
-    let last = history.iter().map(|event| event.time).fold(period, f64::max);
-    Followed::Until { events, time: sure.min(last + 2.0 * period), untold: sure < end }
+    let latest = history.iter().map(|event| event.time).fold(period, f64::max);
+    Followed::Until { events, time: sure.min(latest + 2.0 * period), untold: sure < last }
 }

@@ -172,7 +172,8 @@ fn compare_values(
     Ok(())
 }
 
-/// The work of all elements on what is outside: what dampers have taken less what loads have given.
+/// The work of all elements on what is outside: what dampers have taken less what loads have given; nothing where a velocity is
+/// imposed, which has no work of its own.
 fn spent(scene: &Scene) -> String {
     let mut terms = String::new();
     for (element, own) in scene.elements.iter().enumerate() {
@@ -180,6 +181,7 @@ fn spent(scene: &Scene) -> String {
             Element::Spring { .. } | Element::Support { .. } => {
                 terms += &format!(" + work(e{element}) - energy(e{element})");
             }
+            Element::Load(load) if load.is_imposed => return String::new(),
             Element::Load(_) => terms += &format!(" - work(e{element})"),
             Element::Bar { .. } | Element::Mass { .. } => {}
         }

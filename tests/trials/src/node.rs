@@ -5,6 +5,7 @@ use crate::scene::{Element, End, Load, Scene};
 /// A place with one velocity.
 #[derive(Default)]
 pub struct Point {
+    /// Whether it stands still, or moves as a load says.
     pub is_wall: bool,
     pub mass: f64,
     pub momentum: f64,
@@ -30,8 +31,8 @@ pub struct Node {
 }
 
 /// The state of a node is the velocities of its points, then a compression or gap for each link, then what each
-/// support is displaced. Inputs are the two waves that arrive, then the load on each point. Outputs are the
-/// velocities of the points, then the forces in the links.
+/// support is displaced. Inputs are the two waves that arrive, then the load on each point, or its velocity where that is
+/// imposed. Outputs are the velocities of the points, then the forces in the links.
 pub struct Law {
     pub states: usize,
     /// How state and inputs, side by side, change the state, and what they give.
@@ -77,7 +78,10 @@ pub fn nodes(scene: &Scene) -> (Vec<Node>, Vec<Place>) {
                 point.mass += mass.value();
                 point.momentum += mass.value() * velocity.value();
             }
-            Element::Load(load) => point.loads.push(load.clone()),
+            Element::Load(load) => {
+                point.is_wall |= load.is_imposed;
+                point.loads.push(load.clone());
+            }
             Element::Support { stiffness, damping } => {
                 point.supports.push([stiffness.value(), damping.value()]);
             }
@@ -107,7 +111,7 @@ pub fn nodes(scene: &Scene) -> (Vec<Node>, Vec<Place>) {
     }
     join(&mut node, *scene.joints.last().unwrap() && scene.opens);
     if scene.ends[1] != End::Endless {
-        node.points.last_mut().unwrap().is_wall = scene.ends[1] == End::Fixed;
+        node.points.last_mut().unwrap().is_wall |= scene.ends[1] == End::Fixed;
         nodes.push(node);
     }
     (nodes, places)
@@ -132,7 +136,26 @@ fn solve(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>> {
     Some((0..size).map(|i| right[i] / matrix[i][i]).collect())
 }
 
+impl Point {
+    /// Whether its velocity is what a load says.
+    fn is_imposed(&self) -> bool {
+        self.loads.iter().any(|load| load.is_imposed)
+    }
+
+    /// The force of all loads, or the velocity that one of them imposes.
+    pub fn given(&self, time: f64) -> f64 {
+        let acts = |load: &&Load| load.is_imposed == self.is_imposed();
+        self.loads.iter().filter(acts).map(|load| load.value(time)).sum()
+    }
+}
+
 impl Node {
+    /// The force on each point of its loads.
+    fn pushed<'a>(&'a self, input: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        let points = self.points.iter().zip(&input[2..]);
+        points.map(|(point, load)| if point.is_imposed() { 0.0 } else { *load })
+    }
+
     /// The contacts of this node, by their number in the line, with their links.
     pub fn contacts(&self) -> impl Iterator<Item = (usize, usize)> {
         self.links.iter().enumerate().filter_map(|(link, own)| match own {
@@ -160,7 +183,7 @@ impl Node {
             for (side, point) in [(0, 0), (1, points - 1)] {
                 forces[point] += self.impedances[side] * (2.0 * input[side] - speeds[point]);
             }
-            forces.iter_mut().zip(&input[2..]).for_each(|(force, load)| *force += load);
+            forces.iter_mut().zip(self.pushed(input)).for_each(|(force, load)| *force += load);
         }
         let resistance = |[stiffness, damping]: [f64; 2], moved: f64, speed: f64| match rates {
             true => stiffness * speed,
@@ -190,9 +213,11 @@ impl Node {
         };
         let forces = self.forces(speeds, state, input, false);
         let (mut push, mut power) = (0.0, 0.0);
-        for (point, speed) in speeds.iter().enumerate() {
-            push += input[2 + point] - if is_held(point) { forces[point] } else { 0.0 };
-            power += input[2 + point] * speed;
+        for ((point, speed), load) in speeds.iter().enumerate().zip(self.pushed(input)) {
+            // What holds a point, or moves it, takes all force upon it.
+            let own = load - if is_held(point) { forces[point] } else { 0.0 };
+            push += own;
+            power += own * speed;
         }
         for (own, (point, [stiffness, damping])) in self.supports().enumerate() {
             let moved = state[self.points.len() + self.links.len() + own];
@@ -258,16 +283,14 @@ impl Node {
         let spread = |values: &dyn Fn(usize) -> f64| -> Vec<f64> {
             groups.iter().map(|group| values(*group)).collect()
         };
-        let known = |group: usize| match light.contains(&group) || has(group, &|p| p.is_wall) {
-            true => 0.0,
-            false => {
-                state[self
-                    .points
-                    .iter()
-                    .zip(groups)
-                    .position(|(p, own)| *own == group && p.mass > 0.0)
-                    .unwrap()]
-            }
+        let first = |group: usize, is: &dyn Fn(&Point) -> bool| {
+            let mut points = self.points.iter().zip(groups);
+            points.position(|(point, own)| *own == group && is(point))
+        };
+        let known = |group: usize| match first(group, &Point::is_imposed) {
+            Some(point) => input[2 + point],
+            None if light.contains(&group) || has(group, &|p| p.is_wall) => 0.0,
+            None => state[first(group, &|point| point.mass > 0.0).unwrap()],
         };
         let known = spread(&known);
         let none = (vec![0.0; state.len()], vec![0.0; input.len()]);

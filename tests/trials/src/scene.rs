@@ -59,6 +59,8 @@ pub enum End {
 /// The force `(constant + slope t) e^(−rate t)`, times `sin(π turns t)` where these are not 0, from a time until another.
 #[derive(Clone, Debug)]
 pub struct Load {
+    /// Whether it is a velocity, no force.
+    pub is_imposed: bool,
     pub constant: Quotient,
     pub slope: Quotient,
     pub rate: Quotient,
@@ -69,8 +71,8 @@ pub struct Load {
 }
 
 impl Load {
-    /// The force between breaks, one of which is before `time`.
-    pub fn force(&self, time: f64) -> f64 {
+    /// The force or the velocity between breaks, one of which is before `time`.
+    pub fn value(&self, time: f64) -> f64 {
         let acts = time > self.from.value() && self.until.is_none_or(|until| time < until.value());
         let [constant, slope, rate] = [self.constant, self.slope, self.rate].map(Quotient::value);
         let decays = (constant + slope * time) * (-rate * time).exp();
@@ -219,12 +221,22 @@ impl Scene {
         springs.any(|(own, joints)| matches!(own, Element::Spring { .. }) && joints == [true; 2])
     }
 
-    /// Whether the energy of the line is finite.
+    /// Whether a velocity is imposed.
+    pub fn is_driven(&self) -> bool {
+        let is_imposed = |own: &Element| matches!(own, Element::Load(load) if load.is_imposed);
+        self.elements.iter().any(is_imposed)
+    }
+
+    /// Whether the energy of the line is finite, and what comes in is known: a mass whose velocity is imposed takes some up.
     pub fn has_energy(&self) -> bool {
-        self.elements.iter().all(|element| match element {
-            Element::Bar { travel: None, velocity, strain, .. } => velocity.0 == 0 && strain.0 == 0,
-            _ => true,
-        })
+        let has_mass = self.elements.iter().any(|own| matches!(own, Element::Mass { .. }));
+        !(has_mass && self.is_driven())
+            && self.elements.iter().all(|element| match element {
+                Element::Bar { travel: None, velocity, strain, .. } => {
+                    velocity.0 == 0 && strain.0 == 0
+                }
+                _ => true,
+            })
     }
 
     /// Whether bars have strains: in units by impedance the wave speed is not known.
@@ -295,14 +307,16 @@ impl Scene {
                 let all = vec![own("stiffness", stiffness, STIFFNESS), damping];
                 (if is_spring { "spring" } else { "support" }, all)
             }
-            Element::Load(Load { constant, slope, rate, turns, from, until }) => {
+            Element::Load(Load { is_imposed, constant, slope, rate, turns, from, until }) => {
                 // Here the time is in seconds.
                 let time = self.units.map_or("t".to_owned(), |own| format!("{}*t", own.per_second));
-                let mut force = format!("({constant} + {slope}*{time})*exp(-{rate}*{time})");
+                let mut course = format!("({constant} + {slope}*{time})*exp(-{rate}*{time})");
                 if turns.value() != 0.0 {
-                    force += &format!("*sin({turns}*pi*{time})");
+                    course += &format!("*sin({turns}*pi*{time})");
                 }
-                let mut all = vec![("force", self.with_unit(&force, FORCE))];
+                let (name, unit) =
+                    if *is_imposed { ("velocity", VELOCITY) } else { ("force", FORCE) };
+                let mut all = vec![(name, self.with_unit(&course, unit))];
                 all.push(own("from", from, TIME));
                 all.extend(until.map(|until| own("until", &until, TIME)));
                 ("load", all)

@@ -199,10 +199,8 @@ impl Solver {
         let input: Vec<Vec<f64>> = (times.iter())
             .map(|time| {
                 let waves = [0, 1].map(|side| self.arriving(node, side, *time));
-                let load = |point: &super::node::Point| -> f64 {
-                    point.loads.iter().map(|load| load.force(*time)).sum()
-                };
-                waves.into_iter().chain(own.points.iter().map(load)).collect()
+                let loads = own.points.iter().map(|point| point.given(*time));
+                waves.into_iter().chain(loads).collect()
             })
             .collect();
         let row = |row: &[f64], state: &[f64], input: &[f64]| -> f64 {
