@@ -34,7 +34,7 @@ KEYS = {kind: {"is"} for kind in ("free", "fixed", "endless", "contact")}
 KEYS |= {kind: {"is", "name", "stiffness", "damping"} for kind in ("spring", "support")}
 KEYS |= {"gap": {"is", "width"}, "local": {"is", "name", "force", "compression", "exponent"}}
 KEYS["bar"] = {"is", "name", "travel", "impedance", "velocity", "force"}
-KEYS |= {"mass": {"is", "name", "mass", "velocity"}, "force": {"is", "name", "course", "from", "until"}}
+KEYS |= {"mass": {"is", "name", "mass", "velocity"}, **{load: {"is", "name", "course", "from", "until"} for load in ("force", "velocity")}}
 CLAIMS = {
     "wavestep_certificate",
     "kind",
@@ -57,7 +57,7 @@ STEADY = 16  # by how much a compression is larger than what it changes by on ha
 
 
 class Load:
-    """A force that acts from one time to another, a sum of polynomials times exponentials."""
+    """A force or a velocity that acts from one time to another, a sum of polynomials times exponentials."""
 
     def __init__(self, element, line, cert):
         self.course, self.line, self.time = read(element["course"]), line, cert["time"]
@@ -183,7 +183,7 @@ class Line:
                 runs[-1].append(element)
         need(len(runs) <= MOST_RUNS, "too long a line")
         self.count = len(runs)
-        known = {"free", "fixed", "endless", "mass", "support", "force"}
+        known = {"free", "fixed", "endless", "mass", "support", "force", "velocity"}
         need(all(element["is"] in known for run in runs for element in run), "an element without a law here")
         of = lambda run, kind: [element for element in run if element["is"] == kind]
         self.fixed = [bool(of(run, "fixed")) for run in runs]
@@ -196,7 +196,12 @@ class Line:
             for r, run in enumerate(runs)
             for own in of(run, "support")
         ]
-        self.loads = [(r, Load(own, self, cert)) for r, run in enumerate(runs) for own in of(run, "force")]
+        acting = [(r, own) for r, run in enumerate(runs) for own in run if own["is"] in ("force", "velocity")]
+        self.loads = [(r, Load(own, self, cert)) for r, own in acting]
+        self.imposed = {r: n for n, (r, own) in enumerate(acting) if own["is"] == "velocity"}
+        need(len(self.imposed) == sum(own["is"] == "velocity" for _, own in acting), "a place has two velocities")
+        inert = lambda r: self.fixed[r] or self.masses[r].sign()
+        need(not any(inert(r) for r in self.imposed), "a mass or a wall has another velocity")
         self.endless = [bool(of(run, "endless")) for run in runs]
         need(all(len(run) == 1 for run, is_endless in zip(runs, self.endless) if is_endless), "an endless line ends with a bar")
         for i, link in enumerate(self.links):
@@ -212,6 +217,12 @@ class Line:
             all(own.sign() == 1 for own in positive) and all(own.sign() in (0, 1) for own in numbers),
             "a number is not positive",
         )
+        for r in self.imposed:
+            for way in (-1, 1):
+                other = r + way
+                while 0 <= other < self.count and self.links[min(other, other - way)]["is"] == "contact":
+                    need(not inert(other) and other not in self.imposed, "a mass or a wall touches what has another velocity")
+                    other += way
         self.contacts, self.locals = ([i for i, link in enumerate(self.links) if link["is"] == kind] for kind in ("contact", "local"))
 
     def number(self, rows):
@@ -295,7 +306,8 @@ class System:
             self.group.append(self.group[-1] + (not (rigid(i) or i in self.loose)))
         self.count = self.group[-1] + 1
         self.members = [[r for r in range(line.count) if self.group[r] == g] for g in range(self.count)]
-        self.fixed = [any(line.fixed[r] for r in own) for own in self.members]
+        self.driven = {g: n for r, n in line.imposed.items() for g in [self.group[r]]}
+        self.fixed = [g in self.driven or any(line.fixed[r] for r in own) for g, own in enumerate(self.members)]
         self.mass = [total(line.masses[r] for r in own) for own in self.members]
         # What undamped supports alone hold goes back at once to where they carry no force. Any damping keeps it at rest there.
         self.resting = {n for n, (r, _, _) in enumerate(line.supports) if self.is_propped(self.group[r])}
@@ -352,7 +364,8 @@ class System:
         for n, (r, stiffness, damping) in enumerate(line.supports):
             rows[r] += [(-stiffness, [(("u", n), 1)]), (-(ONE if n in self.resting else damping), [(speed(r), 1)])]
         for n, (r, _) in enumerate(line.loads):
-            rows[r].append((ONE, [(("load", n), 1)]))
+            if n not in line.imposed.values():
+                rows[r].append((ONE, [(("load", n), 1)]))
         return rows
 
     def forces(self, known):
@@ -388,6 +401,7 @@ class System:
         series = {**{key: [own] for key, own in now.items()}, "forces": [], "push": []}
         for k in range(orders):
             v = series["v"][k]
+            v |= {g: loads[n][k] for g, n in self.driven.items()}
             series["push"].append({i: self.push(i, series) for i in line.locals})
             known = {(key, n): own for key in ("v", "alpha", "u", "push") for n, own in series[key][k].items()}
             known |= {key: own[k] for key, own in incoming.items()} | {("load", n): own[k] for n, own in enumerate(loads)}
@@ -432,7 +446,7 @@ class System:
         if there is any."""
         own, line = self.members[self.group[i]], self.line
         sides = [(1, [r for r in own if r <= i]), (-1, [r for r in own if r > i])]
-        sides = [(way, side) for way, side in sides if not any(line.fixed[r] for r in side)]
+        sides = [(way, side) for way, side in sides if not any(line.fixed[r] or r in line.imposed for r in side)]
         need(sides, "a contact between walls")
         sides.sort(key=lambda own: any(line.masses[r].sign() for r in own[1]))
         told = [total(forces[r] for r in side).times(way) for way, side in sides]

@@ -40,7 +40,7 @@ ELEMENTS = {
     "gap": {"is", "width"},
     "local": {"is", "name", "force", "compression", "exponent"},
     "mass": {"is", "name", "mass", "velocity"},
-    "force": {"is", "name", "course", "from", "until"},
+    **dict.fromkeys(("force", "velocity"), {"is", "name", "course", "from", "until"}),
 }
 
 
@@ -69,7 +69,7 @@ class Parts:
             "a line has two ends",
         )
         self.links, self.mass, self.momentum, self.fixed, self.endless = [], [NIL], [NIL], [False], [False]
-        self.supports, self.loads = [], []
+        self.supports, self.loads, self.given = [], [], {}
         self.named, self.masses = {}, {}
         for own in line:
             run = len(self.mass) - 1
@@ -104,7 +104,10 @@ class Parts:
                 self.momentum[run] = short(self.momentum[run] + product(mass, self.number(own["velocity"])))
             elif own["is"] == "support":
                 self.supports.append((run, self.number(own["stiffness"]), self.number(own["damping"])))
-            elif own["is"] == "force":
+            elif own["is"] in ("force", "velocity"):
+                if own["is"] == "velocity":
+                    need(run not in self.given, "a place moves in two ways")
+                    self.given[run] = len(self.loads)
                 self.loads.append((run, self.load(own)))
             elif own["is"] in ("fixed", "endless"):
                 (self.fixed if own["is"] == "fixed" else self.endless)[run] = True
@@ -125,6 +128,12 @@ class Parts:
             need(not far or alone, "something stands at an endless end")
         need(all(sign(c) in (0, 1) for _, *pair in self.supports for c in pair), "stiffness or damping may be negative")
         self.contacts = [i for i, link in enumerate(self.links) if link["is"] == "contact"]
+        for run in self.given:  # what contacts may hold to it has no inertia, nor has it itself
+            near = {run}
+            while more := {i + side for i in self.contacts for side in (0, 1) if near & {i, i + 1}} - near:
+                near |= more
+            light = all(is_nil(self.mass[own]) and not self.fixed[own] for own in near)
+            need(light and near & self.given.keys() == {run}, "a mass, a wall or another load touches what moves as a load says")
         self.locals = [i for i, link in enumerate(self.links) if link["is"] == "local"]
 
     def polynomial(self, terms):
@@ -316,12 +325,14 @@ class Laws:
         self.held = sorted(self.held + self.loose)
         self.springs = [i for i, link in enumerate(parts.links) if link["is"] == "spring" and i not in self.loose]
         self.propped = [n for n, own in enumerate(parts.supports) if self.stands_alone(own[0])]
-        self.still = [parts.fixed[r] or parts.endless[r] for r in runs]
+        self.still = [parts.fixed[r] or parts.endless[r] or r in parts.given for r in runs]
         self.moving = [r for r in runs if not self.still[r]]
         unknown = [("a" if self.heavy[r] else "v", r) for r in self.moving] + [("X", i) for i in self.held]
         self.place = {key: n for n, key in enumerate(unknown)}
         rows = [self.balance(r) for r in self.moving] + [self.joint(i) for i in self.held]
         self.inverse = inverse(rows)
+        # Velocities that are given stand behind the solution.
+        self.behind = {r: len(unknown) + n for n, r in enumerate(parts.given)}
 
     def hangs(self, i):
         """Whether one end of a spring touches nothing that pushes it."""
@@ -389,7 +400,7 @@ class Laws:
     def known(self, state, waves, loads, base, pressed):
         """Minus what is known in each equation, the forces in local contacts among it."""
         parts, forces = self.parts, [NIL] * len(self.parts.mass)
-        v = lambda r: state["v", r] if ("v", r) in state else NIL
+        v = lambda r: state["v", r] if ("v", r) in state else loads[parts.given[r]] if r in parts.given else NIL
 
         def push(r, amount):
             forces[r] = short(forces[r] + amount)
@@ -417,8 +428,8 @@ class Laws:
                 push(i + 1, pressed[i])
         for n, (r, stiffness, damping) in enumerate(parts.supports):
             push(r, -product(stiffness, state["u", n]) - product(damping, v(r)))
-        for (r, _), amount in zip(parts.loads, loads):
-            push(r, amount)
+        for n, ((r, _), amount) in enumerate(zip(parts.loads, loads)):
+            push(r, NIL if parts.given.get(r) == n else amount)
         return [-forces[r] for r in self.moving] + [NIL if self.rigid(i) else v(i + 1) - v(i) for i in self.held]
 
     def rigid(self, i):
@@ -426,11 +437,13 @@ class Laws:
 
     def solved(self, state, waves, loads, base, pressed):
         column = self.known(state, waves, loads, base, pressed)
-        return [dot(row, column) for row in self.inverse]
+        return [dot(row, column) for row in self.inverse] + [loads[n] for n in self.parts.given.values()]
 
     def velocity(self, state, solution, r):
         if ("v", r) in self.place:
             return solution[self.place["v", r]]
+        if r in self.behind:
+            return solution[self.behind[r]]
         return state["v", r] if ("v", r) in state else NIL
 
     def rates(self, state, solution):

@@ -16,10 +16,10 @@ READS, HALF = {"quantity", "observed"}, Fraction(1, 2)
 READINGS = {("bar", what): 2 for what in ("velocity", "displacement", "force")}
 READINGS |= {("bar", "work"): 2, ("bar", "momentum"): 0} | {(kind, "energy"): 0 for kind in ("bar", "mass", "spring", "support")}
 READINGS |= {(kind, what): 1 for kind in ("spring", "local") for what in ("velocity", "displacement")}
-READINGS |= {(kind, what): 0 for kind in ("mass", "support", "force") for what in ("velocity", "displacement")}
+READINGS |= {(kind, what): 0 for kind in ("mass", "support", "force", "velocity") for what in ("velocity", "displacement")}
 READINGS |= {(kind, what): 0 for kind in ("spring", "support") for what in ("compression", "force", "loss")}
 READINGS |= {("local", what): 0 for what in ("compression", "force")}
-CONTINUOUS = {(kind, "displacement") for kind in ("bar", "spring", "local", "mass", "support", "force")}
+CONTINUOUS = {(kind, "displacement") for kind in ("bar", "spring", "local", "mass", "support", "force", "velocity")}
 CONTINUOUS |= {("spring", "compression"), ("local", "compression"), ("mass", "velocity")}
 
 

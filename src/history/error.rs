@@ -101,7 +101,7 @@ impl fmt::Display for When {
 pub enum NotFollowed {
     /// A load, by its name, that imposes the velocity of what touches a mass.
     #[error(
-        "the load {0} imposes the velocity of what touches a mass: put a spring or a bar between them"
+        "the load `{0}` imposes the velocity of what touches a mass: put a spring or a bar between them"
     )]
     ImposedVelocity(String),
     /// Too many contacts in one place.

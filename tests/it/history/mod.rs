@@ -358,6 +358,40 @@ fn a_force_that_is_zero_by_assumption_is_told_from_then_on() {
     assert!(is_zero(&travelled.subtract(&Ball::from_rational(&rational(4, 1), 300), 300)));
 }
 
+/// Where an end moves with `sin(2t)` the wave leaves the rod at `1 + π/2`, and what it holds is what was done at its end. At rest
+/// again, the end is a wall, from which the rod does not part.
+#[test]
+fn an_end_moves_as_a_load_says() {
+    let text = "scene \"Driven end\"\nload shake { velocity = sin(2*t), until = 4 }\nbar rod { impedance = 1, travel = 1 }\n\
+        bar far { impedance = 1 }\nline free - shake - rod | far - endless\ncontacts open\nobserve v = velocity(shake)\n\
+        observe w = work(rod.left) - energy(rod) - energy(far)";
+    let network = network_of(text, &[]);
+    let history = History::of(&network, Some(&rational(9, 2)), 40).unwrap();
+    assert_eq!(kinds(&history.events), [EventKind::Opening]);
+    let half = Ball::from_rational(&rational(1, 2), 300);
+    let expected = Ball::pi(300).multiply(&half, 300);
+    let expected = expected.add(&Ball::from_rational(&rational(1, 1), 300), 300);
+    assert!(is_zero(&ball(&history.events[0].time).subtract(&expected, 300)));
+    let times = [rational(1, 2), rational(7, 2), rational(17, 4)];
+    let [early, late, after] = &values(&network, "v", &times, Limit::Right, 40)[..] else {
+        unreachable!()
+    };
+    let [sine_of_1, sine_of_7] = [
+        "0.8414709848078965066525023216302989996226",
+        "0.6569865987187890903969990915936351779369",
+    ];
+    assert_eq!([early, late].map(|own| own.to_text(40)), [sine_of_1, sine_of_7]);
+    assert_eq!(after.exact(), Some(&rational(0, 1)));
+    for own in values(&network, "w", &times, Limit::Right, 40) {
+        assert!(is_zero(&ball(&own)));
+    }
+    let touching = text
+        .replace("shake - rod", "shake | ram - rod")
+        .replace("bar rod", "mass ram { mass = 1 }\nbar rod");
+    let refused = History::of(&network_of(&touching, &[]), None, 12).err().unwrap().to_string();
+    assert!(refused.contains("`shake` imposes the velocity of what touches a mass"), "{refused}");
+}
+
 /// Loads that begin with zero press masses together from the start on, and nothing is assumed to say so.
 #[test]
 fn loads_that_begin_with_zero_press_at_once() {

@@ -186,12 +186,23 @@ fn what_is_joined_to_a_wall_does_not_leave_the_other() {
     }
 }
 
+/// What presses a mass whose velocity is imposed by what touches it depends on how that velocity changes; also across what has no
+/// mass.
 #[test]
-fn imposed_velocities_are_refused() {
-    let text = "scene \"Pushed\"\nload push { velocity = 1 }\nbar rod { impedance = 1, travel = 1 }\n\
-                bar two { impedance = 1, travel = 1 }\nline free - push - rod | two - free";
-    let error = History::of(&network_of(text, &[]), None, 9).err().unwrap();
-    assert!(error.to_string().starts_with("the load push imposes a velocity"), "{error}");
+fn imposed_velocities_of_what_touches_inertia_are_refused() {
+    for (line, support) in [
+        ("push | m - rod", ""),
+        ("m | push - rod", ""),
+        ("push | toe | m - rod", "support toe { stiffness = 1 }\n"),
+    ] {
+        let text = format!(
+            "scene \"Pushed\"\nload push {{ velocity = 1 }}\nmass m {{ mass = 1 }}\n{support}\
+             bar rod {{ impedance = 1, travel = 1 }}\nline free - {line} - free\ncontacts open"
+        );
+        let error = History::of(&network_of(&text, &[]), None, 9).err().unwrap().to_string();
+        let told = "what touches a mass: put a spring or a bar between them";
+        assert!(error.ends_with(told), "{line}: {error}");
+    }
 }
 
 /// Bodies that move apart from the start part at once, and a gap that closes exactly when a wave arrives

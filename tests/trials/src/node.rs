@@ -341,7 +341,7 @@ impl Node {
             let (first, last) = (own[0], own[own.len() - 1]);
             // What is pushed from the left, or held at the left, goes on to the right.
             for (link, force) in inner.iter_mut().enumerate().take(last).skip(first) {
-                *force = match self.points[first].is_wall {
+                *force = match (first..=link).any(|point| self.points[point].is_wall) {
                     false => (first..=link).map(surplus).sum(),
                     true => -(link + 1..=last).map(surplus).sum::<f64>(),
                 };

@@ -15,7 +15,6 @@ use wavestep::expression::{Expression, Fraction, PI, Root};
 use wavestep::history::{Event, EventKind};
 use wavestep::network::{Contacts, ElementLaw, Layout, Lumped, Network, Node, Side};
 use wavestep::problem::{Problem, ProblemError, constants_of};
-use wavestep::scene::Drive;
 use wavestep::signal::EvaluateError;
 use wavestep_polynomial::Symbol;
 
@@ -322,11 +321,15 @@ impl<'a> Line<'a> {
         exponent * most / (compression * (most / force).powf(1.0 / exponent))
     }
 
-    /// Loads are forces of numbers that are known.
+    /// Loads are of numbers that are known, and impose no velocity on a mass, which may jump there.
     fn refuse_loads(&self) -> Result<(), Failure> {
-        let mut laws = self.layout.nodes.iter().flat_map(|node| &node.elements);
-        if laws.any(|own| own.law == ElementLaw::Load(Drive::Velocity)) {
-            return Err(refused("under imposed velocities"));
+        let is_mass = |own: &Lumped<Fraction>| matches!(own.law, ElementLaw::Mass { .. });
+        let is_imposed = |node: &Node<Fraction>, own: &Lumped<Fraction>| {
+            is_mass(own) && node.imposing(own.run).next().is_some()
+        };
+        let mut nodes = self.layout.nodes.iter();
+        if nodes.any(|node| node.elements.iter().any(|own| is_imposed(node, own))) {
+            return Err(refused("in which the velocity of a mass is imposed"));
         }
         let time = &self.network.scene().time;
         let is_other = |own: &Symbol| {

@@ -441,7 +441,7 @@ fn motions_of_shipped_scenes_are_verified() {
 
 /// Contacts between all that can stand beside them: walls, supports, springs with and without dampers, loads that end,
 /// oscillate and decay, with high powers, several contacts, what settles at one instant, a spring in front of a mass, a contact
-/// that pushes again when the window ends.
+/// that pushes again when the window ends; and places that move as a load says, alone between two contacts, too.
 #[test]
 fn events_beside_all_elements_are_verified() {
     let folder = folder("certificates-of-contacts");
@@ -478,6 +478,11 @@ fn events_beside_all_elements_are_verified() {
          line free - p - m | h - r - free\n",
         "bar a { impedance = 1, travel = 1, velocity = 2/3 }\nbar b { impedance = 1, travel = 7 }\n\
          spring s { stiffness = 3 }\nmass m { mass = 1, velocity = -1/3 }\nline free - a | b | s - m - free\n",
+        "load p { velocity = sin(2*t), from = 1/2, until = 5 }\nspring s { stiffness = 2, damping = 1/3 }\n\
+         mass m { mass = 1/3 }\nbar a { impedance = 1, travel = 1 }\nbar b { impedance = 2, travel = 3/2 }\n\
+         line free - p | s - m - a |1/5| b - free\n",
+        "bar a { impedance = 1, travel = 1, velocity = 1 }\nload p { velocity = (1 + t)*exp(-t)/4, from = 1/3, until = 4 }\n\
+         bar b { impedance = sqrt(2), travel = 3/4 }\nsupport u { stiffness = 1 }\nline free - a | p | b - u - free\n",
     ];
     let written = lines.iter().enumerate().map(|(i, line)| {
         let (scene, file) = (format!("{i}.wave"), format!("{i}.json"));

@@ -32,6 +32,10 @@ const FLAT: &str = "scene \"Flat\"\nbar a { impedance = 1, travel = 1 }\nload ri
     bar c { impedance = 1, velocity = -1 }\nline fixed | a - rise - push - pull - b - k - c - endless\n\
     observe wall = force(a.left)\ncontacts open\n";
 
+/// A bar whose end moves as a load says, against another one.
+const DRIVEN: &str = "scene \"Driven\"\nload p { velocity = t*exp(-t), until = 4 }\nbar rod { impedance = 3, travel = 1 }\n\
+    bar far { impedance = 2 }\nline free - p | rod | far - endless\nobserve f = force(rod.right)\ncontacts open\n";
+
 /// A velocity that rises from -1/2 to 3/2 in no time where a wave arrives, and rises before and after.
 const JUMP: &str = "scene \"Jump\"\nload p { force = 2, until = 1 }\nload q { force = t - 5/2, from = 1 }\n\
     bar rod { impedance = 1, travel = 1 }\nline free - p - q - rod - free\nobserve x = displacement(rod.left)\n";
@@ -121,7 +125,27 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let jump = ask("jump.wave --zero x --to 5/2");
     std::fs::write(folder.join("crossing.wave"), CROSSING).unwrap();
     let arriving = ask("crossing.wave --zero d --to 5/2");
-    let cases: [(&serde_json::Value, Change, &str); 172] = [
+    std::fs::write(folder.join("driven.wave"), DRIVEN).unwrap();
+    let driven = ask("driven.wave --quantity f --at 7/2 --digits 6");
+    let mass = || json!({ "is": "mass", "name": "m", "mass": one(), "velocity": json!([]) });
+    let add = |own: &serde_json::Value, place: usize, more: serde_json::Value| {
+        let mut own = own.clone();
+        own["line"].as_array_mut().unwrap().insert(place, more);
+        own
+    };
+    let twice = {
+        let mut more = driven["line"][1].clone();
+        more["name"] = "q".into();
+        add(&driven, 1, more)
+    };
+    let (heavy, beside) = (add(&driven, 1, mass()), add(&driven, 3, mass()));
+    let cases: [(&serde_json::Value, Change, &str); 178] = [
+        (&driven, |own| own["line"][1]["is"] = "force".into(), "has not changed yet"),
+        (&driven, |own| own["line"][1]["until"] = number("3/4"), "is between"),
+        (&driven, |own| own["line"][1]["from"] = number("1/7"), "is between"),
+        (&twice, |_| {}, "a place has two velocities"),
+        (&heavy, |_| {}, "a mass or a wall has another velocity"),
+        (&beside, |_| {}, "a mass or a wall touches what has another velocity"),
         (
             &jump,
             |own| {
