@@ -113,8 +113,9 @@ impl<'a> Balanced<'a> {
     fn expanded(&self, places: &[usize], near: Near<'_>) -> Outcome<Taylor> {
         let stretch = self.stretch(places[0], Limit::Right);
         let Near { place: (middle, _), bits, .. } = near;
-        let rate = |near: Near<'_>| {
-            Ok(self.flow.taylor(stretch, near)?.scaled(&self.slowness(bits)?, bits))
+        let rate = |near: Near<'_>| match self.flow.is_zero(stretch) {
+            true => Ok(Taylor::polynomial(vec![Ball::zero(); near.terms])),
+            false => Ok(self.flow.taylor(stretch, near)?.scaled(&self.slowness(bits)?, bits)),
         };
         let value = || (self.of.point(middle, Limit::Right)?.enclose)(bits);
         taylor_by_rate(near, rate, value)

@@ -486,7 +486,7 @@ impl<'a, R: Rule> Operation<'a, R> {
         Known::of(value, &self.unit)
     }
 
-    /// Whether terms that are not zero add up to zero on a stretch: in numbers, and then exactly.
+    /// Whether terms that are not known to be zero add up to zero on a stretch: in numbers, and then exactly.
     fn cancels(&self, stretch: usize) -> Outcome<bool> {
         if self.is_instant(stretch) {
             return Ok(false);
@@ -499,7 +499,7 @@ impl<'a, R: Rule> Operation<'a, R> {
         for bits in [SUSPICION_BITS, 4 * SUSPICION_BITS] {
             let terms = self.rule.terms(places, 0, &middle, bits)?;
             let sum = terms.iter().fold(Ball::zero(), |sum, term| sum.add(term, bits));
-            if terms.len() < 2 || !sum.contains_zero() {
+            if !sum.contains_zero() {
                 return Ok(false);
             }
         }
