@@ -698,13 +698,7 @@ impl Signal for FollowedSignal<'_> {
     }
 
     /// Known where the series itself is constant; a sum of exponentials that happens to be is not.
-    fn equals(
-        &self,
-        stretch: usize,
-        value: &Rational,
-        _: &[Rational; 2],
-        _: u64,
-    ) -> Result<bool, EvaluateError> {
+    fn equals(&self, stretch: usize, value: &Rational) -> Result<bool, EvaluateError> {
         let followed = self.cut(0)?;
         let series = &followed.piece(stretch).series;
         Ok(series.is_exact()

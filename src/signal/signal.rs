@@ -70,6 +70,14 @@ impl Known {
     }
 }
 
+/// An exact value in a unit, where that is known exactly; zero is zero in any.
+pub(crate) fn in_unit(value: Expression, unit: &Root) -> Option<Expression> {
+    match unit.exact() {
+        Some(unit) => Some(value.times(&unit)),
+        None => value.is_zero().then_some(value),
+    }
+}
+
 /// An exact instant by which breaks of two signals are known as one: those of one scene that are equal
 /// are one instant, whatever their enclosures tell.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -331,13 +339,9 @@ pub trait Signal {
         Ok(0)
     }
 
-    /// Whether the function is known to have one value on all of a stretch, which lies within these
-    /// bounds.
-    fn equals(
-        &self,
-        stretch: usize,
-        value: &Rational,
-        bounds: &[Rational; 2],
-        bits: u64,
-    ) -> Outcome<bool>;
+    /// Whether the function is known to have one value on all of a stretch: by its exact form.
+    fn equals(&self, stretch: usize, value: &Rational) -> Outcome<bool> {
+        let function = self.exact_at(stretch, &Fraction::symbol(&later()), Effort::Much);
+        Ok(function.and_then(|own| own.as_constant()).as_ref() == Some(value))
+    }
 }

@@ -5,13 +5,14 @@ use super::form::ClosedForm;
 use super::scene::SceneEchoes;
 use super::stretch::Stretch;
 use crate::ball::{Ball, Magnitude, Value};
-use crate::expression::{Expression, Field as _, Fraction, Root};
+use crate::expression::{Expression, Fraction, Root};
 use crate::limits::MAX_PIECES;
 use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::Observation;
 use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::signal::{
-    At, EchoCount, Effort, Instant, Known, Limit, Point, Signal, last_begun, later, zeros_of,
+    At, EchoCount, Effort, Instant, Known, Limit, Point, Signal, in_unit, last_begun, later,
+    zeros_of,
 };
 use crate::signal::silence::Silence;
 use crate::signal::taylor::{Near, Taylor};
@@ -31,9 +32,6 @@ const SIGN_BITS: u64 = 1 << 12;
 
 /// Digits of what is only compared with a rational number.
 const FEW_DIGITS: usize = 6;
-
-/// The most exact zeros that are asked for to see whether a function vanishes.
-const MAX_ZEROS: usize = 48;
 
 /// The precision of the scale of time.
 const SCALE_BITS: u64 = 64;
@@ -421,9 +419,8 @@ impl Signal for ClosedSignal<'_> {
                 echoes.exact_since(value, &since.as_constant()?, at)
             }
             Source::Scene { network, value, unit, echoes, .. } => {
-                let unit = unit.exact()?;
                 let echoes = self.scene_echoes(network, echoes).ok()?;
-                Some(echoes.exact_since(value, since, at)?.times(&unit))
+                in_unit(echoes.exact_since(value, since, at)?, unit)
             }
         }
     }
@@ -530,48 +527,6 @@ impl Signal for ClosedSignal<'_> {
         let at = &*self.scaled(stretch, At::End(end)) + &Fraction::symbol(&later);
         let Some(own) = self.exact_at(stretch, &at, Effort::Much) else { return Ok(least) };
         Ok(zeros_of(own, &later, &Fraction::zero(), order)?.max(least))
-    }
-
-    /// A real function `Σ_λ e^{λx} Σ_j c_j x^j/j!` with N coefficients, of which the value is one, solves
-    /// a linear equation of order N with constant real coefficients. If it is not zero everywhere, it
-    /// has at most `N − 1` roots on any interval where λ are real (Pólya and Szegő, *Problems and
-    /// Theorems* V.75), and on intervals shorter than `π/ω` with `ω = max |Im λ|` otherwise: there
-    /// each factor `(d/dx − σ)² + ω²` has solutions without two roots, and so no product of factors
-    /// of order N has one with N roots. N exact zeros therefore prove it.
-    fn equals(
-        &self,
-        stretch: usize,
-        value: &Rational,
-        [from, to]: &[Rational; 2],
-        bits: u64,
-    ) -> Outcome<bool> {
-        let mut rates = self.known_form().rates(self.stretch(stretch), bits)?;
-        rates.entry(Fraction::zero()).or_insert(1);
-        let count: usize = rates.values().sum();
-        if count > MAX_ZEROS || self.is_cut() {
-            return Ok(false);
-        }
-        let field = self.known_form().numbers.field(bits);
-        let mut fastest = Magnitude::ZERO;
-        for rate in rates.keys() {
-            fastest = fastest.max(field.embed(&rate.clone().into())?.imaginary().magnitude());
-        }
-        // Rates are those of the waves' own time.
-        let slowness =
-            self.known_form().numbers.enclose(&self.known_form().slowness, bits)?.magnitude();
-        let fastest = Rational::from(&fastest.multiply(&slowness));
-        let mut length = to - from;
-        if fastest > Rational::default() {
-            length = length.min(Rational::from_integer(3.into()) / fastest);
-        }
-        for i in 1..=count {
-            let share = Rational::new(i.into(), (count + 1).into());
-            let at = self.known_form().slowness.scale(&(from + &length * share));
-            if self.exact_value(&at, Limit::Right)?.as_ref() != Some(value) {
-                return Ok(false);
-            }
-        }
-        Ok(true)
     }
 }
 

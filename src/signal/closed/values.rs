@@ -10,7 +10,6 @@ use crate::recurrence::ObservedWave;
 use crate::signal::error::{EvaluateError, Outcome};
 use crate::signal::taylor::{Expansion, Near, Taylor};
 use crate::signal::transforms::value_at;
-use std::collections::BTreeMap;
 use wavestep_polynomial::Rational;
 
 impl ClosedForm {
@@ -212,19 +211,5 @@ impl ClosedForm {
             Ok(())
         })?;
         Ok((size, error.add(&self.left_out(derivative))))
-    }
-
-    /// The rates λ of a stretch, in the scale of the waves, each with a bound on how many
-    /// coefficients `c_j` of `Σ_λ e^{λx} Σ_j c_j x^j/j!` the signal has there.
-    pub(super) fn rates(&self, stretch: &Stretch, bits: u64) -> Outcome<BTreeMap<Fraction, usize>> {
-        let mut rates: BTreeMap<Fraction, usize> = BTreeMap::new();
-        self.for_each_function(stretch, 0, bits, |function, _, _| {
-            for (pole, coefficients) in function.poles() {
-                let count = rates.entry(pole.clone()).or_default();
-                *count = (*count).max(coefficients.len());
-            }
-            Ok(())
-        })?;
-        Ok(rates)
     }
 }

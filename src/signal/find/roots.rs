@@ -221,7 +221,7 @@ impl Search<'_> {
             }
         }
         match self.function.exact(stretch, At::End(Limit::Right))? {
-            Some(value) => self.function.equals(stretch, &value, &bounds, bits),
+            Some(value) => self.function.equals(stretch, &value),
             None => Ok(false),
         }
     }

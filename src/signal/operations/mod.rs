@@ -27,6 +27,7 @@ use crate::expression::{Assumptions, Constant as Named, Expression, Fraction, Ro
 use crate::network::Network;
 use crate::recurrence::Recurrence;
 use crate::signal::error::Outcome;
+use crate::signal::signal::in_unit;
 use crate::signal::{
     At, ClosedForm, EchoCount, Effort, Enclosure, EvaluateError, Instant, Known, Limit,
     MAX_FLATNESS, Near, Point, Signal, Taylor, last_begun, zeros_of,
@@ -612,8 +613,7 @@ impl<R: Rule> Signal for Operation<'_, R> {
     }
 
     fn exact_at(&self, stretch: usize, at: &Fraction, effort: Effort) -> Option<Expression> {
-        let value = self.rule.exact_at(&self.step(stretch).places, at, effort)?;
-        Some(value.times(&self.unit.exact()?))
+        in_unit(self.rule.exact_at(&self.step(stretch).places, at, effort)?, &self.unit)
     }
 
     fn time(&self, stretch: usize, end: Limit, bits: u64) -> Outcome<Ball> {
@@ -682,10 +682,5 @@ impl<R: Rule> Signal for Operation<'_, R> {
         let at = self.mark(stretch, At::End(end));
         let known = self.rule.flatness(&self.step(stretch).places, (&at, end), order)?;
         Ok(known.max(usize::from(is_zero)))
-    }
-
-    /// Known where the exact function of the stretch is the constant.
-    fn equals(&self, stretch: usize, value: &Rational, _: &[Rational; 2], _: u64) -> Outcome<bool> {
-        Ok(self.told(self.function(stretch)) == Known::Rational(value.clone()))
     }
 }

@@ -309,9 +309,8 @@ impl<'a> Cover<'a> {
         from: &BigRational,
         to: &BigRational,
     ) -> Result<Option<Option<usize>>, Failure> {
-        let bounds = [from.clone(), to.clone()];
         if let [level] = &self.levels[..]
-            && self.signal.equals(stretch, level, &bounds, self.bits)?
+            && self.signal.equals(stretch, level)?
         {
             return Ok(Some(None));
         }
