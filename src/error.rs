@@ -423,6 +423,9 @@ fn remedy_of_history(error: &HistoryError) -> &'static str {
         HistoryError::Refused(NotFollowed::Massless { .. }) => {
             "put a mass or a damper there, or write two springs in a row as one"
         }
+        HistoryError::Refused(
+            NotFollowed::RigidImpact { at, .. } | NotFollowed::ImpactOnWall { at, .. },
+        ) if !at.is_empty() => "choose an earlier end to see what happens until then",
         HistoryError::Refused(_) => {
             "docs/scene-language.md lists under `Contacts` what is supported"
         }

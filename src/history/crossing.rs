@@ -233,8 +233,8 @@ fn lowest(
         }
         let value = near.coefficient(0).ball(bits);
         let dip = slope.magnitude().multiply(&step.magnitude());
-        // What the value itself leaves open is not told by more steps.
-        if dip <= *value.radius() || step.radius().scale(1) > w {
+        // What the value itself leaves open is not told by more steps, nor by such as hardly narrow the place.
+        if dip <= *value.radius() || step.radius().scale(2) > w {
             let least = value.clone().widened(&dip);
             return Some(Lowest { place, value, least });
         }

@@ -12,6 +12,9 @@ use wavestep_polynomial::{Rational, Symbol};
 /// How many derivatives that vanish are told.
 pub(crate) const MAX_FLATNESS: usize = 8;
 
+/// The precision with which a polynomial is asked for that may have no coefficient.
+pub(crate) const STILL_BITS: u64 = 192;
+
 /// How many derivatives of a function, from that of an order on, are zero at a time.
 pub(crate) fn zeros_of(
     function: Expression,
@@ -339,8 +342,22 @@ pub trait Signal {
         Ok(0)
     }
 
-    /// Whether the function is known to have one value on all of a stretch: by its exact form.
+    /// Whether a derivative of an order is known to be zero on a stretch: its polynomial has no coefficient.
+    fn vanishes(&self, stretch: usize, order: usize) -> Outcome<bool> {
+        if self.is_zero(stretch) {
+            return Ok(true);
+        }
+        let within = Rational::from(self.time(stretch, Limit::Right, STILL_BITS)?.midpoint());
+        let place = (&within, &Rational::from_integer(1.into()));
+        let near = Near { order, place, terms: 2, bits: STILL_BITS };
+        Ok(self.taylor(stretch, near)?.tail(0).is_zero())
+    }
+
+    /// Whether the function is known to have one value on all of a stretch: by its slope, or by its exact form.
     fn equals(&self, stretch: usize, value: &Rational) -> Outcome<bool> {
+        if self.vanishes(stretch, 1)? {
+            return Ok(self.exact(stretch, At::End(Limit::Right))?.as_ref() == Some(value));
+        }
         let function = self.exact_at(stretch, &Fraction::symbol(&later()), Effort::Much);
         Ok(function.and_then(|own| own.as_constant()).as_ref() == Some(value))
     }

@@ -5,16 +5,14 @@
 use super::{Mark, Outcome, Rule, Scale, locate, taylor_by_rate, value_at};
 use crate::ball::{Ball, Magnitude};
 use crate::expression::{Expression, Fraction};
+use crate::signal::signal::STILL_BITS;
 use crate::signal::{At, Effort, Enclosure, Known, Limit, Near, Signal, Taylor};
-use num_traits::{One as _, Zero as _};
+use num_traits::Zero as _;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 use std::ops::Range;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
-
-/// The precision at which a flow without coefficients is looked for.
-const STILL_BITS: u64 = 192;
 
 /// # Invariants
 /// - both have the window of the result; `flow` is the derivative of `of` with respect to the time of the
@@ -76,18 +74,6 @@ impl<'a> Balanced<'a> {
         Ok((about, radius + away))
     }
 
-    /// Whether nothing flows on a stretch: the polynomial has no coefficient.
-    fn is_still(&self, stretch: usize) -> Outcome<bool> {
-        if self.flow.is_zero(stretch) {
-            return Ok(true);
-        }
-        let within = Rational::from(self.flow.time(stretch, Limit::Right, STILL_BITS)?.midpoint());
-        let place = (&within, &Rational::one());
-        let near = Near { order: 0, place, terms: 2, bits: STILL_BITS };
-        let taylor = self.flow.taylor(stretch, near)?;
-        Ok(taylor.tail(0).is_zero())
-    }
-
     /// Whether the quantity is known to be zero at the beginning or the end of a place: where nothing has
     /// flowed in on one side of it, or at the beginning of the window.
     fn is_zero_at(&self, place: usize, end: Limit) -> Outcome<bool> {
@@ -100,7 +86,7 @@ impl<'a> Balanced<'a> {
                 || self.of.enclose(start, 0, first, STILL_BITS)?.sign() == Some(Ordering::Equal)
                 || exact()?.is_some_and(|value| value.is_zero()))
         };
-        let stays_zero = |stretch| Ok(self.is_still(stretch)? && begins_at_zero(stretch)?);
+        let stays_zero = |stretch| Ok(self.flow.vanishes(stretch, 0)? && begins_at_zero(stretch)?);
         match (end, own.checked_sub(1)) {
             _ if stays_zero(own)? => Ok(true),
             (Limit::Right, Some(before)) => stays_zero(before),
@@ -127,7 +113,7 @@ impl Rule for Balanced<'_> {
         let count = self.flow.count()?;
         let goes_on = |stretch: &usize| {
             let last = count > 1 && stretch + 1 == count && self.flow.is_instant(*stretch);
-            let is_still = |own: usize| self.is_still(own).unwrap_or(false);
+            let is_still = |own: usize| self.flow.vanishes(own, 0).unwrap_or(false);
             let as_before = *stretch > 0 && is_still(stretch - 1) && is_still(*stretch);
             !(last || as_before)
         };
@@ -149,7 +135,7 @@ impl Rule for Balanced<'_> {
 
     fn is_zero(&self, places: &[usize]) -> bool {
         let place = places[0];
-        self.is_still(self.stretch(place, Limit::Right)).unwrap_or(false)
+        self.flow.vanishes(self.stretch(place, Limit::Right), 0).unwrap_or(false)
             && self.is_zero_at(place, Limit::Right).unwrap_or(false)
     }
 
