@@ -308,6 +308,11 @@ pub trait Signal {
     /// that is known and costs no more than this.
     fn exact_at(&self, stretch: usize, at: &Fraction, effort: Effort) -> Option<Expression>;
 
+    /// The exact function of a symbol for the time, where that is known.
+    fn form(&self, stretch: usize) -> Option<Expression> {
+        self.exact_at(stretch, &Fraction::symbol(&later()), Effort::Much)
+    }
+
     /// An enclosure of the time of an end.
     fn time(&self, stretch: usize, end: Limit, bits: u64) -> Outcome<Ball>;
 
@@ -355,10 +360,12 @@ pub trait Signal {
 
     /// Whether the function is known to have one value on all of a stretch: by its slope, or by its exact form.
     fn equals(&self, stretch: usize, value: &Rational) -> Outcome<bool> {
-        if self.vanishes(stretch, 1)? {
-            return Ok(self.exact(stretch, At::End(Limit::Right))?.as_ref() == Some(value));
+        if self.vanishes(stretch, 1)?
+            && let Some(own) = self.exact(stretch, At::End(Limit::Right))?
+        {
+            return Ok(own == *value);
         }
-        let function = self.exact_at(stretch, &Fraction::symbol(&later()), Effort::Much);
-        Ok(function.and_then(|own| own.as_constant()).as_ref() == Some(value))
+        let form = self.form(stretch);
+        Ok(form.and_then(|own| own.as_constant()).as_ref() == Some(value))
     }
 }

@@ -504,13 +504,7 @@ impl<'a, R: Rule> Operation<'a, R> {
                 return Ok(false);
             }
         }
-        Ok(self.function(stretch).is_some_and(|function| function.is_zero()))
-    }
-
-    /// The exact function of time on a stretch.
-    fn function(&self, stretch: usize) -> Option<Expression> {
-        let time = Fraction::symbol(self.scale.clock);
-        self.rule.exact_at(&self.step(stretch).places, &time, Effort::Much)
+        Ok(self.form(stretch).is_some_and(|form| form.is_zero()))
     }
 
     /// What exact arithmetic tells of a limit at a time.
@@ -614,6 +608,11 @@ impl<R: Rule> Signal for Operation<'_, R> {
 
     fn exact_at(&self, stretch: usize, at: &Fraction, effort: Effort) -> Option<Expression> {
         in_unit(self.rule.exact_at(&self.step(stretch).places, at, effort)?, &self.unit)
+    }
+
+    /// Both operands of a difference know the time by the symbol of its scene.
+    fn form(&self, stretch: usize) -> Option<Expression> {
+        self.exact_at(stretch, &Fraction::symbol(self.scale.clock), Effort::Much)
     }
 
     fn time(&self, stretch: usize, end: Limit, bits: u64) -> Outcome<Ball> {
