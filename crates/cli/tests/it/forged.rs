@@ -142,7 +142,7 @@ fn wrong_claims_are_told_by_what_is_wrong() {
     let cases: [(&serde_json::Value, Change, &str); 178] = [
         (&driven, |own| own["line"][1]["is"] = "force".into(), "has not changed yet"),
         (&driven, |own| own["line"][1]["until"] = number("3/4"), "3 events instead of 2"),
-        (&driven, |own| own["line"][1]["from"] = number("1/7"), "is between"),
+        (&driven, |own| own["line"][1]["from"] = number("1/7"), "no event is claimed"),
         (&twice, |_| {}, "a place has two velocities"),
         (&heavy, |_| {}, "a mass or a wall has another velocity"),
         (&beside, |_| {}, "a mass or a wall touches what has another velocity"),
