@@ -579,6 +579,7 @@ class Motion:
             r, stiffness, _ = line.supports[n]
             own = after.members[after.group[r]]
             push = total(line.supports[m][1] * self.state["u"][m] for m in after.resting if line.supports[m][0] in own)
+            decided(push.sign() is not None, "whether a support pushes is not decided")
             if push.sign() in (1, -1):
                 kept.add(own[0] - 1 if push.sign() == 1 else own[-1])
         return [i for i in changes if i not in kept]
@@ -599,8 +600,10 @@ class Motion:
         loosened = [("alpha", i) for i in self.system.loose - before.loose]
         loosened += [("u", n) for n in self.system.resting - before.resting]
         for what, n in loosened:
-            is_slack = what == "u" and self.line.supports[n][1].is_zero()
-            need(is_slack or self.state[what][n].sign() in (0, None), "a spring or a support comes loose while it is compressed")
+            is_slack, sign = what == "u" and self.line.supports[n][1].is_zero(), self.state[what][n].sign()
+            # Where a contact opens by itself, its force has come to zero, and with it what stands alone behind it.
+            decided(is_slack or by_itself or sign is not None, "whether a spring or a support is compressed is not decided")
+            need(is_slack or sign in (0, None), "a spring or a support comes loose while it is compressed")
             self.state[what][n] = ZERO
         for i in self.closed & set(changes):
             need(was_flush[i] or not self.is_rigid_impact(i), "rigid bodies meet")

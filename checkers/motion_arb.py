@@ -713,6 +713,7 @@ class Story:
             for m, (r, stiffness, _) in enumerate(self.parts.supports):
                 if left <= r <= right:
                     push = push + product(stiffness, self.state["u", m])
+            decided(sign(push) is not None, "it is not decided whether a support pushes")
             found |= {left - 1} if sign(push) == 1 else {right} if sign(push) == -1 else set()
         return found
 
@@ -737,6 +738,7 @@ class Story:
         freed = self.laws.slack() - slack
         for key in freed:
             is_slack = key[0] == "u" and is_nil(self.parts.supports[key[1]][1])
+            decided(is_slack or smoothly or sign(self.state[key]) is not None, "it is not decided whether a spring is compressed")
             need(is_slack or sign(self.state[key]) in (0, None), "a compressed spring comes loose")
             self.state[key] = NIL
         # How many derivatives of a gap are zero at first: that of the second order too where masses or walls part, whose force has

@@ -77,6 +77,16 @@ impl Engine {
                 if let Some(place) = self.contact_of_spring(*lump) {
                     return one(lump.node, NodeQuantity::Force(place));
                 }
+                if let Some(beside) = self.contacts_of_support(*lump) {
+                    let of = |(place, factor): (usize, Number)| {
+                        let quantity = NodeQuantity::Force(place);
+                        Part::of(Source::Node { node: lump.node, quantity }, factor)
+                    };
+                    let [left, right] = beside;
+                    let left = left.map(|place| (place, factor.clone()));
+                    let right = right.map(|place| (place, factor.negate()));
+                    return Ok(left.into_iter().chain(right).map(of).collect());
+                }
                 let mut parts = Vec::new();
                 for term in elements.force(*lump).into_iter().flatten() {
                     let factor = self.clock.number(&term.coefficient)?.multiply(factor, bits);
@@ -145,6 +155,20 @@ impl Engine {
         let left = || node.contact_left_of(*run).filter(|_| node.is_bare(*run));
         let right = || node.contact_right_of(run + 1).filter(|_| node.is_bare(run + 1));
         law.is_link().then(|| left().or_else(right)).flatten()
+    }
+
+    /// The contacts at the left and the right of a support that stands alone between them, or between one and a free end: its
+    /// force is theirs, and nothing, exactly, while they are open.
+    fn contacts_of_support(&self, lump: Lump) -> Option<[Option<usize>; 2]> {
+        let node = &self.nodes[lump.node];
+        let Lumped { run, law, .. } = &node.elements[lump.place];
+        let is_contact = |link: usize| matches!(node.links.get(link), Some(Link::Contact(_)));
+        let links = [run.checked_sub(1), Some(*run).filter(|run| *run < node.links.len())];
+        let is_alone = !law.is_link()
+            && node.attached(*run).count() == 1
+            && node.sides(*run).all(|side| side == Side::Free)
+            && links.into_iter().flatten().all(is_contact);
+        is_alone.then(|| [node.contact_left_of(*run), node.contact_right_of(*run)])
     }
 
     /// The energy of an element at an instant, by the table of measures; none where it is infinite.

@@ -51,6 +51,24 @@ fn a_damped_spring_is_without_force_after_an_opening() {
     assert_eq!(force, vec![Value::Exact(rational(0, 1)); 2]);
 }
 
+/// The force of a damped support that stands alone is exactly zero, while it comes back.
+#[test]
+fn a_damped_support_that_stands_alone_has_no_force() {
+    let text = "scene \"Bit off the rock\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nmass bit { mass = 1/3 }\n\
+        support rock { stiffness = 4, damping = 1 }\nline free - rod - bit | rock - free\ncontacts open\n\
+        observe force = force(rock)\nobserve pressed = displacement(rock)";
+    let open = network_of(text, &[]);
+    let history = History::of(&open, None, 12).unwrap();
+    let opening = history.events.iter().find(|event| event.kind == EventKind::Opening).unwrap();
+    let after = Rational::from_float(ball(&opening.time).rounded().unwrap()).unwrap();
+    let times = [&after + rational(1, 100), &after + rational(1, 10)];
+    let force = values(&open, "force", &times, Limit::Right, 12);
+    assert_eq!(force, vec![Value::Exact(rational(0, 1)); 2]);
+    let before = values(&open, "force", &[rational(1, 2)], Limit::Right, 12);
+    let pressed = values(&open, "pressed", &times, Limit::Right, 12);
+    assert!(before.iter().chain(&pressed).all(|own| own.to_f64() > 0.0));
+}
+
 /// A support without damping that stands alone behind a contact is a spring to the ground: what it held flies on, and it is
 /// back at once where it carries no force.
 #[test]

@@ -40,6 +40,11 @@ const DRIVEN: &str = "scene \"Driven\"\nload p { velocity = t*exp(-t), until = 4
 const JUMP: &str = "scene \"Jump\"\nload p { force = 2, until = 1 }\nload q { force = t - 5/2, from = 1 }\n\
     bar rod { impedance = 1, travel = 1 }\nline free - p - q - rod - free\nobserve x = displacement(rod.left)\n";
 
+/// A support that bars press from both sides. One parts from it when its wave returns; the support then still pushes the other one.
+const PRESSED: &str = "scene \"Pressed\"\nbar a { impedance = 1, travel = 1, strain = -1, velocity = -1/2 }\n\
+    support s { stiffness = 1 }\nbar b { impedance = 1, travel = 1, strain = -101/100, velocity = 1/2 }\n\
+    line free - a | s | b - free\ncontacts open\n";
+
 /// The function c x of a symbol x.
 fn of(coefficient: &str, symbol: &str) -> serde_json::Value {
     json!([[[[coefficient, { symbol: 1 }]], []]])
@@ -139,7 +144,26 @@ fn wrong_claims_are_told_by_what_is_wrong() {
         add(&driven, 1, more)
     };
     let (heavy, beside) = (add(&driven, 1, mass()), add(&driven, 3, mass()));
-    let cases: [(&serde_json::Value, Change, &str); 178] = [
+    std::fs::write(folder.join("pressed.wave"), PRESSED).unwrap();
+    let pushes = ask("pressed.wave --events --to 11/10");
+    let cases: [(&serde_json::Value, Change, &str); 180] = [
+        (
+            &pushes,
+            |own| {
+                own["events"][3] = json!([1, "opening", "1", "1"]);
+                (own["bits"], own["terms"]) = (12.into(), 12.into());
+            },
+            "whether a support pushes is not decided",
+        ),
+        (
+            &pushes,
+            |own| {
+                own["events"][3] = json!([1, "opening", "1", "1"]);
+                own["line"][5]["force"] = of("1", "d");
+                own["numbers"]["d"] = json!(["99/100", "101/100"]);
+            },
+            "whether a support pushes is not decided",
+        ),
         (&driven, |own| own["line"][1]["is"] = "force".into(), "has not changed yet"),
         (&driven, |own| own["line"][1]["until"] = number("3/4"), "3 events instead of 2"),
         (&driven, |own| own["line"][1]["from"] = number("1/7"), "no event is claimed"),
