@@ -537,7 +537,7 @@ impl Engine {
     }
 
     /// Whether a contact has no force on a cell: exactly, or by a tie that was taken for granted at its start.
-    pub fn has_no_force(&self, guard: &Guard, norm: &CellNorm) -> bool {
+    pub fn is_unloaded(&self, guard: &Guard, norm: &CellNorm) -> bool {
         let is_tied = |tie: Magnitude| {
             let force = &guard.series;
             matches!(guard.kept, Kept::Force)

@@ -723,12 +723,12 @@ impl Engine {
         let own = &self.nodes[node];
         let now = self.states[node].now.clone();
         for (guard, (contact, _)) in guards.iter().zip(own.contacts()) {
-            let has_no_force = self.has_no_force(guard, &norm);
+            let is_unloaded = self.is_unloaded(guard, &norm);
             let contact = &mut self.open[contact];
             contact.flat = 0;
             contact.gap = guard.gap_after(length, cut.bits);
             if contact.closed {
-                match has_no_force {
+                match is_unloaded {
                     true if !contact.pressed => {}
                     false if contact.pressed || !guard.may_be_idle() => contact.push(&now),
                     // No force any more, or none yet that is known of.

@@ -77,15 +77,14 @@ impl Engine {
                 if let Some(place) = self.contact_of_spring(*lump) {
                     return one(lump.node, NodeQuantity::Force(place));
                 }
-                if let Some(beside) = self.contacts_of_support(*lump) {
-                    let of = |(place, factor): (usize, Number)| {
+                if let Some([left, right]) = self.contacts_of_support(*lump) {
+                    let of = |place, factor| {
                         let quantity = NodeQuantity::Force(place);
                         Part::of(Source::Node { node: lump.node, quantity }, factor)
                     };
-                    let [left, right] = beside;
-                    let left = left.map(|place| (place, factor.clone()));
-                    let right = right.map(|place| (place, factor.negate()));
-                    return Ok(left.into_iter().chain(right).map(of).collect());
+                    let left = left.map(|place| of(place, factor.clone()));
+                    let right = right.map(|place| of(place, factor.negate()));
+                    return Ok(left.into_iter().chain(right).collect());
                 }
                 let mut parts = Vec::new();
                 for term in elements.force(*lump).into_iter().flatten() {

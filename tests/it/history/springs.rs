@@ -2,6 +2,7 @@
 
 use crate::history::{ball, is_zero, network_of, rational, values};
 use wavestep::history::{EventKind, History};
+use wavestep::network::Network;
 use wavestep::signal::{Limit, Value};
 use wavestep_polynomial::Rational;
 
@@ -10,6 +11,13 @@ const DAMPED: &str = "scene \"A damper\"\nmass m { mass = 1, velocity = 1 }\n\
     spring s { damping = 1 }\nbar b { impedance = 1, travel = 1 }\nline free - m | s - b - fixed\n\
     observe c = compression(s)\nobserve F = force(s)\nobserve um = displacement(m)\n\
     observe ub = displacement(b.left)\n";
+
+/// When a contact opens first, to the nearest double.
+fn first_opening(network: &Network) -> Rational {
+    let history = History::of(network, None, 12).unwrap();
+    let opening = history.events.iter().find(|event| event.kind == EventKind::Opening).unwrap();
+    Rational::from_float(ball(&opening.time).rounded().unwrap()).unwrap()
+}
 
 /// What a damper is compressed by is what its ends have moved; `1 − e^{−t/2}` until a wave returns, the same
 /// as with closed contacts until the first opening, and constant without force from then on.
@@ -24,9 +32,7 @@ fn a_damper_is_compressed_and_stays_so() {
     let exact = wavestep::ball::Ball::from_rational(&rational(-1, 2), 200).exp(200).unwrap();
     let sum = told("c", std::slice::from_ref(&one))[0].add(&exact, 200);
     assert!(is_zero(&sum.subtract(&wavestep::ball::Ball::from_rational(&one, 200), 200)));
-    let history = History::of(&open, None, 12).unwrap();
-    let opening = history.events.iter().find(|event| event.kind == EventKind::Opening).unwrap();
-    let after = Rational::from_float(ball(&opening.time).rounded().unwrap()).unwrap() + &one;
+    let after = first_opening(&open) + &one;
     let times = [rational(4, 1), after.clone(), &after + &one];
     let compressed = told("c", &times);
     assert!(is_zero(&compressed[1].subtract(&compressed[2], 200)));
@@ -43,9 +49,7 @@ fn a_damper_is_compressed_and_stays_so() {
 fn a_damped_spring_is_without_force_after_an_opening() {
     let text = DAMPED.replace("{ damping = 1 }", "{ stiffness = 2, damping = 1/2 }");
     let open = network_of(&format!("{text}contacts open"), &[]);
-    let history = History::of(&open, None, 12).unwrap();
-    let opening = history.events.iter().find(|event| event.kind == EventKind::Opening).unwrap();
-    let after = Rational::from_float(ball(&opening.time).rounded().unwrap()).unwrap();
+    let after = first_opening(&open);
     let times = [&after + rational(1, 100), &after + rational(1, 10)];
     let force = values(&open, "F", &times, Limit::Right, 12);
     assert_eq!(force, vec![Value::Exact(rational(0, 1)); 2]);
@@ -58,9 +62,7 @@ fn a_damped_support_that_stands_alone_has_no_force() {
         support rock { stiffness = 4, damping = 1 }\nline free - rod - bit | rock - free\ncontacts open\n\
         observe force = force(rock)\nobserve pressed = displacement(rock)";
     let open = network_of(text, &[]);
-    let history = History::of(&open, None, 12).unwrap();
-    let opening = history.events.iter().find(|event| event.kind == EventKind::Opening).unwrap();
-    let after = Rational::from_float(ball(&opening.time).rounded().unwrap()).unwrap();
+    let after = first_opening(&open);
     let times = [&after + rational(1, 100), &after + rational(1, 10)];
     let force = values(&open, "force", &times, Limit::Right, 12);
     assert_eq!(force, vec![Value::Exact(rational(0, 1)); 2]);
